@@ -1,0 +1,2 @@
+//! Builds, packages, loads and runs the FMU.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Knows no mechanism, only `Problem`.

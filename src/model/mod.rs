@@ -1,0 +1,3 @@
+//! What the asked-for mechanism is.
+
+pub mod signals;

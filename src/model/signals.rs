@@ -1,0 +1,122 @@
+//! What goes into the mechanism and what comes out of it, as the FMU's face names it.
+
+use serde::{Deserialize, Serialize};
+
+/// Inputs at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Inputs {
+    /// [N·m] Torque on the crank; ignored with a speed drive.
+    pub crank_torque: f64,
+    /// [N] Force on the slider along +x at its pin centre.
+    pub slider_load: f64,
+}
+
+/// Outputs at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {
+    /// Pin centre and tilt of the slider.
+    pub slider: SliderOutputs,
+    /// Rotation of the crank.
+    pub crank: CrankOutputs,
+    /// Rotation of the rod.
+    pub rod: RodOutputs,
+    /// Main bearing: ground on crank.
+    pub joint_a: RevoluteOutputs,
+    /// Crank pin: crank on rod.
+    pub joint_b: RevoluteOutputs,
+    /// Slider pin: rod on slider.
+    pub joint_c: RevoluteOutputs,
+    /// Guide on slider.
+    pub joint_t: GuideOutputs,
+    /// [N·m] Torque on the crank: the input, or what the speed drive needs.
+    pub drive_torque: f64,
+    /// Slider against the ideal rigid mechanism at the same crank motion.
+    pub accuracy: AccuracyOutputs,
+    /// Work of the integrator since the start.
+    pub solver: SolverOutputs,
+}
+
+/// Motion of the slider.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SliderOutputs {
+    /// [m] Pin centre along the guide.
+    pub x: f64,
+    /// [m/s]
+    pub v: f64,
+    /// [m/s²]
+    pub a: f64,
+    /// [m] Pin centre across the guide.
+    pub y: f64,
+    /// [rad] Tilt.
+    pub angle: f64,
+}
+
+/// Motion of the crank.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CrankOutputs {
+    /// [rad] Unwrapped.
+    pub angle: f64,
+    /// [rad/s]
+    pub speed: f64,
+    /// [rad/s²]
+    pub acceleration: f64,
+}
+
+/// Motion of the rod.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RodOutputs {
+    /// [rad]
+    pub angle: f64,
+    /// [rad/s]
+    pub speed: f64,
+}
+
+/// State and force of a revolute joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RevoluteOutputs {
+    /// [N] x and y.
+    pub force: [f64; 2],
+    /// [m] Journal centre minus bearing centre.
+    pub eccentricity: [f64; 2],
+    /// [m] Negative when open; 0 for an ideal joint.
+    pub penetration: f64,
+    /// In contact.
+    pub contact: bool,
+}
+
+/// State and force of the guide.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuideOutputs {
+    /// [N] x and y.
+    pub force: [f64; 2],
+    /// [N·m] About the slider pin.
+    pub moment: f64,
+    /// [m] The deepest corner's; negative when open; 0 for an ideal guide.
+    pub penetration: f64,
+    /// Number of corners in contact.
+    pub contacts: i32,
+}
+
+/// Slider minus the ideal rigid mechanism.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AccuracyOutputs {
+    /// [m]
+    pub position: f64,
+    /// [m/s]
+    pub velocity: f64,
+    /// [m/s²]
+    pub acceleration: f64,
+}
+
+/// Work of the integrator since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolverOutputs {
+    /// Accepted steps.
+    pub steps: i32,
+    /// Rejected steps.
+    pub rejected: i32,
+    /// Evaluations of the right-hand side.
+    pub evaluations: i32,
+    /// Openings and closings of contacts.
+    pub events: i32,
+}

@@ -1,0 +1,321 @@
+//! What was asked for: a mechanism, its drive and its solver, as plain SI data.
+
+pub mod parameter;
+
+use serde::{Deserialize, Serialize};
+
+/// Everything that is fixed before time runs. The only ground state: the model is made from it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Scene {
+    /// How the crank is driven.
+    pub drive: Drive,
+    /// [m/s²] Gravity, along −y.
+    pub gravity: f64,
+    /// Body 1.
+    pub crank: Crank,
+    /// Body 2.
+    pub rod: Rod,
+    /// Body 3.
+    pub slider: Slider,
+    /// The two lines that the slider runs between.
+    pub guide: GuideLines,
+    /// The four joints.
+    pub joint: Joints,
+    /// How time is integrated.
+    pub solver: Solver,
+}
+
+/// How the crank is driven.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    /// Torque given or angle given.
+    pub mode: DriveMode,
+}
+
+/// Crank: main journal at its reference point, crank pin at distance `length` along its x axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Crank {
+    /// [rad] θ0.
+    pub angle_start: f64,
+    /// [rad/s] ω0, also the speed drive's speed.
+    pub speed_start: f64,
+    /// [m] Main journal centre to crank-pin centre.
+    pub length: f64,
+    /// [kg]
+    pub mass: f64,
+    /// [kg·m²] About the centre of mass.
+    pub inertia: f64,
+    /// [m] Centre of mass in body axes.
+    pub com: Point,
+}
+
+/// Connecting rod: big end at its reference point, small end at distance `length` along its x axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rod {
+    /// [m] Big-end centre to small-end centre.
+    pub length: f64,
+    /// [kg]
+    pub mass: f64,
+    /// [kg·m²] About the centre of mass.
+    pub inertia: f64,
+    /// [m] Centre of mass in body axes.
+    pub com: Point,
+}
+
+/// Slider: pin journal at its reference point; a rectangle runs in the guide.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Slider {
+    /// [kg]
+    pub mass: f64,
+    /// [kg·m²] About the centre of mass.
+    pub inertia: f64,
+    /// [m] Centre of mass in body axes.
+    pub com: Point,
+    /// [m] Length of the rectangle, 2a.
+    pub length: f64,
+    /// [m] Height of the rectangle, 2b.
+    pub height: f64,
+    /// [m] Centre of the rectangle from the pin, in body axes.
+    pub centre: Point,
+}
+
+/// The guide's middle line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GuideLines {
+    /// [m] Height of the middle line above the main bearing, h.
+    pub offset: f64,
+}
+
+/// A point or vector in the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// [m]
+    pub x: f64,
+    /// [m]
+    pub y: f64,
+}
+
+/// The four joints.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Joints {
+    /// Main bearing: ground and crank.
+    pub a: Revolute,
+    /// Crank pin: rod's big end and crank.
+    pub b: Revolute,
+    /// Slider pin: rod's small end and slider.
+    pub c: Revolute,
+    /// Guide: ground and slider.
+    pub t: Guide,
+}
+
+/// A revolute joint. Of an ideal one only `damping` counts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Revolute {
+    /// Ideal or with clearance.
+    pub model: JointModel,
+    /// [N·m·s/rad] Viscous friction in the relative rotation.
+    pub damping: f64,
+    /// [m] Bearing radius R_b.
+    pub radius: f64,
+    /// [m] Radial clearance c = R_b − R_j.
+    pub clearance: f64,
+    /// [m] Journal centre minus bearing centre at the start.
+    pub eccentricity_start: Point,
+    /// Elastic force as a function of penetration.
+    pub elasticity: Elasticity,
+    /// Materials, damping and friction of the contact.
+    pub contact: Contact,
+}
+
+/// The guide as a joint. Of an ideal one only `damping` counts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Guide {
+    /// Ideal or with clearance.
+    pub model: JointModel,
+    /// [N·s/m] Viscous friction along the guide.
+    pub damping: f64,
+    /// [m] Clearance on each side, c_T.
+    pub clearance: f64,
+    /// [m] Corner radius R_c.
+    pub corner_radius: f64,
+    /// [m] Rectangle's centre above the middle line at the start.
+    pub offset_start: f64,
+    /// Materials, damping and friction of the contact.
+    pub contact: Contact,
+}
+
+/// Materials, damping and friction of a contact. For the guide, `bearing` is the guide and
+/// `journal` the slider.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// [Pa] Young's moduli.
+    pub young: Pair,
+    /// Poisson's ratios.
+    pub poisson: Pair,
+    /// [N/m^p] Above 0: in place of Hertz's stiffness.
+    pub stiffness: f64,
+    /// Exponent p of the elastic force.
+    pub exponent: f64,
+    /// [m] Axial length of the bearing or guide.
+    pub width: f64,
+    /// Hysteresis damping.
+    pub law: DampingLaw,
+    /// Limit of the damping ratio, s_max; at or below 0: none.
+    pub ratio_limit: f64,
+    /// Restitution c_r.
+    pub restitution: f64,
+    /// [m/s] Least approach speed, v_floor.
+    pub speed_floor: f64,
+    /// Friction.
+    pub friction: Friction,
+}
+
+/// A property of the outer and of the inner body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pair {
+    /// Of the bearing, or of the guide.
+    pub bearing: f64,
+    /// Of the journal, or of the slider.
+    pub journal: f64,
+}
+
+/// Friction of a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Friction {
+    /// Which law.
+    pub law: FrictionLaw,
+    /// μ, the kinetic one where the law knows two.
+    pub coefficient: f64,
+    /// μ_s.
+    pub static_coefficient: f64,
+    /// [m/s] v0 of Ambrosio's ramp.
+    pub v0: f64,
+    /// [m/s] v1 of Ambrosio's ramp and of the hyperbolic tangent.
+    pub v1: f64,
+    /// [m/s] Stribeck speed v_s.
+    pub v_stribeck: f64,
+}
+
+/// How time is integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Solver {
+    /// Which method.
+    pub method: Method,
+    /// Relative tolerance.
+    pub tolerance: f64,
+    /// [s] Step of the fixed-step methods.
+    pub step: f64,
+}
+
+/// Declares an enumeration whose values are those of the FMU's face.
+macro_rules! enumeration {
+    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $value:literal),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[repr(i32)]
+        pub enum $name {
+            $($(#[$item_doc])* $item = $value),+
+        }
+
+        impl $name {
+            /// The item of this value, if there is one.
+            pub fn from_value(value: i32) -> Option<Self> {
+                match value {
+                    $($value => Some(Self::$item),)+
+                    _ => None,
+                }
+            }
+
+            /// The value on the FMU's face.
+            pub fn value(self) -> i32 {
+                self as i32
+            }
+        }
+    };
+}
+
+enumeration! {
+    /// How the crank is driven.
+    DriveMode {
+        /// The torque is an input.
+        #[default] Torque = 1,
+        /// The angle is θ0 + ω0·(t − t0); the torque is an output.
+        Speed = 2,
+    }
+}
+
+enumeration! {
+    /// Whether a joint has play.
+    JointModel {
+        /// A constraint.
+        #[default] Ideal = 1,
+        /// Contact forces across a gap.
+        Clearance = 2,
+    }
+}
+
+enumeration! {
+    /// Elastic force of a revolute contact.
+    Elasticity {
+        /// K·δ^p.
+        #[default] Hertz = 1,
+        /// Conformal cylinders, Liu 2007.
+        Liu = 2,
+    }
+}
+
+enumeration! {
+    /// Hysteresis damping of a contact.
+    DampingLaw {
+        /// None.
+        Hertz = 1,
+        /// Hunt and Crossley 1975.
+        HuntCrossley = 2,
+        /// Herbert and McWhannell 1977.
+        HerbertMcwhannell = 3,
+        /// Lee and Wang 1983.
+        LeeWang = 4,
+        /// Lankarani and Nikravesh 1990.
+        #[default] LankaraniNikravesh = 5,
+        /// Gonthier et al. 2004, approximate form.
+        Gonthier = 6,
+        /// Zhang and Sharf 2009, exact.
+        ZhangSharf = 7,
+        /// Flores et al. 2011.
+        Flores = 8,
+        /// Hu and Guo 2015.
+        HuGuo = 9,
+        /// Zhiying and Qishao 2006.
+        ZhiyingQishao = 10,
+        /// Carvalho and Martins 2019.
+        CarvalhoMartins = 11,
+    }
+}
+
+enumeration! {
+    /// Friction of a contact.
+    FrictionLaw {
+        /// Frictionless.
+        #[default] None = 1,
+        /// Ambrosio's ramp.
+        Ambrosio = 2,
+        /// Hyperbolic tangent.
+        Tanh = 3,
+        /// Stribeck's falling coefficient on the hyperbolic tangent.
+        Stribeck = 4,
+    }
+}
+
+enumeration! {
+    /// Integration method.
+    Method {
+        /// Dormand and Prince 5(4).
+        Dopri5 = 1,
+        /// Verner 7(6).
+        #[default] Verner7 = 2,
+        /// Dormand and Prince 8(5,3).
+        Dop853 = 3,
+        /// The classical fourth-order method at a fixed step.
+        Rk4 = 4,
+    }
+}
