@@ -4,6 +4,7 @@
 //! (integrator on Problem) → fmi::Instance → fmi::abi → importer`.
 
 pub mod integrator;
+pub mod math;
 pub mod model;
 pub mod scene;
 pub mod simulation;
