@@ -1,0 +1,3 @@
+//! The FMI 2.0 face.
+
+pub mod variables;
