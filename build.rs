@@ -19,10 +19,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out_dir = env::var("OUT_DIR")?;
     let write = |name: &str, text: String| fs::write(Path::new(&out_dir).join(name), text);
     write("enumerations.rs", tables::enumerations(&declaration))?;
-    write("parameters.rs", tables::parameters(&declaration))?;
     write(
-        "variables.rs",
-        tables::variables(&declaration, &digest, &guid),
+        "parameters.rs",
+        tables::parameters(&declaration, &digest, &guid),
     )?;
+    write("variables.rs", tables::variables(&declaration))?;
     Ok(())
 }

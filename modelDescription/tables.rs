@@ -37,8 +37,8 @@ pub fn enumerations(declaration: &Declaration) -> String {
     out
 }
 
-/// The scene's parameters.
-pub fn parameters(declaration: &Declaration) -> String {
+/// The scene's parameters, with the digest and the guid that go with their start values.
+pub fn parameters(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> String {
     let mut out = String::new();
     let rows = || {
         declaration
@@ -94,11 +94,21 @@ pub fn parameters(declaration: &Declaration) -> String {
         );
     }
     line(&mut out, "];");
+    line(
+        &mut out,
+        &format!("/// Digest of the declaration.\npub const DECLARATION: [u8; 32] = {digest:?};"),
+    );
+    line(
+        &mut out,
+        &format!(
+            "/// The guid of a package with the declared start values.\npub const DEFAULT_GUID: &str = {guid:?};"
+        ),
+    );
     out
 }
 
-/// The FMU's variables by value reference, its log categories and its guid.
-pub fn variables(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> String {
+/// The FMU's variables by value reference, and its log categories.
+pub fn variables(declaration: &Declaration) -> String {
     let mut out = String::new();
     line(
         &mut out,
@@ -138,16 +148,6 @@ pub fn variables(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> St
         );
     }
     line(&mut out, "];");
-    line(
-        &mut out,
-        &format!("/// Digest of the declaration.\npub const DECLARATION: [u8; 32] = {digest:?};"),
-    );
-    line(
-        &mut out,
-        &format!(
-            "/// The guid of a package with the declared start values.\npub const DEFAULT_GUID: &str = {guid:?};"
-        ),
-    );
     line(&mut out, "log_categories! {");
     for category in &declaration.log {
         let doc = sentence(&category.description);

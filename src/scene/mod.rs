@@ -1,8 +1,11 @@
 //! What was asked for: a mechanism, its drive and its solver, as plain SI data.
 
+pub mod check;
 pub mod enumerations;
 pub mod parameter;
+pub mod slot;
 
+pub use check::SceneError;
 pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method};
 pub use parameter::PARAMETERS;
 use serde::{Deserialize, Serialize};
