@@ -1,0 +1,13 @@
+//! The declaration of the FMU's face and what is made from it. Both build.rs and the library
+//! compile this directory: the one for the tables, the other for the package's XML and page.
+
+pub mod guid;
+mod raw;
+pub mod rows;
+pub mod tables;
+pub mod xml;
+
+/// Reads the declaration.
+pub fn load() -> Result<rows::Declaration, rows::RowError> {
+    rows::read(include_str!("variables.toml"))
+}

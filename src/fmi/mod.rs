@@ -1,0 +1,4 @@
+//! The FMI 2.0 face.
+
+pub mod description;
+pub mod variables;
