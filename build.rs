@@ -9,6 +9,10 @@ use std::{env, error::Error, fs, path::Path};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=modelDescription");
+    if env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("linux") {
+        // A thread-local destructor that runs after the host's dlclose must still find its code.
+        println!("cargo::rustc-cdylib-link-arg=-Wl,-z,nodelete");
+    }
     let declaration = model_description::load()?;
     let starts: Vec<f64> = tables::starts(&declaration).collect();
     let digest = guid::digest(&xml::write(

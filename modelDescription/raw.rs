@@ -193,8 +193,19 @@ pub(super) enum AtStart {
 }
 
 impl RawRow {
-    /// The row for one of its letters.
-    pub fn expanded(&self, letter: &str) -> Self {
+    /// The row for each of its letters, or itself if it has none.
+    pub fn expanded(&self) -> Vec<Self> {
+        match self.letters[..] {
+            [] => vec![self.filled("")],
+            _ => self
+                .letters
+                .iter()
+                .map(|letter| self.filled(letter))
+                .collect(),
+        }
+    }
+
+    fn filled(&self, letter: &str) -> Self {
         let fill = |text: &String| {
             text.replace("{J}", letter)
                 .replace("{j}", &letter.to_lowercase())

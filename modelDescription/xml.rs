@@ -1,6 +1,8 @@
 //! Rows → `modelDescription.xml`.
 
-use super::rows::{Declaration, Experiment, Flag, Kind, Role, Row, Unit};
+use super::definitions::{type_definitions, unit_definition};
+use super::element::{Attributes, Xml, date, leaf, parent};
+use super::rows::{Declaration, Experiment, Flag, Kind, Role, Row};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
@@ -28,9 +30,6 @@ impl<'a> Package<'a> {
         }
     }
 }
-
-type Xml = Writer<Vec<u8>>;
-type Attributes<'a> = Vec<(&'a str, String)>;
 
 /// The model description of a package.
 pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
@@ -148,80 +147,6 @@ fn experiment(experiment: &Experiment) -> Attributes<'static> {
     ]
 }
 
-fn unit_definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
-    parent(xml, "Unit", vec![("name", unit.name.clone())], |xml| {
-        if let Some(base) = &unit.base {
-            let exponents = [
-                ("kg", base.kg),
-                ("m", base.m),
-                ("s", base.s),
-                ("rad", base.rad),
-            ];
-            let given = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
-            leaf(
-                xml,
-                "BaseUnit",
-                given
-                    .map(|(name, exponent)| (name, exponent.to_string()))
-                    .collect(),
-            )?;
-        }
-        unit.display.iter().try_for_each(|display| {
-            let factor = format!("{:?}", display.factor);
-            leaf(
-                xml,
-                "DisplayUnit",
-                vec![("name", display.name.clone()), ("factor", factor)],
-            )
-        })
-    })
-}
-
-fn type_definitions(xml: &mut Xml, declaration: &Declaration) -> io::Result<()> {
-    for real in &declaration.types {
-        let (name, description) = (real.name.clone(), real.description.clone());
-        parent(
-            xml,
-            "SimpleType",
-            vec![("name", name), ("description", description)],
-            |xml| {
-                let mut attributes = vec![
-                    ("quantity", real.quantity.clone()),
-                    ("unit", real.unit.clone()),
-                ];
-                attributes.extend(real.display.clone().map(|display| ("displayUnit", display)));
-                leaf(xml, "Real", attributes)
-            },
-        )?;
-    }
-    for enumeration in &declaration.enumerations {
-        let (name, description) = (enumeration.name.clone(), enumeration.description.clone());
-        parent(
-            xml,
-            "SimpleType",
-            vec![("name", name), ("description", description)],
-            |xml| {
-                parent(xml, "Enumeration", vec![], |xml| {
-                    enumeration.items.iter().try_for_each(|item| {
-                        let (name, description) = (item.name.clone(), item.description.clone());
-                        let value = item.value.to_string();
-                        leaf(
-                            xml,
-                            "Item",
-                            vec![
-                                ("name", name),
-                                ("value", value),
-                                ("description", description),
-                            ],
-                        )
-                    })
-                })
-            },
-        )?;
-    }
-    Ok(())
-}
-
 fn variable(
     xml: &mut Xml,
     declaration: &Declaration,
@@ -318,67 +243,4 @@ fn unknowns(
         leaf(xml, "Unknown", attributes)?;
     }
     Ok(())
-}
-
-/// Seconds since 1970 as `2026-01-31T12:00:00Z`.
-fn date(seconds: u64) -> String {
-    let (mut day, time) = (seconds / 86_400, seconds % 86_400);
-    let leap = |year: u64| {
-        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
-    };
-    let mut year = 1970;
-    while day >= 365 + u64::from(leap(year)) {
-        day -= 365 + u64::from(leap(year));
-        year += 1;
-    }
-    let mut month = 1;
-    for length in [
-        31,
-        28 + u64::from(leap(year)),
-        31,
-        30,
-        31,
-        30,
-        31,
-        31,
-        30,
-        31,
-        30,
-    ] {
-        if day < length {
-            break;
-        }
-        day -= length;
-        month += 1;
-    }
-    let (hour, minute, second) = (time / 3600, time / 60 % 60, time % 60);
-    format!(
-        "{year:04}-{month:02}-{:02}T{hour:02}:{minute:02}:{second:02}Z",
-        day + 1
-    )
-}
-
-fn parent(
-    xml: &mut Xml,
-    name: &str,
-    attributes: Attributes,
-    children: impl FnOnce(&mut Xml) -> io::Result<()>,
-) -> io::Result<()> {
-    xml.create_element(name)
-        .with_attributes(borrowed(&attributes))
-        .write_inner_content(children)?;
-    Ok(())
-}
-
-fn leaf(xml: &mut Xml, name: &str, attributes: Attributes) -> io::Result<()> {
-    xml.create_element(name)
-        .with_attributes(borrowed(&attributes))
-        .write_empty()?;
-    Ok(())
-}
-
-fn borrowed<'a>(attributes: &'a Attributes) -> impl Iterator<Item = (&'a str, &'a str)> {
-    attributes
-        .iter()
-        .map(|(name, value)| (*name, value.as_str()))
 }
