@@ -3,7 +3,10 @@
 pub mod check;
 pub mod enumerations;
 pub mod parameter;
+pub mod profile;
+pub mod run;
 pub mod slot;
+pub mod units;
 
 pub use check::SceneError;
 pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method};
