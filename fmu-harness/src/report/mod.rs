@@ -1,0 +1,6 @@
+//! What a run says, in figures and in numbers.
+
+pub mod figure;
+pub mod plot;
+pub mod table;
+pub mod units;
