@@ -1,6 +1,6 @@
 //! One scene through an FMU, communication point by communication point.
 
-use crate::host::{Fmu, HostError, Log, LogLine, Selection, Setting, Slave, Stepping, Value, Variable};
+use crate::host::{Fmu, HostError, Kind, Log, LogLine, Selection, Setting, Slave, Stepping, Value, Variable};
 use crate::inputs::{Against, Curve};
 use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
@@ -48,8 +48,22 @@ pub struct Experiment {
 pub struct Recording {
     /// All outputs at all communication points.
     pub trajectory: Trajectory,
+    /// Names and values of the parameters as they were in the run.
+    pub parameters: Vec<(String, f64)>,
     /// What it cost.
     pub cost: Cost,
+}
+
+impl Recording {
+    /// The output of this name at all communication points.
+    pub fn column(&self, name: &str) -> Result<&[f64]> {
+        self.trajectory.column(name)
+    }
+
+    /// The parameter's value in the run.
+    pub fn parameter(&self, name: &str) -> Option<f64> {
+        self.parameters.iter().find(|(own, _)| own == name).map(|(_, value)| *value)
+    }
 }
 
 /// What a run cost.
@@ -95,8 +109,9 @@ pub fn run(
     let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
     progress(1.0);
     let simulated = runner.trajectory.times().last().unwrap_or(&experiment.start) - experiment.start;
+    let parameters = runner.parameters(fmu)?;
     let trajectory = runner.finish()?;
-    Ok(Recording { trajectory, cost: Cost { simulated, stepping, wall, cpu } })
+    Ok(Recording { trajectory, parameters, cost: Cost { simulated, stepping, wall, cpu } })
 }
 
 impl Experiment {
@@ -191,6 +206,15 @@ impl<'a> Runner<'a> {
         }
     }
 
+    fn parameters(&mut self, fmu: &Fmu) -> Result<Vec<(String, f64)>, HostError> {
+        let numeric = |variable: &&Variable| variable.causality() == "parameter" && variable.kind != Kind::String;
+        let variables: Vec<&Variable> = fmu.description().variables.iter().filter(numeric).collect();
+        let mut selection = Selection::new(variables.iter().copied());
+        self.slave.read(&mut selection)?;
+        let names = variables.iter().map(|variable| variable.name.clone());
+        Ok(names.zip(selection.values().iter().copied()).collect())
+    }
+
     fn finish(self) -> Result<Trajectory> {
         self.slave.terminate()?;
         Ok(self.trajectory)
@@ -199,7 +223,7 @@ impl<'a> Runner<'a> {
 
 /// The reference of a real input.
 fn input_reference(variable: &Variable) -> Result<u32> {
-    let legal = variable.causality() == "input" && variable.kind == crate::host::Kind::Real;
+    let legal = variable.causality() == "input" && variable.kind == Kind::Real;
     ensure!(legal, "`{}` is no real input but a {} {:?}", variable.name, variable.causality(), variable.kind);
     Ok(variable.reference)
 }

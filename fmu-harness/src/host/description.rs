@@ -101,6 +101,13 @@ impl Attributes {
         self.get(name)?.trim().parse().ok()
     }
 
+    /// All of them, by name.
+    pub fn sorted(&self) -> Vec<(&str, &str)> {
+        let mut sorted: Vec<_> = self.0.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+        sorted.sort_unstable();
+        sorted
+    }
+
     /// Whether the attribute is there and true.
     pub fn flag(&self, name: &str) -> bool {
         matches!(self.get(name), Some("true" | "1"))

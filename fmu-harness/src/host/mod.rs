@@ -11,7 +11,7 @@ mod selection;
 mod value;
 
 pub use archive::{Archive, PLATFORM};
-pub use description::{Attributes, Description, Kind, Variable};
+pub use description::{Attributes, Description, Kind, Structure, Unknown, Variable};
 pub use error::HostError;
 pub use library::{Library, Status};
 pub use log::{Log, LogLine};

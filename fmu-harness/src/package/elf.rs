@@ -2,7 +2,7 @@
 
 use object::elf::FileHeader64;
 use object::endian::Endianness;
-use object::read::elf::{FileHeader, SectionHeader};
+use object::read::elf::FileHeader;
 
 /// The newest glibc that a 64-bit ELF library has symbols of, such as `2.34`; `None` if it asks for none or is no ELF.
 pub fn glibc(library: &[u8]) -> Option<String> {

@@ -24,7 +24,9 @@ pub struct Pair<'a> {
 /// Position, velocity and acceleration of the slider.
 pub fn slider_motion(pair: &Pair) -> Result<Sheet> {
     let panels = [("slider.x", "m", "position"), ("slider.v", "m/s", "velocity"), ("slider.a", "m/s2", "acceleration")]
-        .map(|(variable, unit, name)| pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into())));
+        .map(|(variable, unit, name)| {
+            pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into()))
+        });
     pair.sheet("slider motion", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))
 }
 

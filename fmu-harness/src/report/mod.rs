@@ -2,5 +2,6 @@
 
 pub mod figure;
 pub mod plot;
+pub mod summary;
 pub mod table;
 pub mod units;

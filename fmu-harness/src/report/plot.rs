@@ -100,7 +100,7 @@ impl Sheet {
     /// Title on the left, legend on the right, clear of all data.
     fn head(&self, area: &Area) -> Drawn {
         let fine = |pixels: f64| (pixels * f64::from(FINE)) as i32;
-        area.draw(&Text::new(self.title.as_str(), (fine(18.0), fine(15.0)), font(17.0).style(FontStyle::Bold)))?;
+        area.draw(&Text::new(self.title.as_str(), (fine(18.0), fine(15.0)), bold(17.0)))?;
         let mut right = area.dim_in_pixel().0 as i32 - fine(18.0);
         for (role, name) in self.legend.iter().rev() {
             right -= fine(name.chars().count() as f64 * 6.6);
@@ -120,12 +120,17 @@ fn font(pixels: f64) -> TextStyle<'static> {
     ("sans-serif", pixels * f64::from(FINE)).into_font().color(&INK)
 }
 
+fn bold(pixels: f64) -> TextStyle<'static> {
+    ("sans-serif", pixels * f64::from(FINE)).into_font().style(FontStyle::Bold).color(&INK)
+}
+
 impl Panel {
     fn draw(&self, area: &Area) -> Drawn {
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let (mut x, mut y) = (range(points().map(|point| point.0)), margin(range(points().map(|point| point.1))));
         if self.square {
-            let reach = 1.08 * [x.start, x.end, y.start, y.end].iter().fold(0.0, |reach: f64, edge| reach.max(edge.abs()));
+            let reach =
+                1.08 * [x.start, x.end, y.start, y.end].iter().fold(0.0, |reach: f64, edge| reach.max(edge.abs()));
             (x, y) = (-reach..reach, -reach..reach);
         }
         let mut chart = ChartBuilder::on(area)
