@@ -1,6 +1,6 @@
 //! The figures of a run of the slider-crank beside the same run with ideal joints, one function a figure.
 
-use super::plot::{Curve, Panel, Role, Sheet};
+use super::plot::{Curve, Panel, Role, Sheet, square_panel};
 use super::units::Shown;
 use crate::run::{ANGLE, Recording};
 use anyhow::Result;
@@ -51,7 +51,7 @@ pub fn journal_paths(pair: &Pair) -> Result<Option<Sheet>> {
     let title = format!("{}: journal centre in its bearing, last {PATH_TURNS} turns", pair.title);
     let legend = vec![(Role::Limit, "clearance circle".into()), (Role::Actual, "journal".into())];
     let columns = panels.len();
-    Ok(Some(Sheet { title, legend, columns, panels, panel_size: (640, 610) }))
+    Ok(Some(Sheet { title, legend, columns, panels, panel_size: square_panel(540) }))
 }
 
 fn path(pair: &Pair, joint: &str) -> Result<Panel> {
@@ -95,7 +95,10 @@ impl Pair<'_> {
         Ok(Panel { x_label: "crank turns".into(), y_label: shown.axis(name), curves, square: false })
     }
 
-    fn sheet(&self, what: &str, panels: Vec<Panel>, columns: usize, panel_size: (u32, u32)) -> Result<Sheet> {
+    /// Panels above one another share the lowest one's abscissa.
+    fn sheet(&self, what: &str, mut panels: Vec<Panel>, columns: usize, panel_size: (u32, u32)) -> Result<Sheet> {
+        let upper = panels.len().saturating_sub(columns);
+        panels[..upper].iter_mut().for_each(|panel| panel.x_label.clear());
         let legend = vec![(Role::Ideal, "ideal joints".into()), (Role::Actual, "this mechanism".into())];
         Ok(Sheet { title: format!("{}: {what}", self.title), legend, panels, columns, panel_size })
     }

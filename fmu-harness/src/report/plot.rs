@@ -12,7 +12,9 @@ const MOST_POINTS: usize = 4000;
 /// Room for numbers and names of the axes [pixel].
 const LABELS: (u32, u32) = (40, 74);
 /// Height of the sheet's title with its legend [pixel].
-const HEAD: u32 = 44;
+const HEAD: u32 = 60;
+/// Room around a panel [pixel]: left, right, top, bottom.
+const MARGINS: [u32; 4] = [12, 18, 8, 4];
 
 const INK: RGBColor = RGBColor(38, 44, 54);
 const GRID: RGBColor = RGBColor(226, 229, 234);
@@ -97,20 +99,27 @@ impl Sheet {
         Ok(())
     }
 
-    /// Title on the left, legend on the right, clear of all data.
+    /// Title, and below it the legend, clear of all data.
     fn head(&self, area: &Area) -> Drawn {
         let fine = |pixels: f64| (pixels * f64::from(FINE)) as i32;
-        area.draw(&Text::new(self.title.as_str(), (fine(18.0), fine(15.0)), bold(17.0)))?;
-        let mut right = area.dim_in_pixel().0 as i32 - fine(18.0);
-        for (role, name) in self.legend.iter().rev() {
-            right -= fine(name.chars().count() as f64 * 6.6);
-            area.draw(&Text::new(name.as_str(), (right, fine(17.0)), font(13.0)))?;
-            let stroke = vec![(right - fine(32.0), fine(24.0)), (right - fine(8.0), fine(24.0))];
-            area.draw(&PathElement::new(stroke, role.style()))?;
-            right -= fine(56.0);
+        let mut left = 18.0;
+        area.draw(&Text::new(self.title.as_str(), (fine(left), fine(12.0)), bold(17.0)))?;
+        for (role, name) in &self.legend {
+            area.draw(&PathElement::new(
+                vec![(fine(left), fine(46.0)), (fine(left + 26.0), fine(46.0))],
+                role.style(),
+            ))?;
+            area.draw(&Text::new(name.as_str(), (fine(left + 33.0), fine(39.5)), font(13.0)))?;
+            // Letters of this size are about 7 pixels wide.
+            left += 33.0 + 7.0 * name.chars().count() as f64 + 22.0;
         }
         Ok(())
     }
+}
+
+/// Size of a panel whose coordinate system is a square of this side [pixel].
+pub fn square_panel(side: u32) -> (u32, u32) {
+    (side + LABELS.1 + MARGINS[0] + MARGINS[1], side + LABELS.0 + MARGINS[2] + MARGINS[3])
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -134,10 +143,11 @@ impl Panel {
             (x, y) = (-reach..reach, -reach..reach);
         }
         let mut chart = ChartBuilder::on(area)
-            .margin_right(18 * FINE)
-            .margin_top(8 * FINE)
-            .margin_bottom(4 * FINE)
-            .x_label_area_size(LABELS.0 * FINE)
+            .margin_left(MARGINS[0] * FINE)
+            .margin_right(MARGINS[1] * FINE)
+            .margin_top(MARGINS[2] * FINE)
+            .margin_bottom(MARGINS[3] * FINE)
+            .x_label_area_size(if self.x_label.is_empty() { LABELS.0 / 2 } else { LABELS.0 } * FINE)
             .y_label_area_size(LABELS.1 * FINE)
             .build_cartesian_2d(x.clone(), y.clone())?;
         let (x_ticks, y_ticks) = (decimals(&x), decimals(&y));
