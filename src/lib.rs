@@ -3,7 +3,11 @@
 //! Path of the data: `scene.toml → scene::read → Scene → Model::assemble → Model → Simulation
 //! (integrator on Problem) → fmi::Instance → fmi::abi → importer`.
 
+pub mod fmi;
 pub mod integrator;
+pub mod math;
 pub mod model;
+#[path = "../modelDescription/mod.rs"]
+pub mod model_description;
 pub mod scene;
 pub mod simulation;

@@ -1,11 +1,21 @@
 //! What was asked for: a mechanism, its drive and its solver, as plain SI data.
 
+pub mod check;
+pub mod enumerations;
 pub mod parameter;
+pub mod profile;
+pub mod run;
+pub mod slot;
+pub mod units;
 
+pub use check::SceneError;
+pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method};
+pub use parameter::PARAMETERS;
 use serde::{Deserialize, Serialize};
 
 /// Everything that is fixed before time runs. The only ground state: the model is made from it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// Its `Default` has the declared start values; those of its parts are blank.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// How the crank is driven.
     pub drive: Drive,
@@ -23,6 +33,26 @@ pub struct Scene {
     pub joint: Joints,
     /// How time is integrated.
     pub solver: Solver,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        let mut scene = Self {
+            drive: Drive::default(),
+            gravity: 0.0,
+            crank: Crank::default(),
+            rod: Rod::default(),
+            slider: Slider::default(),
+            guide: GuideLines::default(),
+            joint: Joints::default(),
+            solver: Solver::default(),
+        };
+        for parameter in PARAMETERS {
+            // A start value outside its own range does not pass build.rs.
+            let _ = parameter.write(&mut scene, parameter.start());
+        }
+        scene
+    }
 }
 
 /// How the crank is driven.
@@ -205,117 +235,4 @@ pub struct Solver {
     pub tolerance: f64,
     /// [s] Step of the fixed-step methods.
     pub step: f64,
-}
-
-/// Declares an enumeration whose values are those of the FMU's face.
-macro_rules! enumeration {
-    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $value:literal),+ $(,)? }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-        #[repr(i32)]
-        pub enum $name {
-            $($(#[$item_doc])* $item = $value),+
-        }
-
-        impl $name {
-            /// The item of this value, if there is one.
-            pub fn from_value(value: i32) -> Option<Self> {
-                match value {
-                    $($value => Some(Self::$item),)+
-                    _ => None,
-                }
-            }
-
-            /// The value on the FMU's face.
-            pub fn value(self) -> i32 {
-                self as i32
-            }
-        }
-    };
-}
-
-enumeration! {
-    /// How the crank is driven.
-    DriveMode {
-        /// The torque is an input.
-        #[default] Torque = 1,
-        /// The angle is θ0 + ω0·(t − t0); the torque is an output.
-        Speed = 2,
-    }
-}
-
-enumeration! {
-    /// Whether a joint has play.
-    JointModel {
-        /// A constraint.
-        #[default] Ideal = 1,
-        /// Contact forces across a gap.
-        Clearance = 2,
-    }
-}
-
-enumeration! {
-    /// Elastic force of a revolute contact.
-    Elasticity {
-        /// K·δ^p.
-        #[default] Hertz = 1,
-        /// Conformal cylinders, Liu 2007.
-        Liu = 2,
-    }
-}
-
-enumeration! {
-    /// Hysteresis damping of a contact.
-    DampingLaw {
-        /// None.
-        Hertz = 1,
-        /// Hunt and Crossley 1975.
-        HuntCrossley = 2,
-        /// Herbert and McWhannell 1977.
-        HerbertMcwhannell = 3,
-        /// Lee and Wang 1983.
-        LeeWang = 4,
-        /// Lankarani and Nikravesh 1990.
-        #[default] LankaraniNikravesh = 5,
-        /// Gonthier et al. 2004, approximate form.
-        Gonthier = 6,
-        /// Zhang and Sharf 2009, exact.
-        ZhangSharf = 7,
-        /// Flores et al. 2011.
-        Flores = 8,
-        /// Hu and Guo 2015.
-        HuGuo = 9,
-        /// Zhiying and Qishao 2006.
-        ZhiyingQishao = 10,
-        /// Carvalho and Martins 2019.
-        CarvalhoMartins = 11,
-    }
-}
-
-enumeration! {
-    /// Friction of a contact.
-    FrictionLaw {
-        /// Frictionless.
-        #[default] None = 1,
-        /// Ambrosio's ramp.
-        Ambrosio = 2,
-        /// Hyperbolic tangent.
-        Tanh = 3,
-        /// Stribeck's falling coefficient on the hyperbolic tangent.
-        Stribeck = 4,
-    }
-}
-
-enumeration! {
-    /// Integration method.
-    Method {
-        /// Dormand and Prince 5(4).
-        Dopri5 = 1,
-        /// Verner 7(6).
-        #[default] Verner7 = 2,
-        /// Dormand and Prince 8(5,3).
-        Dop853 = 3,
-        /// The classical fourth-order method at a fixed step.
-        Rk4 = 4,
-    }
 }

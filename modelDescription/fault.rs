@@ -1,0 +1,67 @@
+//! What can be wrong with `variables.toml`.
+
+use std::fmt;
+
+/// A declaration that cannot be.
+#[derive(Debug)]
+pub struct RowError {
+    /// Line of variables.toml, from 1.
+    pub line: usize,
+    /// What is wrong there.
+    pub fault: Fault,
+}
+
+/// What is wrong with a declaration.
+#[derive(Debug)]
+pub enum Fault {
+    /// Not TOML, or not of this form.
+    Toml(String),
+    /// No such causality, variability and type in FMI 2.0, or not one that we use.
+    Triple {
+        /// As declared.
+        causality: String,
+        /// As declared.
+        variability: String,
+        /// Type as declared.
+        kind: String,
+    },
+    /// An attribute is missing.
+    Missing(&'static str),
+    /// An attribute has no meaning here.
+    Superfluous(&'static str),
+    /// Not min ≤ start ≤ max, or a nominal that is not positive.
+    Range,
+    /// A type, item, group or variable that is not declared.
+    Unknown(String),
+    /// Declared twice.
+    Duplicate(String),
+    /// Not a name of the structured convention.
+    Name(String),
+}
+
+impl fmt::Display for RowError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "modelDescription/variables.toml:{}: ", self.line)?;
+        match &self.fault {
+            Fault::Toml(text) => f.write_str(text),
+            Fault::Triple {
+                causality,
+                variability,
+                kind,
+            } => {
+                write!(
+                    f,
+                    "a variable cannot be {causality}, {variability} and {kind}"
+                )
+            }
+            Fault::Missing(attribute) => write!(f, "`{attribute}` is missing"),
+            Fault::Superfluous(attribute) => write!(f, "`{attribute}` has no meaning here"),
+            Fault::Range => f.write_str("not min <= start <= max and nominal > 0"),
+            Fault::Unknown(name) => write!(f, "`{name}` is not declared"),
+            Fault::Duplicate(name) => write!(f, "`{name}` is declared twice"),
+            Fault::Name(name) => write!(f, "`{name}` is not a structured name"),
+        }
+    }
+}
+
+impl std::error::Error for RowError {}

@@ -1,0 +1,26 @@
+//! guid = digest of the declaration, then of the start values.
+
+use sha2::{Digest, Sha256};
+
+/// Digest of a declaration, told as the XML that it makes with no guid in it.
+pub fn digest(xml: &str) -> [u8; 32] {
+    Sha256::digest(xml.as_bytes()).into()
+}
+
+/// The guid of a package: 32 hexadecimal digits in the customary groups.
+pub fn guid(declaration: &[u8; 32], starts: impl IntoIterator<Item = f64>) -> String {
+    let mut hasher = Sha256::new();
+    hasher.update(declaration);
+    for start in starts {
+        hasher.update(start.to_le_bytes());
+    }
+    let digits: String = hasher
+        .finalize()
+        .iter()
+        .take(16)
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    [0..8, 8..12, 12..16, 16..20, 20..32]
+        .map(|group| &digits[group])
+        .join("-")
+}

@@ -1,0 +1,246 @@
+//! Rows → `modelDescription.xml`.
+
+use super::definitions::{type_definitions, unit_definition};
+use super::element::{Attributes, Xml, date, leaf, parent};
+use super::rows::{Declaration, Experiment, Flag, Kind, Role, Row};
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+use std::io;
+
+/// What differs from one package to the next.
+pub struct Package<'a> {
+    /// Fingerprint that the binary checks.
+    pub guid: &'a str,
+    /// Start values of the parameters, in order; an enumeration's by its item's value.
+    pub starts: &'a [f64],
+    /// Default experiment.
+    pub experiment: Experiment,
+    /// [s] Time of writing since 1970; none leaves the date out.
+    pub written: Option<u64>,
+}
+
+impl<'a> Package<'a> {
+    /// A package with no guid and the declared experiment: the text that a guid is made from.
+    pub fn anonymous(declaration: &Declaration, starts: &'a [f64]) -> Self {
+        Self {
+            guid: "",
+            starts,
+            experiment: declaration.experiment,
+            written: None,
+        }
+    }
+}
+
+/// The model description of a package.
+pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    parent(
+        &mut xml,
+        "fmiModelDescription",
+        root(declaration, package),
+        |xml| {
+            leaf(xml, "CoSimulation", capabilities(declaration))?;
+            parent(xml, "UnitDefinitions", vec![], |xml| {
+                declaration
+                    .units
+                    .iter()
+                    .try_for_each(|unit| unit_definition(xml, unit))
+            })?;
+            parent(xml, "TypeDefinitions", vec![], |xml| {
+                type_definitions(xml, declaration)
+            })?;
+            parent(xml, "LogCategories", vec![], |xml| {
+                declaration.log.iter().try_for_each(|category| {
+                    let (name, description) = (category.name.clone(), category.description.clone());
+                    leaf(
+                        xml,
+                        "Category",
+                        vec![("name", name), ("description", description)],
+                    )
+                })
+            })?;
+            leaf(xml, "DefaultExperiment", experiment(&package.experiment))?;
+            parent(xml, "ModelVariables", vec![], |xml| {
+                let mut starts = package.starts.iter().copied();
+                declaration
+                    .rows
+                    .iter()
+                    .enumerate()
+                    .try_for_each(|(reference, row)| {
+                        let start = match row.role {
+                            Role::Input { start } => Some(start),
+                            Role::Output { .. } => None,
+                            Role::Parameter { start } => Some(starts.next().unwrap_or(start)),
+                        };
+                        variable(xml, declaration, reference, row, start)
+                    })
+            })?;
+            parent(xml, "ModelStructure", vec![], |xml| {
+                parent(xml, "Outputs", vec![], |xml| {
+                    unknowns(xml, declaration, |depends, _| Some(depends.to_vec()))
+                })?;
+                parent(xml, "InitialUnknowns", vec![], |xml| {
+                    unknowns(xml, declaration, |_, at_start| {
+                        at_start.map(<[usize]>::to_vec)
+                    })
+                })
+            })
+        },
+    )?;
+    let mut bytes = xml.into_inner();
+    bytes.push(b'\n');
+    String::from_utf8(bytes).map_err(io::Error::other)
+}
+
+fn root(declaration: &Declaration, package: &Package) -> Attributes<'static> {
+    let model = &declaration.model;
+    let mut attributes = vec![
+        ("fmiVersion", "2.0".into()),
+        ("modelName", model.name.clone()),
+        ("guid", package.guid.into()),
+        ("description", model.description.clone()),
+        ("version", env!("CARGO_PKG_VERSION").into()),
+        ("license", model.license.clone()),
+        (
+            "generationTool",
+            format!("{} {}", model.generation_tool, env!("CARGO_PKG_VERSION")),
+        ),
+    ];
+    attributes.extend(
+        package
+            .written
+            .map(|seconds| ("generationDateAndTime", date(seconds))),
+    );
+    attributes.push(("variableNamingConvention", "structured".into()));
+    attributes
+}
+
+fn capabilities(declaration: &Declaration) -> Attributes<'_> {
+    let value = |flag: &Flag| match flag {
+        Flag::Boolean(can) => can.to_string(),
+        Flag::Order(order) => order.to_string(),
+    };
+    let mut attributes = vec![("modelIdentifier", declaration.model.identifier.clone())];
+    attributes.extend(
+        declaration
+            .capabilities
+            .iter()
+            .map(|(name, flag)| (name.as_str(), value(flag))),
+    );
+    attributes
+}
+
+fn experiment(experiment: &Experiment) -> Attributes<'static> {
+    let Experiment {
+        start,
+        stop,
+        tolerance,
+        step,
+    } = *experiment;
+    let number = |value: f64| format!("{value:?}");
+    vec![
+        ("startTime", number(start)),
+        ("stopTime", number(stop)),
+        ("tolerance", number(tolerance)),
+        ("stepSize", number(step)),
+    ]
+}
+
+fn variable(
+    xml: &mut Xml,
+    declaration: &Declaration,
+    reference: usize,
+    row: &Row,
+    start: Option<f64>,
+) -> io::Result<()> {
+    let (causality, variability, initial) = match (&row.role, &row.kind) {
+        (Role::Input { .. }, _) => ("input", "continuous", None),
+        (Role::Output { .. }, Kind::Real { .. }) => ("output", "continuous", Some("calculated")),
+        (Role::Output { .. }, _) => ("output", "discrete", Some("calculated")),
+        (Role::Parameter { .. }, _) => ("parameter", "fixed", Some("exact")),
+    };
+    let mut attributes = vec![
+        ("name", row.name.clone()),
+        ("valueReference", reference.to_string()),
+        ("description", row.description.clone()),
+        ("causality", causality.into()),
+        ("variability", variability.into()),
+    ];
+    // The standard forbids `initial` for inputs.
+    attributes.extend(initial.map(|initial| ("initial", initial.into())));
+    parent(xml, "ScalarVariable", attributes, |xml| {
+        let (name, attributes) = type_and_range(declaration, &row.kind, start);
+        leaf(xml, name, attributes)
+    })
+}
+
+/// The element that tells a variable's type. The unit stands here as well as in the declared type:
+/// some hosts look no further than the variable.
+fn type_and_range<'a>(
+    declaration: &'a Declaration,
+    kind: &Kind,
+    start: Option<f64>,
+) -> (&'a str, Attributes<'a>) {
+    let number = |value: f64| format!("{value:?}");
+    let mut attributes: Attributes = vec![];
+    let name = match kind {
+        Kind::Real {
+            of,
+            min,
+            max,
+            nominal,
+            unbounded,
+        } => {
+            let of = &declaration.types[*of];
+            attributes.push(("declaredType", of.name.clone()));
+            attributes.push(("unit", of.unit.clone()));
+            attributes.extend(of.display.clone().map(|display| ("displayUnit", display)));
+            attributes.extend(min.map(|min| ("min", number(min))));
+            attributes.extend(max.map(|max| ("max", number(max))));
+            attributes.extend(nominal.map(|nominal| ("nominal", number(nominal))));
+            attributes.extend(unbounded.then(|| ("unbounded", "true".into())));
+            attributes.extend(start.map(|start| ("start", number(start))));
+            "Real"
+        }
+        Kind::Integer { min, max } => {
+            attributes.extend(min.map(|min| ("min", min.to_string())));
+            attributes.extend(max.map(|max| ("max", max.to_string())));
+            "Integer"
+        }
+        Kind::Boolean => "Boolean",
+        Kind::Enumeration { of } => {
+            attributes.push(("declaredType", declaration.enumerations[*of].name.clone()));
+            attributes.extend(start.map(|start| ("start", start.to_string())));
+            "Enumeration"
+        }
+    };
+    (name, attributes)
+}
+
+type Rows<'a> = Option<&'a [usize]>;
+
+/// One entry for each output; `choose` picks from what it depends on at communication points and
+/// at the start. An entry without the attribute depends on everything.
+fn unknowns(
+    xml: &mut Xml,
+    declaration: &Declaration,
+    choose: impl Fn(&[usize], Rows) -> Option<Vec<usize>>,
+) -> io::Result<()> {
+    for (row, Row { role, .. }) in declaration.rows.iter().enumerate() {
+        let Role::Output { depends, at_start } = role else {
+            continue;
+        };
+        let mut attributes = vec![("index", (row + 1).to_string())];
+        let indices = |rows: Vec<usize>| {
+            rows.iter()
+                .map(|row| (row + 1).to_string())
+                .collect::<Vec<_>>()
+                .join(" ")
+        };
+        let chosen = choose(depends, at_start.as_deref());
+        attributes.extend(chosen.map(|rows| ("dependencies", indices(rows))));
+        leaf(xml, "Unknown", attributes)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,64 @@
+//! What a package says of itself beside its binary: `modelDescription.xml` of a scene.
+
+use crate::model_description::rows::{Experiment, RowError};
+use crate::model_description::{self, xml};
+use crate::scene::{PARAMETERS, Scene, slot};
+use std::{fmt, io};
+
+/// Why a description cannot be written.
+#[derive(Debug)]
+pub enum DescriptionError {
+    /// The declaration is wrong; build.rs would have said so.
+    Declaration(RowError),
+    /// The text cannot be put together.
+    Writing(io::Error),
+}
+
+impl fmt::Display for DescriptionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Declaration(error) => error.fmt(f),
+            Self::Writing(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for DescriptionError {}
+
+impl From<RowError> for DescriptionError {
+    fn from(error: RowError) -> Self {
+        Self::Declaration(error)
+    }
+}
+
+impl From<io::Error> for DescriptionError {
+    fn from(error: io::Error) -> Self {
+        Self::Writing(error)
+    }
+}
+
+/// `modelDescription.xml` of a package whose start values are the scene's. With no experiment it
+/// has the declared one; `written` is the time of writing in seconds since 1970, or no date.
+pub fn model_description(
+    scene: &Scene,
+    experiment: Option<Experiment>,
+    written: Option<u64>,
+) -> Result<String, DescriptionError> {
+    let declaration = model_description::load()?;
+    let starts: Vec<f64> = PARAMETERS
+        .iter()
+        .map(|parameter| parameter.value(scene))
+        .collect();
+    let package = xml::Package {
+        guid: &slot::guid(scene),
+        starts: &starts,
+        experiment: experiment.unwrap_or(declaration.experiment),
+        written,
+    };
+    Ok(xml::write(&declaration, &package)?)
+}
+
+/// The declared experiment.
+pub fn declared_experiment() -> Result<Experiment, DescriptionError> {
+    Ok(model_description::load()?.experiment)
+}

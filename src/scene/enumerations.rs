@@ -1,0 +1,42 @@
+//! The scene's enumerations, made from `modelDescription/variables.toml`.
+
+use serde::{Deserialize, Serialize};
+
+/// Declares an enumeration by its items' values and names on the FMU's face.
+macro_rules! enumeration {
+    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $value:literal = $text:literal),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[repr(i32)]
+        pub enum $name {
+            $($(#[$item_doc])* $item = $value),+
+        }
+
+        impl $name {
+            /// Names and values of the items.
+            pub const ITEMS: &[(&str, i32)] = &[$(($text, $value)),+];
+
+            /// The item of this value, if there is one.
+            pub fn from_value(value: i32) -> Option<Self> {
+                match value {
+                    $($value => Some(Self::$item),)+
+                    _ => None,
+                }
+            }
+
+            /// The value on the FMU's face.
+            pub fn value(self) -> i32 {
+                self as i32
+            }
+
+            /// The name on the FMU's face.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$item => $text,)+
+                }
+            }
+        }
+    };
+}
+
+include!(concat!(env!("OUT_DIR"), "/enumerations.rs"));

@@ -1,0 +1,221 @@
+//! The scene inside the library's own bytes, so that a packaged FMU needs no resource file.
+//!
+//! A block of the library's data holds, little endian: a magic, the block's version, the payload's
+//! length, its CRC-32, and the payload: the guid, then every parameter's value in the order of the
+//! declaration. A library as the compiler leaves it has length 0: the declared start values. The
+//! packager finds the magic in the library's file and writes a scene's values behind it.
+
+use super::Scene;
+use super::parameter::{DECLARATION, DEFAULT_GUID, PARAMETER_COUNT, PARAMETERS, Refusal};
+use crate::model_description::guid as digest;
+use std::fmt;
+use std::hint::black_box;
+
+/// The magic, last byte first: the block is the one place in a library where it stands forward.
+const MAGIC_REVERSED: [u8; 24] = *b"\x01tols-enecs-knarcredils\xF5";
+const VERSION: u32 = 1;
+const GUID: usize = 36;
+const MAGIC: usize = MAGIC_REVERSED.len();
+const HEADER: usize = MAGIC + 12;
+const PAYLOAD: usize = GUID + 8 * PARAMETER_COUNT;
+const BLOCK: usize = HEADER + PAYLOAD;
+
+static SLOT: [u8; BLOCK] = blank();
+
+const fn blank() -> [u8; BLOCK] {
+    let mut block = [0; BLOCK];
+    let mut i = 0;
+    while i < MAGIC {
+        block[i] = MAGIC_REVERSED[MAGIC - 1 - i];
+        i += 1;
+    }
+    block[MAGIC] = VERSION as u8;
+    block
+}
+
+/// Why a library's scene cannot be read or written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlotError {
+    /// The bytes hold no block.
+    Missing,
+    /// The bytes hold several blocks.
+    Repeated(usize),
+    /// The block is cut off or of another version.
+    Version(u32),
+    /// The payload is of another length than this version's.
+    Length(u32),
+    /// The payload is damaged.
+    Checksum,
+    /// A value is not legal.
+    Value(Refusal),
+}
+
+impl fmt::Display for SlotError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => f.write_str("the library holds no block for a scene"),
+            Self::Repeated(count) => {
+                write!(f, "the library holds {count} blocks for a scene, not one")
+            }
+            Self::Version(version) => {
+                write!(
+                    f,
+                    "the library's scene is of version {version}, not {VERSION}"
+                )
+            }
+            Self::Length(length) => {
+                write!(f, "the library's scene has {length} bytes, not {PAYLOAD}")
+            }
+            Self::Checksum => f.write_str("the library's scene is damaged"),
+            Self::Value(refusal) => write!(f, "the library's scene: {refusal}"),
+        }
+    }
+}
+
+impl std::error::Error for SlotError {}
+
+/// The guid of a package of this scene: digest of the declaration and the scene's values.
+pub fn guid(scene: &Scene) -> String {
+    digest::guid(&DECLARATION, values(scene))
+}
+
+/// The scene that this library was packaged with, and its guid.
+pub fn read() -> Result<(Scene, String), SlotError> {
+    // Through `black_box`, or the compiler would answer for the bytes as it knows them.
+    parse(black_box(&SLOT))
+}
+
+/// Writes a scene and its guid into the bytes of a built library.
+pub fn write(library: &mut [u8], scene: &Scene) -> Result<(), SlotError> {
+    let start = locate(library)?;
+    let block = library
+        .get_mut(start..start + BLOCK)
+        .ok_or(SlotError::Missing)?;
+    let version = word(block, MAGIC);
+    if version != VERSION {
+        return Err(SlotError::Version(version));
+    }
+    let mut payload = guid(scene).into_bytes();
+    payload.extend(values(scene).flat_map(f64::to_le_bytes));
+    let words = [PAYLOAD as u32, crc32fast::hash(&payload)];
+    block[MAGIC + 4..HEADER].copy_from_slice(words.map(u32::to_le_bytes).as_flattened());
+    block[HEADER..].copy_from_slice(&payload);
+    Ok(())
+}
+
+/// Offset of the one block in a library's bytes.
+fn locate(library: &[u8]) -> Result<usize, SlotError> {
+    let mut magic = black_box(MAGIC_REVERSED);
+    magic.reverse();
+    let windows = library.windows(MAGIC).enumerate();
+    let found: Vec<usize> = windows
+        .filter(|(_, bytes)| *bytes == magic)
+        .map(|(offset, _)| offset)
+        .collect();
+    match found[..] {
+        [] => Err(SlotError::Missing),
+        [offset] => Ok(offset),
+        _ => Err(SlotError::Repeated(found.len())),
+    }
+}
+
+/// What a block says.
+fn parse(block: &[u8; BLOCK]) -> Result<(Scene, String), SlotError> {
+    let (version, length, checksum) = (
+        word(block, MAGIC),
+        word(block, MAGIC + 4),
+        word(block, MAGIC + 8),
+    );
+    if version != VERSION {
+        return Err(SlotError::Version(version));
+    }
+    let mut scene = Scene::default();
+    if length == 0 {
+        return Ok((scene, DEFAULT_GUID.to_owned()));
+    }
+    if length != PAYLOAD as u32 {
+        return Err(SlotError::Length(length));
+    }
+    let payload = &block[HEADER..];
+    if crc32fast::hash(payload) != checksum {
+        return Err(SlotError::Checksum);
+    }
+    let (guid, numbers) = payload.split_at(GUID);
+    let guid = std::str::from_utf8(guid).map_err(|_| SlotError::Checksum)?;
+    let (numbers, _) = numbers.as_chunks::<8>();
+    for (parameter, number) in PARAMETERS.iter().zip(numbers) {
+        parameter
+            .write(&mut scene, f64::from_le_bytes(*number))
+            .map_err(SlotError::Value)?;
+    }
+    Ok((scene, guid.to_owned()))
+}
+
+fn values(scene: &Scene) -> impl Iterator<Item = f64> {
+    PARAMETERS.iter().map(|parameter| parameter.value(scene))
+}
+
+/// The little-endian word at an offset inside a block.
+fn word(block: &[u8], offset: usize) -> u32 {
+    let bytes = [0, 1, 2, 3].map(|i| block[offset + i]);
+    u32::from_le_bytes(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn library() -> Vec<u8> {
+        [&[0xAB; 777], SLOT.as_slice(), &[0xCD; 99]].concat()
+    }
+
+    fn reread(library: &[u8]) -> Result<(Scene, String), SlotError> {
+        let start = locate(library)?;
+        parse(
+            library[start..start + BLOCK]
+                .try_into()
+                .expect("a whole block"),
+        )
+    }
+
+    #[test]
+    fn an_unwritten_library_has_the_declared_scene_and_its_guid() {
+        let declared = (Scene::default(), guid(&Scene::default()));
+        assert_eq!(read(), Ok(declared.clone()));
+        assert_eq!(reread(&library()), Ok(declared));
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_and_nothing_else_is_touched() {
+        let mut scene = Scene::default();
+        scene.joint.c.clearance = 1.25e-4;
+        scene.joint.t.model = super::super::JointModel::Clearance;
+        let mut patched = library();
+        for _ in 0..2 {
+            write(&mut patched, &scene).expect("room for the scene");
+        }
+        assert_eq!(reread(&patched), Ok((scene.clone(), guid(&scene))));
+        assert_ne!(guid(&scene), guid(&Scene::default()));
+        assert_eq!(patched[..777], library()[..777]);
+        assert_eq!(patched[777 + BLOCK..], library()[777 + BLOCK..]);
+    }
+
+    #[test]
+    fn damage_and_doubles_are_refused() {
+        let scene = Scene::default();
+        assert_eq!(write(&mut [0; 4096], &scene), Err(SlotError::Missing));
+        assert_eq!(
+            write(&mut [library(), library()].concat(), &scene),
+            Err(SlotError::Repeated(2))
+        );
+        let mut cut = library();
+        cut.truncate(800);
+        assert_eq!(write(&mut cut, &scene), Err(SlotError::Missing));
+        let mut damaged = library();
+        write(&mut damaged, &scene).expect("room for the scene");
+        damaged[777 + HEADER + 100] ^= 1;
+        assert_eq!(reread(&damaged), Err(SlotError::Checksum));
+        damaged[777 + MAGIC] = 9;
+        assert_eq!(write(&mut damaged, &scene), Err(SlotError::Version(9)));
+    }
+}
