@@ -11,11 +11,14 @@ use slidercrank::simulation::Simulation;
 const BOUND: f64 = 1e-6;
 /// What the reference may claim of itself, so that it decides.
 const REFERENCE_BOUND: f64 = 0.1 * BOUND;
-const FINE: f64 = 1e-12;
-/// The same at a tolerance so much coarser shows more than the fine one's error.
-const COARSE: f64 = 1e-10;
+const FINE: f64 = 1e-13;
+/// A run at a coarser tolerance differs by more than the fine one errs: with every factor of ten in
+/// tolerance the distances shrink five- to tenfold, down to round-off.
+const COARSE: f64 = 1e-12;
+/// Enough to find where a run ends.
+const ROUGH: f64 = 1e-8;
 /// Runs end with this contact, or at the longest time where there are fewer.
-const CLOSINGS: usize = 8;
+const CLOSINGS: usize = 6;
 /// [s]
 const LONGEST: f64 = 0.02;
 const OUTPUT_TIMES: usize = 50;
@@ -100,7 +103,7 @@ fn farthest(all: Vec<Distance>) -> Distance {
 
 /// [s] Just past the last contact to be compared.
 fn end_of_run(case: &Case) -> f64 {
-    let mut reference = begin(case, COARSE);
+    let mut reference = begin(case, ROUGH);
     for k in 1..=500 {
         reference.advance_to(LONGEST * f64::from(k) / 500.0);
         let mut closings = reference.crossings().iter().filter(|crossing| crossing.closed);
@@ -147,7 +150,8 @@ fn wrong_flags(times: &[f64], reference: &[Outputs], product: &[Outputs], crossi
     for ((&time, r), p) in times.iter().zip(reference).zip(product) {
         for (joint, (right, given)) in flags(r).into_iter().zip(flags(p)).enumerate() {
             if right != given && !near(joint, time) {
-                wrong.push(format!("contact of {} at {time:.9} s is {given}, not {right}", ["A", "B", "C", "T"][joint]));
+                wrong
+                    .push(format!("contact of {} at {time:.9} s is {given}, not {right}", ["A", "B", "C", "T"][joint]));
             }
         }
     }

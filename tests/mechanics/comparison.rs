@@ -42,9 +42,27 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
         ("accuracy.acceleration", Kind::Acceleration, o.accuracy.acceleration),
     ];
     let names = [
-        ["joint.A.force.x", "joint.A.force.y", "joint.A.eccentricity.x", "joint.A.eccentricity.y", "joint.A.penetration"],
-        ["joint.B.force.x", "joint.B.force.y", "joint.B.eccentricity.x", "joint.B.eccentricity.y", "joint.B.penetration"],
-        ["joint.C.force.x", "joint.C.force.y", "joint.C.eccentricity.x", "joint.C.eccentricity.y", "joint.C.penetration"],
+        [
+            "joint.A.force.x",
+            "joint.A.force.y",
+            "joint.A.eccentricity.x",
+            "joint.A.eccentricity.y",
+            "joint.A.penetration",
+        ],
+        [
+            "joint.B.force.x",
+            "joint.B.force.y",
+            "joint.B.eccentricity.x",
+            "joint.B.eccentricity.y",
+            "joint.B.penetration",
+        ],
+        [
+            "joint.C.force.x",
+            "joint.C.force.y",
+            "joint.C.eccentricity.x",
+            "joint.C.eccentricity.y",
+            "joint.C.penetration",
+        ],
     ];
     for (name, joint) in names.into_iter().zip([&o.joint_a, &o.joint_b, &o.joint_c]) {
         all.extend([

@@ -115,9 +115,7 @@ pub fn brisk(mode: DriveMode, play: Play) -> Scene {
 /// The contact data of all four joints.
 pub fn each_contact(scene: &mut Scene, change: impl Fn(&mut Contact)) {
     let joint = &mut scene.joint;
-    for contact in
-        [&mut joint.a.contact, &mut joint.b.contact, &mut joint.c.contact, &mut joint.t.contact]
-    {
+    for contact in [&mut joint.a.contact, &mut joint.b.contact, &mut joint.c.contact, &mut joint.t.contact] {
         change(contact);
     }
 }
@@ -322,9 +320,18 @@ fn starts() -> Vec<Case> {
         case("eccentric start of ideal joints", brisk(DriveMode::Torque, NONE), eccentric),
     ];
     for mode in [DriveMode::Torque, DriveMode::Speed] {
+        let smooth = brisk(mode, [false, true, true, false]);
+        cases.push(case(format!("start in contact without friction, {mode:?}"), smooth, |s| {
+            touching(s);
+            each_contact(s, |c| c.friction.law = FrictionLaw::None);
+        }));
         cases.push(case(format!("eccentric start, {mode:?}"), brisk(mode, ALL), eccentric));
         cases.push(case(format!("start in contact, {mode:?}"), brisk(mode, ALL), touching));
-        cases.push(case(format!("start in contact, B and C, {mode:?}"), brisk(mode, [false, true, true, false]), touching));
+        cases.push(case(
+            format!("start in contact, B and C, {mode:?}"),
+            brisk(mode, [false, true, true, false]),
+            touching,
+        ));
     }
     cases
 }

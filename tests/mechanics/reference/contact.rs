@@ -99,9 +99,8 @@ pub fn contacts(scene: &Scene, bodies: &Bodies) -> [Option<Contact>; 7] {
     let joint = &scene.joint;
     let revolute = |joint: &Revolute, k: usize| Contact::of_revolute(joint, bodies.bearings[k], bodies.journals[k]);
     let half = scene.slider.height / 2.0 + joint.t.clearance;
-    let corner = |k: usize, side: f64| {
-        Contact::of_corner(&joint.t, bodies.corners[k], scene.guide.offset + side * half, side)
-    };
+    let corner =
+        |k: usize, side: f64| Contact::of_corner(&joint.t, bodies.corners[k], scene.guide.offset + side * half, side);
     [
         revolute(&joint.a, 0),
         revolute(&joint.b, 1),

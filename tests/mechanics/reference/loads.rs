@@ -45,12 +45,8 @@ pub fn loads(
     let viscous = -joint.t.damping * pin.velocity(motion).x;
     sum += along(viscous);
 
-    let mut loads = Loads {
-        generalized: sum,
-        on_journal: [Vector::zeros(); 3],
-        on_slider: viscous * Vector::x(),
-        about_pin: 0.0,
-    };
+    let mut loads =
+        Loads { generalized: sum, on_journal: [Vector::zeros(); 3], on_slider: viscous * Vector::x(), about_pin: 0.0 };
     for (k, contact) in contacts.iter().enumerate() {
         let Some(contact) = contact else { continue };
         let touch = contact.touch(motion);

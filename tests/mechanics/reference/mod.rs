@@ -10,11 +10,11 @@ mod constraints;
 mod contact;
 mod extrapolation;
 mod laws;
+mod ledger;
 mod loads;
 mod observe;
 mod phase;
 mod solver;
 mod start;
 
-pub use laws::damping_factor;
 pub use solver::{Crossing, Reference};

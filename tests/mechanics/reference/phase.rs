@@ -71,9 +71,9 @@ impl Phase {
             Condition::Limit => (laws.ratio_limit > 0.0)
                 .then_some(laws.ratio_limit * self.onset_rate - touch.rate)
                 .and_then(|below| signed(!self.limited, below)),
-            Condition::Clip => {
-                (!self.limited).then_some(laws.damping_multiplier(self, touch.rate)).and_then(|m| signed(!self.clipped, m))
-            }
+            Condition::Clip => (!self.limited)
+                .then_some(laws.damping_multiplier(self, touch.rate))
+                .and_then(|m| signed(!self.clipped, m)),
             _ if laws.friction.law != FrictionLaw::Ambrosio => None,
             Condition::Faster => self.zone_end(laws, 1).map(|end| end - touch.sliding),
             Condition::Slower => self.zone_end(laws, -1).map(|end| touch.sliding - end),

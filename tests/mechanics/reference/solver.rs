@@ -51,6 +51,15 @@ pub struct Reference {
 /// Which contact left its branch, and how.
 type Departure = (usize, Condition);
 
+/// Where in a step conditions are first seen not to hold.
+struct Departed {
+    /// Share of the step at which all still held.
+    held: f64,
+    /// Share of the step at which these did not.
+    share: f64,
+    departures: Vec<Departure>,
+}
+
 impl Reference {
     /// At the start position, under constant inputs. `tolerance` bounds each step's error: 1e-3 m
     /// and 1e-2 rad times it in position, 1 m/s and 10 rad/s times it in velocity.
@@ -117,15 +126,12 @@ impl Reference {
                 self.shorten(length / 2.0);
                 continue;
             };
-            let Some((share, departures)) = self.first_departures(&trial) else {
-                self.step = length * trial.growth();
-                self.accept(&trial, if length == left { end } else { self.time + length });
-                continue;
-            };
-            if let Some(&at_once) = departures.iter().find(|&&d| self.margin(d, &self.motion) == Some(0.0)) {
-                self.leave(at_once);
-            } else {
-                self.cross(share * length, &departures);
+            match self.first_departures(&trial) {
+                None => {
+                    self.step = length * trial.growth();
+                    self.accept(&trial, if length == left { end } else { self.time + length });
+                }
+                Some(departed) => self.cross(length, &departed),
             }
         }
     }
@@ -173,22 +179,33 @@ impl Reference {
             .collect()
     }
 
-    /// The first share of the step at which some conditions do not hold, and which.
-    fn first_departures(&self, trial: &Trial) -> Option<(f64, Vec<Departure>)> {
+    /// Where in the step some conditions first do not hold.
+    fn first_departures(&self, trial: &Trial) -> Option<Departed> {
         let inside = &trial.samples[..trial.samples.len() - 1];
         let end = (1.0, trial.change);
-        let looked_at = inside.iter().chain([&end]);
-        looked_at.map(|(share, change)| (*share, self.departures(change))).find(|(_, departures)| !departures.is_empty())
+        let mut held = 0.0;
+        for (share, change) in inside.iter().chain([&end]) {
+            let departures = self.departures(change);
+            if !departures.is_empty() {
+                return Some(Departed { held, share: *share, departures });
+            }
+            held = *share;
+        }
+        None
     }
 
     /// Steps to where the first condition fails, and goes over to the branch beyond.
-    fn cross(&mut self, length: f64, departures: &[Departure]) {
-        let located: Option<Vec<(f64, Departure)>> =
-            departures.iter().map(|&departure| self.locate(departure, length).map(|at| (at, departure))).collect();
+    fn cross(&mut self, length: f64, departed: &Departed) {
+        let (low, high) = (departed.held * length, departed.share * length);
+        let located: Option<Vec<(f64, Departure)>> = departed
+            .departures
+            .iter()
+            .map(|&departure| self.locate(departure, low, high).map(|at| (at, departure)))
+            .collect();
         let first = located.and_then(|all| all.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)));
         let step = first.and_then(|(at, departure)| self.attempt(at).map(|trial| (at, departure, trial)));
         let Some((at, departure, trial)) = step else {
-            self.shorten(length / 2.0);
+            self.shorten(high / 2.0);
             return;
         };
         self.accept(&trial, self.time + at);
@@ -207,21 +224,21 @@ impl Reference {
         }
     }
 
-    /// The step length at which the margin of `departure` is 0: regula falsi of Illinois, each
-    /// trial a step from the same start.
-    fn locate(&self, departure: Departure, length: f64) -> Option<f64> {
+    /// The step length between `low` and `high` at which the margin of `departure` is 0: regula
+    /// falsi of Illinois, each trial a step from the same start.
+    fn locate(&self, departure: Departure, mut low: f64, mut high: f64) -> Option<f64> {
         let margin_at = |length: f64| -> Option<f64> {
             let trial = self.attempt(length)?;
             self.margin(departure, &self.after(&trial.change))
         };
-        let (mut low, mut high) = (0.0, length);
-        let mut above = self.margin(departure, &self.motion)?;
-        let mut below = margin_at(length)?;
-        // A branch just entered may miss its own bound by round-off; and rough states judge rough.
-        if above <= 0.0 {
+        let mut above = if low > 0.0 { margin_at(low)? } else { self.margin(departure, &self.motion)? };
+        let mut below = margin_at(high)?;
+        // A branch just entered may miss its own bound by round-off.
+        if above <= 0.0 && low == 0.0 {
             return Some(0.0);
         }
-        if below >= 0.0 {
+        // Rough states judge rough.
+        if above <= 0.0 || below >= 0.0 {
             return None;
         }
         let mut kept = Kept::Neither;
