@@ -4,10 +4,7 @@ use slidercrank::fmi::description::model_description;
 use slidercrank::scene::Scene;
 use std::{env, fs};
 
-const COMMITTED: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/modelDescription/modelDescription.xml"
-);
+const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/modelDescription.xml");
 
 #[test]
 fn the_committed_copy_is_fresh() {
@@ -16,8 +13,5 @@ fn the_committed_copy_is_fresh() {
         fs::write(COMMITTED, &made).expect("modelDescription.xml written");
     }
     let committed = fs::read_to_string(COMMITTED).unwrap_or_default();
-    assert!(
-        committed == made,
-        "modelDescription.xml is stale: run the tests once with BLESS=1"
-    );
+    assert!(committed == made, "modelDescription.xml is stale: run the tests once with BLESS=1");
 }

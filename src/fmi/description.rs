@@ -45,10 +45,7 @@ pub fn model_description(
     written: Option<u64>,
 ) -> Result<String, DescriptionError> {
     let declaration = model_description::load()?;
-    let starts: Vec<f64> = PARAMETERS
-        .iter()
-        .map(|parameter| parameter.value(scene))
-        .collect();
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
     let package = xml::Package {
         guid: &slot::guid(scene),
         starts: &starts,

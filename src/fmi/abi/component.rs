@@ -19,10 +19,7 @@ pub struct Lent<'a> {
 
 /// Gives an instance to the importer.
 pub fn give(instance: Instance) -> fmi2Component {
-    let component = Component {
-        busy: AtomicBool::new(false),
-        instance: UnsafeCell::new(instance),
-    };
+    let component = Component { busy: AtomicBool::new(false), instance: UnsafeCell::new(instance) };
     Box::into_raw(Box::new(component)).cast()
 }
 
