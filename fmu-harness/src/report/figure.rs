@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// Turns shown: the last ones, when what the start was like is forgotten.
 const TURNS_SHOWN: f64 = 2.0;
 /// Turns of journal path shown.
-const PATH_TURNS: f64 = 5.0;
+const PATH_TURNS: f64 = 3.0;
 
 /// A run and its ideal counterpart.
 pub struct Pair<'a> {
