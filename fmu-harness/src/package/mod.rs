@@ -46,7 +46,7 @@ impl Package {
 /// Everything that goes into the archive, in its order.
 fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
     let declaration = model_description::load().context("the declaration of the variables")?;
-    slot::write(&mut library, &scenario.scene)?;
+    slot::write(&mut library, &scenario.file.scene)?;
     let identifier = &declaration.model.identifier;
     Ok(vec![
         Part::new("modelDescription.xml", description(&declaration, scenario)?),
@@ -61,8 +61,8 @@ fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
 
 /// modelDescription.xml of the scenario.
 fn description(declaration: &Declaration, scenario: &Scenario) -> Result<String> {
-    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(&scenario.scene)).collect();
-    let guid = slot::guid(&scenario.scene);
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(&scenario.file.scene)).collect();
+    let guid = slot::guid(&scenario.file.scene);
     let mut package = xml::Package::anonymous(declaration, &starts);
     package.guid = &guid;
     Ok(xml::write(declaration, &package)?)
