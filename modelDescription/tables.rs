@@ -1,6 +1,6 @@
 //! Rows → Rust: the scene's enumerations, the scene's parameters, the FMU's variables.
 
-use super::rows::{Declaration, Enumeration, Kind, Role, Row};
+use super::rows::{Declaration, Enumeration, Experiment, Kind, Role, Row};
 use std::fmt::Write;
 
 /// The scene's enumerations as `enumeration!` invocations.
@@ -94,6 +94,17 @@ pub fn parameters(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> S
         );
     }
     line(&mut out, "];");
+    let Experiment { stop, step, .. } = declaration.experiment;
+    line(
+        &mut out,
+        &format!(
+            "/// [s] Stop time of a run that names none.\npub const DEFAULT_STOP: f64 = {stop:?};"
+        ),
+    );
+    line(
+        &mut out,
+        &format!("/// [s] Step of a run that names none.\npub const DEFAULT_STEP: f64 = {step:?};"),
+    );
     line(
         &mut out,
         &format!("/// Digest of the declaration.\npub const DECLARATION: [u8; 32] = {digest:?};"),
