@@ -48,8 +48,8 @@ mod tests {
             table.push(time, &[load]);
         }
         let inputs = of_table(&table).expect("inputs");
-        let [Input { name, profile }] = inputs.as_slice() else { panic!("one input") };
-        assert_eq!(name, "slider.load");
+        assert_eq!((inputs.len(), inputs[0].name.as_str()), (1, "slider.load"));
+        let profile = &inputs[0].profile;
         assert_eq!(
             [-1.0, 0.0, 0.5, 2.0, 2.5, 9.0].map(|time| profile.value(time, f64::NAN)),
             [1.0, 1.0, 2.0, 5.0, 6.25, 7.5]

@@ -2,7 +2,7 @@
 
 use super::{out_directory, package, shown};
 use crate::host::{Archive, Fmu, LogLine, Setting};
-use crate::inputs::{self, Input};
+use crate::inputs;
 use crate::report::figure::{self, Pair};
 use crate::report::summary;
 use crate::run::{ANGLE, Experiment, Recording, Until, run};
@@ -173,6 +173,7 @@ fn draw(pair: &Pair, out: &Path) -> Result<Vec<PathBuf>> {
         ("slider", Some(figure::slider_motion(pair)?)),
         ("forces", Some(figure::joint_forces(pair)?)),
         ("journal", figure::journal_paths(pair)?),
+        ("guide", figure::guide_play(pair)?),
     ];
     let mut files = Vec::new();
     for (what, sheet) in sheets {

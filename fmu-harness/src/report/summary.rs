@@ -72,18 +72,16 @@ pub fn outputs(description: &Description, recording: &Recording) -> Result<Strin
 fn cost(table: &mut Table, cost: &Cost, points: usize) {
     table.row(["simulated".into(), Shown::of("s", cost.simulated).print(cost.simulated)]);
     table.row(["communication points".into(), grouped(points as f64)]);
-    for (name, spent) in [
+    let spent = [
         ("fmi2DoStep per simulated second", cost.stepping),
         ("with inputs and outputs", cost.wall),
         ("the same, CPU time", cost.cpu),
-    ] {
-        let spent = spent.as_secs_f64() / cost.simulated;
-        table.row([name.into(), Shown::of("s", spent).print(spent)]);
+    ];
+    for (name, spent) in spent {
+        let share = spent.as_secs_f64() / cost.simulated;
+        let times = format!("{} times real time", significant(1.0 / share));
+        table.row([name.into(), Shown::of("s", share).print(share), times]);
     }
-    table.row([
-        "faster than real time".into(),
-        format!("{} times", significant(cost.simulated / cost.wall.as_secs_f64())),
-    ]);
 }
 
 fn largest(column: &[f64]) -> f64 {
