@@ -105,4 +105,31 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn the_page_s_sentences_hold() {
+        let within = |law: &str, bound: f64, from: f64| {
+            let row = DELIVERED
+                .iter()
+                .find(|(name, _)| *name == law)
+                .expect("a law of the table");
+            ASKED
+                .into_iter()
+                .zip(row.1)
+                .all(|(asked, e)| asked < from || (e - asked).abs() < bound)
+        };
+        for (law, bound, from) in [
+            ("carvalho_martins", 0.005, 0.3),
+            ("gonthier", 0.05, 0.0),
+            ("hu_guo", 0.05, 0.0),
+            ("flores", 0.05, 0.0),
+            ("zhiying_qishao", 0.05, 0.3),
+            ("lankarani_nikravesh", 0.015, 0.9),
+            ("hunt_crossley", 0.015, 0.9),
+            ("herbert_mcwhannell", 0.025, 0.7),
+        ] {
+            assert!(within(law, bound, from), "{law}");
+        }
+        assert!(!within("lee_wang", 0.05, 0.9));
+    }
 }
