@@ -141,7 +141,9 @@ pub(super) fn nearest<'a>(path: &str, candidates: &'a [String]) -> Option<&'a St
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_lowercase();
     let key = last(path);
     let distance = |candidate: &String| strsim::damerau_levenshtein(&last(candidate), &key);
-    let best = candidates.iter().min_by_key(|candidate| distance(candidate))?;
+    let best = candidates
+        .iter()
+        .min_by_key(|candidate| distance(candidate))?;
     (distance(best) <= key.chars().count() / 3).then_some(best)
 }
 
