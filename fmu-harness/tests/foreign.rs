@@ -2,9 +2,10 @@
 #![cfg(target_os = "linux")]
 
 use fmu_harness::host::{Fmu, Kind, PLATFORM, Setting};
-use fmu_harness::inputs::{Against, Curve};
+use fmu_harness::inputs::Input;
 use fmu_harness::package::archive::{Part, write};
 use fmu_harness::run::{Experiment, Until, run};
+use slidercrank::scene::profile::Profile;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -65,8 +66,8 @@ fn the_description_is_understood() {
     assert_eq!(x.attributes.get("description"), Some("a < b & c"));
     let law = description.variable("law").expect("law");
     assert_eq!((law.kind, description.items(law).len()), (Kind::Enumeration, 2));
-    let [first, .., last] = description.structure.outputs.as_slice() else { panic!("four outputs") };
-    assert_eq!((first.dependencies.as_deref(), last.dependencies.as_deref()), (Some(&[][..]), None));
+    let dependencies: Vec<_> = description.structure.outputs.iter().map(|output| output.dependencies.clone()).collect();
+    assert_eq!(dependencies, [Some(vec![]), None, None, None]);
 }
 
 #[test]
@@ -74,7 +75,7 @@ fn a_run_follows_the_closed_form() {
     let fmu = Fmu::open(&Workshop::open().good()).expect("a good FMU");
     let mut experiment = experiment(Until::Time(1.005));
     experiment.settings = ["k=2", "law=driven", "label=decay"].map(|text| text.parse().expect("a setting")).into();
-    experiment.inputs = vec![Curve::new("u", Against::Time, vec![(0.0, 3.0)]).expect("a curve")];
+    experiment.inputs = vec![Input { name: "u".into(), profile: Profile::Constant(3.0) }];
     let trajectory = run(&fmu, &experiment, |_| {}, |_| {}).expect("a run").trajectory;
     assert_eq!(trajectory.len(), 102, "a hundred steps and half a one");
     assert_eq!(trajectory.times().last(), Some(&1.005));
