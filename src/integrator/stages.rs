@@ -16,6 +16,7 @@ pub struct Attempt<const N: usize> {
 }
 
 /// Attempts a step of `h` from `y` at `t`, whose rates are `rates`.
+#[inline(never)] // one copy for steps, landings and rewinds
 pub fn attempt<const N: usize, M: Method, P: Problem<N> + ?Sized>(
     problem: &P,
     modes: &P::Modes,
