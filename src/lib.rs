@@ -5,6 +5,7 @@
 
 pub mod fmi;
 pub mod integrator;
+pub mod math;
 pub mod model;
 #[path = "../modelDescription/mod.rs"]
 pub mod model_description;

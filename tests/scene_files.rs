@@ -7,9 +7,7 @@ use slidercrank::scene::{DampingLaw, DriveMode, FrictionLaw, JointModel, Scene, 
 
 /// The messages of a file that is refused.
 fn refused(text: &str) -> String {
-    read(text, "x.toml")
-        .expect_err("a file with a fault")
-        .to_string()
+    read(text, "x.toml").expect_err("a file with a fault").to_string()
 }
 
 #[test]
@@ -39,10 +37,7 @@ friction.law = "ambrosio"
 load = { against = "crank.angle", points = [["0 deg", 0], ["180 deg", "-2 kN"], ["360 deg", 0.0]] }
 "#;
     let file = read(text, "x.toml").expect("a legal file");
-    let mut scene = Scene {
-        gravity: 9.81,
-        ..Scene::default()
-    };
+    let mut scene = Scene { gravity: 9.81, ..Scene::default() };
     scene.drive.mode = DriveMode::Speed;
     scene.crank.length = 0.06;
     scene.crank.speed_start = 523.598_775_598_298_9;
@@ -52,63 +47,31 @@ load = { against = "crank.angle", points = [["0 deg", 0], ["180 deg", "-2 kN"], 
     scene.joint.c.contact.friction.law = FrictionLaw::Ambrosio;
     assert_eq!(file.scene, scene);
     assert_eq!(file.name, "worn");
-    assert_eq!(
-        file.run,
-        Run {
-            end: End::Turns(20.0),
-            step: 1e-5
-        }
-    );
+    assert_eq!(file.run, Run { end: End::Turns(20.0), step: 1e-5 });
     assert_eq!(file.inputs.crank_torque, Profile::Constant(2000.0));
-    let points = vec![
-        [0.0, 0.0],
-        [std::f64::consts::PI, -2000.0],
-        [std::f64::consts::TAU, 0.0],
-    ];
-    assert_eq!(
-        file.inputs.slider_load,
-        Profile::Points {
-            against: Against::CrankAngle,
-            points
-        }
-    );
+    let points = vec![[0.0, 0.0], [std::f64::consts::PI, -2000.0], [std::f64::consts::TAU, 0.0]];
+    assert_eq!(file.inputs.slider_load, Profile::Points { against: Against::CrankAngle, points });
     assert!((file.run.stop(&file.scene) - 0.24).abs() < 1e-15);
 }
 
 #[test]
 fn what_is_written_is_read_back_to_the_bit() {
-    let mut file = SceneFile {
-        name: "a \"b\"".into(),
-        description: "c\nd".into(),
-        ..SceneFile::default()
-    };
+    let mut file = SceneFile { name: "a \"b\"".into(), description: "c\nd".into(), ..SceneFile::default() };
     file.scene.joint.a.clearance = 0.1 + 0.2;
     file.scene.crank.speed_start = -std::f64::consts::TAU;
     file.scene.joint.a.radius = 1.0;
     file.scene.joint.t.model = JointModel::Clearance;
     file.scene.joint.t.contact.law = DampingLaw::ZhangSharf;
-    file.run = Run {
-        end: End::Turns(1.0 / 3.0),
-        step: 1e-7,
-    };
-    file.inputs.slider_load = Profile::Points {
-        against: Against::Time,
-        points: vec![[-1.0, 0.1], [0.3, 1e-300]],
-    };
+    file.run = Run { end: End::Turns(1.0 / 3.0), step: 1e-7 };
+    file.inputs.slider_load = Profile::Points { against: Against::Time, points: vec![[-1.0, 0.1], [0.3, 1e-300]] };
     file.scene.joint.a.clearance = 0.03;
     assert_eq!(read(&write(&file), "x.toml"), Ok(file));
 }
 
 #[test]
 fn a_wrong_key_names_its_neighbour() {
-    assert_eq!(
-        refused("[crank]\nlenght = 1\n"),
-        "x.toml:2:1: unknown key `crank.lenght`; is it `crank.length`?"
-    );
-    assert_eq!(
-        refused("[joint.c]\nmodel = \"ideal\"\n"),
-        "x.toml:1:8: unknown key `joint.c`; is it `joint.C`?"
-    );
+    assert_eq!(refused("[crank]\nlenght = 1\n"), "x.toml:2:1: unknown key `crank.lenght`; is it `crank.length`?");
+    assert_eq!(refused("[joint.c]\nmodel = \"ideal\"\n"), "x.toml:1:8: unknown key `joint.c`; is it `joint.C`?");
     assert_eq!(
         refused("[run]\nfoo = 1\n"),
         "x.toml:2:1: unknown key `run.foo`; known here: run.turns, run.stop, run.step"
@@ -125,18 +88,9 @@ fn a_wrong_type_or_item_names_what_is_allowed() {
         refused("[crank]\nlength = true\n"),
         "x.toml:2:10: crank.length = true: wanted a number in m or a text with a unit"
     );
-    assert_eq!(
-        refused("joint.A = 3\n").split(": wanted").next(),
-        Some("x.toml:1:11: joint.A = 3")
-    );
-    assert_eq!(
-        refused("drive.mode = 1"),
-        "x.toml:1:14: drive.mode = 1: wanted one of the texts torque, speed"
-    );
-    assert_eq!(
-        refused("drive.mode = \"sped\""),
-        "x.toml:1:14: drive.mode = \"sped\" is not allowed: torque, speed"
-    );
+    assert_eq!(refused("joint.A = 3\n").split(": wanted").next(), Some("x.toml:1:11: joint.A = 3"));
+    assert_eq!(refused("drive.mode = 1"), "x.toml:1:14: drive.mode = 1: wanted one of the texts torque, speed");
+    assert_eq!(refused("drive.mode = \"sped\""), "x.toml:1:14: drive.mode = \"sped\" is not allowed: torque, speed");
     assert_eq!(refused("name = 1"), "x.toml:1:8: name = 1: wanted a text");
 }
 
@@ -158,10 +112,7 @@ fn a_value_out_of_range_names_the_range() {
         refused("[joint.C]\nclearance = \"200 mm\""),
         "x.toml:2:13: joint.C.clearance = \"200 mm\" is not allowed: 1e-9 to 0.1 m"
     );
-    assert_eq!(
-        refused("run.step = 0"),
-        "x.toml:1:12: run.step = 0 is not allowed: above 0, at most 1000000.0 s"
-    );
+    assert_eq!(refused("run.step = 0"), "x.toml:1:12: run.step = 0 is not allowed: above 0, at most 1000000.0 s");
     assert!(refused("gravity = nan").starts_with("x.toml:1:11: gravity = nan: wanted a number"));
     assert!(refused("slider.load = inf").starts_with("x.toml:1:15: slider.load = inf: wanted"));
 }
@@ -186,12 +137,7 @@ fn values_that_do_not_go_together_stand_at_the_one_to_change() {
 fn the_same_key_twice_is_refused() {
     let toml = refused("[crank]\nlength = 1\nlength = 2\n");
     assert!(toml.starts_with("x.toml:3:1: duplicate key"), "{toml}");
-    assert_eq!(
-        refused("crank.length = 1\n\"crank.length\" = 2\n")
-            .lines()
-            .count(),
-        1
-    );
+    assert_eq!(refused("crank.length = 1\n\"crank.length\" = 2\n").lines().count(), 1);
 }
 
 #[test]
@@ -204,20 +150,14 @@ fn every_fault_is_told_in_the_file_s_order() {
 
 #[test]
 fn points_rise_and_the_turn_closes() {
-    let load = |points: &str| {
-        refused(&format!(
-            "slider.load = {{ against = \"crank.angle\", points = {points} }}"
-        ))
-    };
+    let load = |points: &str| refused(&format!("slider.load = {{ against = \"crank.angle\", points = {points} }}"));
     assert!(load("[[0, 0], [0, 1]]").contains("rising angles from 0 to 360 deg"));
     assert!(load("[[0, 0], [\"400 deg\", 1]]").contains("rising angles from 0 to 360 deg"));
     assert!(load("[[0, 0], [\"360 deg\", 1]]").contains("the turn repeats"));
     assert!(load("[]").contains("wanted points = [[rad, N], ...]"));
     assert!(load("[[0, 0, 0]]").contains("wanted [rad, N]"));
     assert!(load("[[0, \"1 m\"]]").contains("`m` measures something else"));
-    assert!(
-        refused("slider.load.points = [[0, 0]]").contains("against = \"time\" or \"crank.angle\"")
-    );
+    assert!(refused("slider.load.points = [[0, 0]]").contains("against = \"time\" or \"crank.angle\""));
 }
 
 #[test]
@@ -234,10 +174,7 @@ fn every_shipped_scene_is_legal() {
                 continue;
             }
         };
-        assert_eq!(
-            path.file_stem().and_then(|stem| stem.to_str()),
-            Some(file.name.as_str())
-        );
+        assert_eq!(path.file_stem().and_then(|stem| stem.to_str()), Some(file.name.as_str()));
         assert!(!file.description.is_empty() && file.run.stop(&file.scene).is_finite());
         names.push(file.name);
     }

@@ -46,10 +46,7 @@ pub fn model_description(
     written: Option<u64>,
 ) -> Result<String, DescriptionError> {
     let declaration = model_description::load()?;
-    let starts: Vec<f64> = PARAMETERS
-        .iter()
-        .map(|parameter| parameter.value(scene))
-        .collect();
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
     let package = xml::Package {
         guid: &slot::guid(scene),
         starts: &starts,
@@ -62,15 +59,8 @@ pub fn model_description(
 /// `documentation/index.html` of a package whose start values are the scene's; `title` tells which
 /// scene that is.
 pub fn documentation(scene: &Scene, title: &str) -> Result<String, DescriptionError> {
-    let starts: Vec<f64> = PARAMETERS
-        .iter()
-        .map(|parameter| parameter.value(scene))
-        .collect();
-    let subject = page::Subject {
-        scene: title,
-        starts: &starts,
-        least_restitution: LEAST_RESTITUTION,
-    };
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
+    let subject = page::Subject { scene: title, starts: &starts, least_restitution: LEAST_RESTITUTION };
     Ok(page::write(&model_description::load()?, &subject))
 }
 

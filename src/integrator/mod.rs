@@ -1,1 +1,26 @@
-//! Knows no mechanism, only `Problem`.
+//! Marches a hybrid system through time and knows no mechanism, only [`Problem`].
+//!
+//! A hybrid system has a continuous state, which follows its rates, and discrete modes, which hold
+//! during a step and change only at events. [`Integrator::advance`] attempts a step, judges its
+//! error, locates the first event in it, lands on that event and commits. Steps never look at
+//! communication points: [`Integrator::state_at`] interpolates back into the last step, so that the
+//! sequence of steps is the same however a host cuts up time.
+
+mod controller;
+pub mod dense_output;
+mod error;
+mod event;
+pub mod methods;
+mod problem;
+pub mod root;
+pub mod stages;
+mod statistics;
+mod step;
+mod tableau;
+
+pub use controller::Settings;
+pub use error::IntegrationError;
+pub use problem::{Crossed, GUARDS, Guard, Problem, Reset};
+pub use statistics::Statistics;
+pub use step::{Front, Integrator, Memory};
+pub use tableau::{Method, Tableau};

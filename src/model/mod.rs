@@ -1,3 +1,27 @@
 //! What the asked-for mechanism is.
+//!
+//! [`scene`](crate::scene) says which joints are ideal and which have clearance; here that becomes a
+//! set of minimal coordinates and a right-hand side that holds the effects called for and no others.
+//! Reading order: `mechanism` (bodies, chains), `coordinates`, `kinematics`, `dynamics` (M·q̈ = Q),
+//! `open` and `closed` (the two kinds of mechanism), `joint` and `contact` (forces), `reactions` and
+//! `outputs`.
 
+pub mod closed;
+pub mod contact;
+pub mod coordinates;
+pub mod drive;
+pub mod dynamics;
+pub mod friction;
+pub mod ideal;
+pub mod joint;
+pub mod kinematics;
+pub mod mechanism;
+pub mod open;
+pub mod outputs;
+pub mod plane;
+pub mod plant;
+pub mod reactions;
+pub mod scales;
 pub mod signals;
+pub mod start;
+pub mod state;

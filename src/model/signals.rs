@@ -120,3 +120,48 @@ pub struct SolverOutputs {
     /// Openings and closings of contacts.
     pub events: i32,
 }
+
+impl Outputs {
+    /// `combine` applied to each real output of both; integers and Booleans are left out.
+    pub fn combined(&self, other: &Self, combine: impl Fn(f64, f64) -> f64 + Copy) -> Self {
+        let pair = |a: [f64; 2], b: [f64; 2]| [combine(a[0], b[0]), combine(a[1], b[1])];
+        let revolute = |a: &RevoluteOutputs, b: &RevoluteOutputs| RevoluteOutputs {
+            force: pair(a.force, b.force),
+            eccentricity: pair(a.eccentricity, b.eccentricity),
+            penetration: combine(a.penetration, b.penetration),
+            contact: false,
+        };
+        let (a, b) = (self, other);
+        Self {
+            slider: SliderOutputs {
+                x: combine(a.slider.x, b.slider.x),
+                v: combine(a.slider.v, b.slider.v),
+                a: combine(a.slider.a, b.slider.a),
+                y: combine(a.slider.y, b.slider.y),
+                angle: combine(a.slider.angle, b.slider.angle),
+            },
+            crank: CrankOutputs {
+                angle: combine(a.crank.angle, b.crank.angle),
+                speed: combine(a.crank.speed, b.crank.speed),
+                acceleration: combine(a.crank.acceleration, b.crank.acceleration),
+            },
+            rod: RodOutputs { angle: combine(a.rod.angle, b.rod.angle), speed: combine(a.rod.speed, b.rod.speed) },
+            joint_a: revolute(&a.joint_a, &b.joint_a),
+            joint_b: revolute(&a.joint_b, &b.joint_b),
+            joint_c: revolute(&a.joint_c, &b.joint_c),
+            joint_t: GuideOutputs {
+                force: pair(a.joint_t.force, b.joint_t.force),
+                moment: combine(a.joint_t.moment, b.joint_t.moment),
+                penetration: combine(a.joint_t.penetration, b.joint_t.penetration),
+                contacts: 0,
+            },
+            drive_torque: combine(a.drive_torque, b.drive_torque),
+            accuracy: AccuracyOutputs {
+                position: combine(a.accuracy.position, b.accuracy.position),
+                velocity: combine(a.accuracy.velocity, b.accuracy.velocity),
+                acceleration: combine(a.accuracy.acceleration, b.accuracy.acceleration),
+            },
+            solver: SolverOutputs::default(),
+        }
+    }
+}

@@ -78,15 +78,7 @@ pub enum Fault {
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (
-            index,
-            Problem {
-                line,
-                column,
-                fault,
-            },
-        ) in self.problems.iter().enumerate()
-        {
+        for (index, Problem { line, column, fault }) in self.problems.iter().enumerate() {
             let separator = if index == 0 { "" } else { "\n" };
             write!(f, "{separator}{}:{line}:{column}: {fault}", self.file)?;
         }
@@ -100,35 +92,18 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Syntax(text) => f.write_str(text),
-            Self::UnknownKey {
-                key,
-                nearest: Some(nearest),
-                ..
-            } => {
+            Self::UnknownKey { key, nearest: Some(nearest), .. } => {
                 write!(f, "unknown key `{key}`; is it `{nearest}`?")
             }
-            Self::UnknownKey {
-                key,
-                nearest: None,
-                known,
-            } => {
+            Self::UnknownKey { key, nearest: None, known } => {
                 write!(f, "unknown key `{key}`; known here: {}", known.join(", "))
             }
             Self::Twice { key } => write!(f, "`{key}` is said twice"),
             Self::Type { key, found, wanted } => write!(f, "{key} = {found}: wanted {wanted}"),
-            Self::Unit {
-                key,
-                found,
-                why,
-                units,
-            } => {
+            Self::Unit { key, found, why, units } => {
                 write!(f, "{key} = {found}: {why}; units: {units}")
             }
-            Self::Value {
-                key,
-                found,
-                allowed,
-            } => {
+            Self::Value { key, found, allowed } => {
                 write!(f, "{key} = {found} is not allowed: {allowed}")
             }
             Self::Conflict(error) => error.fmt(f),
@@ -141,9 +116,7 @@ pub(super) fn nearest<'a>(path: &str, candidates: &'a [String]) -> Option<&'a St
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_lowercase();
     let key = last(path);
     let distance = |candidate: &String| strsim::damerau_levenshtein(&last(candidate), &key);
-    let best = candidates
-        .iter()
-        .min_by_key(|candidate| distance(candidate))?;
+    let best = candidates.iter().min_by_key(|candidate| distance(candidate))?;
     (distance(best) <= key.chars().count() / 3).then_some(best)
 }
 
@@ -151,8 +124,5 @@ pub(super) fn nearest<'a>(path: &str, candidates: &'a [String]) -> Option<&'a St
 pub(super) fn position(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (
-        before.matches('\n').count() + 1,
-        before[line_start..].chars().count() + 1,
-    )
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }

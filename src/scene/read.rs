@@ -55,19 +55,12 @@ const LONGEST: f64 = 1e6;
 
 /// Reads a scene file's text; `file` is its name for messages.
 pub fn read(text: &str, file: &str) -> Result<SceneFile, ReadError> {
-    let mut reader = Reader {
-        text,
-        found: SceneFile::default(),
-        places: HashMap::new(),
-        faults: vec![],
-    };
+    let mut reader = Reader { text, found: SceneFile::default(), places: HashMap::new(), faults: vec![] };
     match DeTable::parse(text) {
         Ok(table) => reader.table("", table.get_ref()),
         Err(error) => {
             let offset = error.span().map_or(0, |span| span.start);
-            reader
-                .faults
-                .push((offset, Fault::Syntax(error.message().to_owned())));
+            reader.faults.push((offset, Fault::Syntax(error.message().to_owned())));
         }
     }
     if reader.faults.is_empty() {
@@ -79,17 +72,10 @@ pub fn read(text: &str, file: &str) -> Result<SceneFile, ReadError> {
     reader.faults.sort_by_key(|(offset, _)| *offset);
     let problem = |(offset, fault)| {
         let (line, column) = position(text, offset);
-        Problem {
-            line,
-            column,
-            fault,
-        }
+        Problem { line, column, fault }
     };
     let problems = reader.faults.into_iter().map(problem).collect();
-    Err(ReadError {
-        file: file.to_owned(),
-        problems,
-    })
+    Err(ReadError { file: file.to_owned(), problems })
 }
 
 struct Reader<'i> {
@@ -127,9 +113,7 @@ impl<'i> Reader<'i> {
             return self.inner_table(path, value);
         }
         if self.places.insert(path.to_owned(), offset).is_some() {
-            return Err(Fault::Twice {
-                key: path.to_owned(),
-            });
+            return Err(Fault::Twice { key: path.to_owned() });
         }
         if let Some(parameter) = parameter {
             return self.parameter(parameter, value);
@@ -162,11 +146,7 @@ impl<'i> Reader<'i> {
                 let prefix = path.rsplit_once('.').map_or("", |(prefix, _)| prefix);
                 let known = children(prefix);
                 let nearest = nearest(path, &known).cloned();
-                Err(Fault::UnknownKey {
-                    key: path.to_owned(),
-                    nearest,
-                    known,
-                })
+                Err(Fault::UnknownKey { key: path.to_owned(), nearest, known })
             }
             DeValue::Table(table) => {
                 self.table(path, table);
@@ -184,40 +164,23 @@ impl<'i> Reader<'i> {
         let key = || parameter.name.to_owned();
         let found = || source(self.text, value);
         let (number, allowed) = match &parameter.kind {
-            Kind::Real { unit, .. } => (
-                number(self.text, parameter.name, value, unit)?,
-                parameter.allowed(),
-            ),
+            Kind::Real { unit, .. } => (number(self.text, parameter.name, value, unit)?, parameter.allowed()),
             Kind::Enumeration { items, .. } => {
                 let names: Vec<&str> = items.iter().map(|(name, _)| *name).collect();
                 let allowed = names.join(", ");
                 let Some(text) = value.get_ref().as_str() else {
                     let wanted = format!("one of the texts {allowed}");
-                    return Err(Fault::Type {
-                        key: key(),
-                        found: found(),
-                        wanted,
-                    });
+                    return Err(Fault::Type { key: key(), found: found(), wanted });
                 };
                 match items.iter().find(|(name, _)| *name == text) {
                     Some((_, value)) => (f64::from(*value), allowed),
                     None => {
-                        return Err(Fault::Value {
-                            key: key(),
-                            found: found(),
-                            allowed,
-                        });
+                        return Err(Fault::Value { key: key(), found: found(), allowed });
                     }
                 }
             }
         };
-        parameter
-            .write(&mut self.found.scene, number)
-            .map_err(|_| Fault::Value {
-                key: key(),
-                found: found(),
-                allowed,
-            })
+        parameter.write(&mut self.found.scene, number).map_err(|_| Fault::Value { key: key(), found: found(), allowed })
     }
 
     fn text_of(&self, key: &str, value: &Value<'i>) -> Result<String, Fault> {
@@ -232,12 +195,10 @@ impl<'i> Reader<'i> {
     fn profile(&mut self, key: &str, value: &Value<'i>, unit: &str) -> Result<Profile, Fault> {
         match value.get_ref() {
             DeValue::Table(table) => {
-                read_profile::points(self.text, key, table, value.span().start, unit).or_else(
-                    |(offset, fault)| {
-                        self.faults.push((offset, fault));
-                        Ok(Profile::default())
-                    },
-                )
+                read_profile::points(self.text, key, table, value.span().start, unit).or_else(|(offset, fault)| {
+                    self.faults.push((offset, fault));
+                    Ok(Profile::default())
+                })
             }
             _ => number(self.text, key, value, unit).map(Profile::Constant),
         }
@@ -247,24 +208,14 @@ impl<'i> Reader<'i> {
     fn check(&mut self) {
         let place = |name: &str| self.places.get(name).copied();
         let end = place("run.turns").or(place("run.stop")).unwrap_or(0);
-        let turns_at_rest = matches!(self.found.run.end, End::Turns(_))
-            && self.found.scene.crank.speed_start == 0.0;
+        let turns_at_rest = matches!(self.found.run.end, End::Turns(_)) && self.found.scene.crank.speed_start == 0.0;
         if place("run.turns").is_some() && place("run.stop").is_some() {
-            self.faults.push((
-                end,
-                Fault::Twice {
-                    key: "run.turns, run.stop".to_owned(),
-                },
-            ));
+            self.faults.push((end, Fault::Twice { key: "run.turns, run.stop".to_owned() }));
         } else if turns_at_rest {
             let name = "run.turns".to_owned();
             let allowed = "run.stop instead, for a crank that starts at rest".to_owned();
             let (End::Turns(value) | End::Time(value)) = self.found.run.end;
-            let conflict = SceneError::Conflict {
-                name,
-                value,
-                allowed,
-            };
+            let conflict = SceneError::Conflict { name, value, allowed };
             self.faults.push((end, Fault::Conflict(conflict)));
         }
         if let Err(error) = self.found.scene.check() {
@@ -285,11 +236,7 @@ fn children(prefix: &str) -> Vec<String> {
     let mut children: Vec<String> = vec![];
     for rest in names.filter_map(inside) {
         let child = rest.split('.').next().unwrap_or(rest);
-        let path = if prefix.is_empty() {
-            child.to_owned()
-        } else {
-            format!("{prefix}.{child}")
-        };
+        let path = if prefix.is_empty() { child.to_owned() } else { format!("{prefix}.{child}") };
         if !children.contains(&path) {
             children.push(path);
         }

@@ -20,9 +20,9 @@ pub(super) fn number(text: &str, key: &str, value: &Value, unit: &str) -> Result
     };
     let number: f64 = match value.get_ref() {
         DeValue::Float(float) => float.as_str().parse().map_err(|_| wrong())?,
-        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
-            .map(|integer| integer as f64)
-            .map_err(|_| wrong())?,
+        DeValue::Integer(integer) => {
+            i64::from_str_radix(integer.as_str(), integer.radix()).map(|integer| integer as f64).map_err(|_| wrong())?
+        }
         DeValue::String(quoted) => quantity(quoted, unit).map_err(|why| Fault::Unit {
             key: key.to_owned(),
             found: source(text, value),
@@ -39,9 +39,5 @@ pub(super) fn source(text: &str, value: &Value) -> String {
     let whole = text.get(value.span()).unwrap_or_default();
     let mut lines = whole.lines();
     let first = lines.next().unwrap_or_default().to_owned();
-    if lines.next().is_some() {
-        first + " ..."
-    } else {
-        first
-    }
+    if lines.next().is_some() { first + " ..." } else { first }
 }

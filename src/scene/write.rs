@@ -17,11 +17,7 @@ pub fn write(file: &SceneFile) -> String {
         End::Time(time) => line(&mut out, "run.stop", &format!("{time:?}")),
     }
     line(&mut out, "run.step", &format!("{:?}", file.run.step));
-    line(
-        &mut out,
-        "crank.torque",
-        &profile(&file.inputs.crank_torque),
-    );
+    line(&mut out, "crank.torque", &profile(&file.inputs.crank_torque));
     line(&mut out, "slider.load", &profile(&file.inputs.slider_load));
     for parameter in PARAMETERS {
         let value = match parameter.kind {

@@ -10,10 +10,7 @@ use slidercrank::model_description::rows::read;
 use slidercrank::scene::{PARAMETERS, Scene, slot};
 use std::{env, fs};
 
-const COMMITTED: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/modelDescription/modelDescription.xml"
-);
+const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/modelDescription.xml");
 const ROWS: &str = include_str!("../../modelDescription/variables.toml");
 
 fn made() -> String {
@@ -26,10 +23,7 @@ fn the_committed_copy_is_fresh() {
         fs::write(COMMITTED, made()).expect("modelDescription.xml written");
     }
     let committed = fs::read_to_string(COMMITTED).unwrap_or_default();
-    assert!(
-        committed == made(),
-        "modelDescription.xml is stale: run the tests once with BLESS=1"
-    );
+    assert!(committed == made(), "modelDescription.xml is stale: run the tests once with BLESS=1");
 }
 
 #[test]
@@ -39,9 +33,7 @@ fn the_description_breaks_no_rule() {
     for parameter in PARAMETERS {
         // Edges of the ranges are legal start values too.
         if let slidercrank::scene::parameter::Kind::Real { max, .. } = parameter.kind {
-            parameter
-                .write(&mut scene, max)
-                .expect("the greatest legal value");
+            parameter.write(&mut scene, max).expect("the greatest legal value");
         }
     }
     let dated = model_description(&scene, None, Some(1_767_225_599)).expect("a description");
@@ -53,90 +45,34 @@ fn the_description_breaks_no_rule() {
 const SEEDS: [(&str, &str, &str); 22] = [
     ("unit=\"N.m\" nominal", "unit=\"N.mm\" nominal", "unit"),
     ("<Unit name=\"rad\">", "<Unit name=\"m\">", "twice"),
-    (
-        "displayUnit=\"mm\" nominal",
-        "displayUnit=\"inch\" nominal",
-        "displayUnit",
-    ),
+    ("displayUnit=\"mm\" nominal", "displayUnit=\"inch\" nominal", "displayUnit"),
     (
         "<Real quantity=\"Angle\" unit=\"rad\" displayUnit=\"deg\"/>",
         "<Real quantity=\"Angle\" unit=\"rad\" displayUnit=\"gon\"/>",
         "displayUnit",
     ),
-    (
-        "<InitialUnknowns>",
-        "<InitialUnknowns><Unknown index=\"1\"/>",
-        "InitialUnknowns",
-    ),
-    (
-        "valueReference=\"7\"",
-        "valueReference=\"6\"",
-        "valueReference",
-    ),
-    (
-        "min=\"0.0001\" max=\"100.0\" start=\"0.05\"",
-        "min=\"0.06\" max=\"100.0\" start=\"0.05\"",
-        "start",
-    ),
+    ("<InitialUnknowns>", "<InitialUnknowns><Unknown index=\"1\"/>", "InitialUnknowns"),
+    ("valueReference=\"7\"", "valueReference=\"6\"", "valueReference"),
+    ("min=\"0.0001\" max=\"100.0\" start=\"0.05\"", "min=\"0.06\" max=\"100.0\" start=\"0.05\"", "start"),
     ("name=\"slider.y\"", "name=\"slider.x\"", "twice"),
     ("name=\"slider.y\"", "name=\"slider.2y\"", "structured"),
-    (
-        "dependencies=\"1 2\"",
-        "dependencies=\"1 2000\"",
-        "dependencies",
-    ),
-    (
-        "dependencies=\"1 2\"",
-        "dependencies=\"2 1\"",
-        "dependencies",
-    ),
-    (
-        "dependencies=\"1 2\"",
-        "dependencies=\"1 5\"",
-        "dependencies",
-    ),
-    (
-        "variableNaming",
-        "generationDateAndTime=\"2026-01-01T00:00:00+00:00\" variableNaming",
-        "date",
-    ),
-    (
-        "declaredType=\"Torque\"",
-        "declaredType=\"Torc\"",
-        "declaredType",
-    ),
-    (
-        "<Outputs>\n      <Unknown index=\"3\" dependencies=\"\"/>",
-        "<Outputs>",
-        "Outputs",
-    ),
-    (
-        "nominal=\"100.0\" start=\"0.0\"",
-        "nominal=\"100.0\"",
-        "start",
-    ),
+    ("dependencies=\"1 2\"", "dependencies=\"1 2000\"", "dependencies"),
+    ("dependencies=\"1 2\"", "dependencies=\"2 1\"", "dependencies"),
+    ("dependencies=\"1 2\"", "dependencies=\"1 5\"", "dependencies"),
+    ("variableNaming", "generationDateAndTime=\"2026-01-01T00:00:00+00:00\" variableNaming", "date"),
+    ("declaredType=\"Torque\"", "declaredType=\"Torc\"", "declaredType"),
+    ("<Outputs>\n      <Unknown index=\"3\" dependencies=\"\"/>", "<Outputs>", "Outputs"),
+    ("nominal=\"100.0\" start=\"0.0\"", "nominal=\"100.0\"", "start"),
     (
         "variability=\"continuous\" initial=\"calculated\"",
         "variability=\"tunable\" initial=\"calculated\"",
         "variability",
     ),
     (" start=\"0.05\"", "", "start"),
-    (
-        "modelIdentifier=\"SliderCrank\"",
-        "modelIdentifier=\"Slider-Crank\"",
-        "modelIdentifier",
-    ),
+    ("modelIdentifier=\"SliderCrank\"", "modelIdentifier=\"Slider-Crank\"", "modelIdentifier"),
     ("stopTime=\"1.0\"", "stopTime=\"-1.0\"", "stopTime"),
-    (
-        "<SimpleType name=\"Force\"",
-        "<SimpleType name=\"gravity\"",
-        "declaredType",
-    ),
-    (
-        "<Category name=\"logAll\"",
-        "<Category name=\"logEvents\"",
-        "twice",
-    ),
+    ("<SimpleType name=\"Force\"", "<SimpleType name=\"gravity\"", "declaredType"),
+    ("<Category name=\"logAll\"", "<Category name=\"logEvents\"", "twice"),
 ];
 
 #[test]
@@ -145,10 +81,7 @@ fn each_seeded_fault_is_caught() {
     for (from, to, word) in SEEDS {
         assert!(xml.contains(from), "{from} is not in the description");
         let found = problems(&xml.replacen(from, to, 1));
-        assert!(
-            found.iter().any(|problem| problem.contains(word)),
-            "{to}: {found:?}"
-        );
+        assert!(found.iter().any(|problem| problem.contains(word)), "{to}: {found:?}");
     }
 }
 
@@ -156,16 +89,10 @@ fn each_seeded_fault_is_caught() {
 fn value_references_and_tables_are_those_of_the_description() {
     let xml = made();
     let document = roxmltree::Document::parse(&xml).expect("well-formed XML");
-    let scalars: Vec<_> = document
-        .descendants()
-        .filter(|node| node.has_tag_name("ScalarVariable"))
-        .collect();
+    let scalars: Vec<_> = document.descendants().filter(|node| node.has_tag_name("ScalarVariable")).collect();
     assert_eq!(scalars.len(), VARIABLES.len());
     for (index, (scalar, variable)) in scalars.iter().zip(VARIABLES).enumerate() {
-        assert_eq!(
-            scalar.attribute("valueReference"),
-            Some(index.to_string().as_str())
-        );
+        assert_eq!(scalar.attribute("valueReference"), Some(index.to_string().as_str()));
         assert_eq!(scalar.attribute("name"), Some(variable.name));
         let causality = match &variable.access {
             Access::Input { .. } => "input",
@@ -177,21 +104,9 @@ fn value_references_and_tables_are_those_of_the_description() {
         };
         assert_eq!(scalar.attribute("causality"), Some(causality));
     }
-    let categories: Vec<_> = document
-        .descendants()
-        .filter(|node| node.has_tag_name("Category"))
-        .collect();
-    let names: Vec<_> = categories
-        .iter()
-        .filter_map(|node| node.attribute("name"))
-        .collect();
-    assert_eq!(
-        names,
-        LogCategory::ALL
-            .iter()
-            .map(|category| category.name())
-            .collect::<Vec<_>>()
-    );
+    let categories: Vec<_> = document.descendants().filter(|node| node.has_tag_name("Category")).collect();
+    let names: Vec<_> = categories.iter().filter_map(|node| node.attribute("name")).collect();
+    assert_eq!(names, LogCategory::ALL.iter().map(|category| category.name()).collect::<Vec<_>>());
 }
 
 #[test]
@@ -215,73 +130,30 @@ fn the_page_names_every_variable_and_leaves_no_place_unfilled() {
     for variable in VARIABLES {
         let template = ["A", "B", "C", "T"]
             .iter()
-            .fold(variable.name.to_owned(), |name, letter| {
-                name.replace(&format!("joint.{letter}."), "joint.J.")
-            });
-        let named = [variable.name, &template]
-            .iter()
-            .any(|name| page.contains(&format!("<code>{name}</code>")));
+            .fold(variable.name.to_owned(), |name, letter| name.replace(&format!("joint.{letter}."), "joint.J."));
+        let named = [variable.name, &template].iter().any(|name| page.contains(&format!("<code>{name}</code>")));
         assert!(named, "{}", variable.name);
     }
 }
 
 /// What stands in the declaration, what replaces it, and the complaint.
 const WRONG_ROWS: [(&str, &str, &str); 9] = [
-    (
-        "causality = \"input\"",
-        "causality = \"local\"",
-        "cannot be local, continuous and Torque",
-    ),
-    (
-        "type = \"Boolean\", field",
-        "type = \"Torque\", field",
-        "cannot be output, discrete and Torque",
-    ),
-    (
-        "start = 0.05, min = 1e-4",
-        "start = 0.05, min = 0.1",
-        "not min <= start <= max and nominal > 0",
-    ),
-    (
-        "start = 0.05, min = 1e-4",
-        "min = 1e-4",
-        "`start` is missing",
-    ),
-    (
-        "start = 0.05, min = 1e-4, ",
-        "start = 0.05, ",
-        "`min` is missing",
-    ),
-    (
-        "name = \"slider.v\"",
-        "name = \"slider.x\"",
-        "`slider.x` is declared twice",
-    ),
-    (
-        "name = \"slider.v\"",
-        "name = \"slider v\"",
-        "`slider v` is not a structured name",
-    ),
-    (
-        "at_start = [\"crank.angle_start\"]",
-        "at_start = [\"crank.angel\"]",
-        "`crank.angel` is not declared",
-    ),
-    (
-        "start = \"verner7\"",
-        "start = \"verner9\"",
-        "`verner9` is not declared",
-    ),
+    ("causality = \"input\"", "causality = \"local\"", "cannot be local, continuous and Torque"),
+    ("type = \"Boolean\", field", "type = \"Torque\", field", "cannot be output, discrete and Torque"),
+    ("start = 0.05, min = 1e-4", "start = 0.05, min = 0.1", "not min <= start <= max and nominal > 0"),
+    ("start = 0.05, min = 1e-4", "min = 1e-4", "`start` is missing"),
+    ("start = 0.05, min = 1e-4, ", "start = 0.05, ", "`min` is missing"),
+    ("name = \"slider.v\"", "name = \"slider.x\"", "`slider.x` is declared twice"),
+    ("name = \"slider.v\"", "name = \"slider v\"", "`slider v` is not a structured name"),
+    ("at_start = [\"crank.angle_start\"]", "at_start = [\"crank.angel\"]", "`crank.angel` is not declared"),
+    ("start = \"verner7\"", "start = \"verner9\"", "`verner9` is not declared"),
 ];
 
 #[test]
 fn a_wrong_row_is_refused_with_its_line() {
     for (from, to, complaint) in WRONG_ROWS {
         let (before, _) = ROWS.split_once(from).expect("a part of the declaration");
-        let error = read(&ROWS.replacen(from, to, 1))
-            .err()
-            .expect("a wrong row")
-            .to_string();
+        let error = read(&ROWS.replacen(from, to, 1)).err().expect("a wrong row").to_string();
         assert!(error.ends_with(complaint), "{error}");
         let line = before.matches('\n').count() + 1;
         // A group's causality is found wrong at the group's first row, three lines on.

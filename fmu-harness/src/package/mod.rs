@@ -1,0 +1,79 @@
+//! Library + description + documents → a `.fmu` whose bytes depend on nothing else.
+
+pub mod archive;
+pub mod build;
+pub mod elf;
+mod licences;
+
+use crate::scenes::Scenario;
+use anyhow::{Context, Result, bail};
+use archive::Part;
+use slidercrank::model_description::{self, rows::Declaration, xml};
+use slidercrank::scene::{parameter::PARAMETERS, slot};
+use std::env::consts::DLL_SUFFIX;
+use std::fs;
+use std::path::Path;
+
+/// Drawing of the mechanism, made from `model.svg` by the test `the_picture_is_the_drawing`.
+const PICTURE: &[u8] = include_bytes!("../../assets/model.png");
+
+/// A packaged FMU.
+pub struct Package {
+    /// The `.fmu` file.
+    pub bytes: Vec<u8>,
+    /// Newest glibc that the Linux binary asks for.
+    pub glibc: Option<String>,
+}
+
+impl Package {
+    /// Builds the library and packages it with the scenario's values as start values.
+    pub fn make(scenario: &Scenario) -> Result<Self> {
+        let path = build::library()?;
+        let library = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        let parts = parts(scenario, library)?;
+        let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
+        Ok(Self { bytes: archive::write(&parts)?, glibc })
+    }
+
+    /// Writes the file, making its directory if need be.
+    pub fn save(&self, file: &Path) -> Result<()> {
+        let context = || format!("cannot write {}", file.display());
+        fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).with_context(context)?;
+        fs::write(file, &self.bytes).with_context(context)
+    }
+}
+
+/// Everything that goes into the archive, in its order.
+fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
+    let declaration = model_description::load().context("the declaration of the variables")?;
+    slot::write(&mut library, &scenario.scene)?;
+    let identifier = &declaration.model.identifier;
+    Ok(vec![
+        Part::new("modelDescription.xml", description(&declaration, scenario)?),
+        Part::new("model.png", PICTURE),
+        Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
+        Part::new("documentation/index.html", "<!DOCTYPE html>"),
+        Part::new("documentation/scene.toml", scenario.text.as_str()),
+        Part::new("documentation/licenses/license.txt", licences::own()),
+        Part::new("documentation/licenses/third-party.txt", licences::third_party()?),
+    ])
+}
+
+/// modelDescription.xml of the scenario.
+fn description(declaration: &Declaration, scenario: &Scenario) -> Result<String> {
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(&scenario.scene)).collect();
+    let guid = slot::guid(&scenario.scene);
+    let mut package = xml::Package::anonymous(declaration, &starts);
+    package.guid = &guid;
+    Ok(xml::write(declaration, &package)?)
+}
+
+/// FMI 2.0 names three platforms that there are machines of.
+fn platform() -> Result<&'static str> {
+    match (std::env::consts::OS, std::env::consts::ARCH) {
+        ("linux", "x86_64") => Ok("linux64"),
+        ("windows", "x86_64") => Ok("win64"),
+        ("macos", _) => Ok("darwin64"),
+        (os, arch) => bail!("FMI 2.0 has no name for the platform {arch} {os}"),
+    }
+}

@@ -1,0 +1,55 @@
+//! Steps and what came of them.
+
+use super::super::error::Error;
+use super::super::lifecycle::State;
+use super::super::status::{Status, StatusKind};
+use super::Instance;
+use crate::simulation::SimulationError;
+
+impl Instance {
+    /// `fmi2DoStep`
+    pub fn do_step(&mut self, point: f64, size: f64) -> Result<(), Error> {
+        let end = self.experiment.step_end(self.time(), point, size)?;
+        let outcome = self.live()?.advance_to(end);
+        self.inputs.move_on();
+        self.outputs = None;
+        self.state = match &outcome {
+            Ok(()) => State::StepComplete,
+            Err(SimulationError::Integration { .. }) => State::StepFailed,
+            Err(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => State::Error,
+        };
+        let outcome = outcome.map_err(Error::from);
+        self.last_step = outcome.as_ref().err().map_or(Status::Ok, Error::status);
+        outcome
+    }
+
+    /// `fmi2GetStatus`
+    pub fn step_status(&self, kind: StatusKind) -> Result<Status, Error> {
+        match kind {
+            StatusKind::DoStep => Ok(self.last_step),
+            other => Err(Error::StatusKind(other)),
+        }
+    }
+
+    /// `fmi2GetRealStatus`
+    pub fn real_status(&self, kind: StatusKind) -> Result<f64, Error> {
+        match kind {
+            StatusKind::LastSuccessfulTime => Ok(self.time()),
+            other => Err(Error::StatusKind(other)),
+        }
+    }
+
+    /// `fmi2GetBooleanStatus`. The mechanism never asks for the simulation's end.
+    pub fn boolean_status(&self, kind: StatusKind) -> Result<bool, Error> {
+        match kind {
+            StatusKind::Terminated => Ok(false),
+            other => Err(Error::StatusKind(other)),
+        }
+    }
+
+    /// `fmi2GetIntegerStatus`, `fmi2GetStringStatus`: the standard has no integer status, and a
+    /// string only about a step under way.
+    pub fn no_status<T>(&self, kind: StatusKind) -> Result<T, Error> {
+        Err(Error::StatusKind(kind))
+    }
+}

@@ -1,0 +1,63 @@
+//! Error norm and step-size control.
+
+use super::stages::Attempt;
+use super::tableau::Method;
+use crate::math;
+
+/// How accurate, or how long a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Tolerance, relative to the problem's scales.
+    pub tolerance: f64,
+    /// [s] Step of a method without an error estimate.
+    pub fixed_step: f64,
+}
+
+const SAFETY: f64 = 0.9; // Hairer, Nørsett, Wanner I, II.4
+const LEAST_FACTOR: f64 = 0.2;
+const GREATEST_FACTOR: f64 = 5.0;
+/// Share of the last error in the choice of the next step; Hairer, Wanner II, IV.2.
+const MEMORY: f64 = 0.04;
+/// A state cannot be asked to be more accurate than a few roundings.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+/// Root mean square of the error over the tolerance; at most 1 for a step to be accepted.
+pub fn norm<const N: usize, M: Method>(attempt: &Attempt<N>, y: &[f64; N], scales: &[f64; N], tolerance: f64) -> f64 {
+    let weight = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
+    let square = |error: &[f64; N]| (0..N).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / N.max(1) as f64;
+    let fine = square(&attempt.error);
+    match &attempt.coarse_error {
+        None => fine.sqrt(),
+        // DOP853: the coarse estimate keeps the fine one from vanishing by chance.
+        Some(coarse) => {
+            let sum = fine + 0.01 * square(coarse);
+            if sum == 0.0 { 0.0 } else { fine / sum.sqrt() }
+        }
+    }
+}
+
+/// The state with the largest error over its weight.
+pub fn worst_component<const N: usize>(attempt: &Attempt<N>, scales: &[f64; N]) -> usize {
+    let share = |i: &usize| {
+        let e = (attempt.error[*i] / scales[*i]).abs();
+        if e.is_nan() { f64::INFINITY } else { e }
+    };
+    (0..N).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
+}
+
+/// By how much the next step is longer after an accepted one.
+pub fn growth<M: Method>(error: f64, last_error: f64) -> f64 {
+    let error = error.max(1e-10);
+    let exponent = 1.0 / M::TABLEAU.error_power - 0.75 * MEMORY;
+    let factor = SAFETY * math::powf(error, -exponent) * math::powf(last_error, MEMORY);
+    factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
+}
+
+/// By how much the step is shorter after a rejected one.
+pub fn shrinkage<M: Method>(error: f64) -> f64 {
+    if error.is_finite() {
+        (SAFETY * math::powf(error, -1.0 / M::TABLEAU.error_power)).clamp(LEAST_FACTOR, SAFETY)
+    } else {
+        0.1
+    }
+}

@@ -1,0 +1,125 @@
+//! The state anywhere in an accepted step.
+//!
+//! Positions follow the quintic through position, velocity and acceleration at both ends, which
+//! costs nothing. Where that is not accurate enough for the tolerance, three accelerations inside
+//! the step, at its quarters, correct it to degree eight:
+//! q(s) = quintic(s) + (s·(1 − s))³·(e0 + e1·x + e2·x²), x = s − ½ (Birkhoff interpolation; the
+//! coefficients follow from q̈ at x = −¼, 0, ¼). Velocities are the derivative of positions.
+
+use super::problem::Problem;
+
+/// A quintic's error this many times a step's tolerance goes unseen.
+const SLACK: f64 = 30.0;
+
+/// An accepted step from `t` over `h`: the states and rates at its ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a, const N: usize> {
+    /// [s] Where it starts.
+    pub t: f64,
+    /// [s] How long it is.
+    pub h: f64,
+    /// State at its start.
+    pub y0: &'a [f64; N],
+    /// Rates at its start.
+    pub f0: &'a [f64; N],
+    /// State at its end.
+    pub y1: &'a [f64; N],
+    /// Rates at its end.
+    pub f1: &'a [f64; N],
+}
+
+/// Corrections e0, e1, e2 of each position; `None` where the quintic will do.
+pub type Correction<const N: usize> = Option<[[f64; 3]; N]>;
+
+impl<const N: usize> Step<'_, N> {
+    /// The state at the share `s` of the step, 0 to 1.
+    pub fn state(&self, s: f64, correction: &Correction<N>) -> [f64; N] {
+        let p = N / 2;
+        let mut y = [0.0; N];
+        for i in 0..p {
+            let (q, v, _) = self.quintic(i, s);
+            y[i] = q;
+            y[p + i] = v;
+        }
+        if let Some(e) = correction {
+            let x = s - 0.5;
+            let b = 0.25 - x * x; // s·(1 − s)
+            for i in 0..p {
+                let c = e[i][0] + x * (e[i][1] + x * e[i][2]);
+                let slope = e[i][1] + 2.0 * x * e[i][2];
+                y[i] += b * b * b * c;
+                y[p + i] += b * b * (b * slope - 6.0 * x * c) / self.h;
+            }
+        }
+        y
+    }
+
+    /// Position, velocity and h²·acceleration of the quintic.
+    #[inline]
+    fn quintic(&self, i: usize, s: f64) -> (f64, f64, f64) {
+        let (h, p) = (self.h, N / 2);
+        let q0 = self.y0[i];
+        let (v0, v1) = (h * self.f0[i], h * self.f1[i]);
+        let (a0, a1) = (h * h * self.f0[p + i], h * h * self.f1[p + i]);
+        // What is left at the end of the Taylor polynomial of the start.
+        let dq = self.y1[i] - q0 - v0 - 0.5 * a0;
+        let dv = v1 - v0 - a0;
+        let da = a1 - a0;
+        let c3 = 10.0 * dq - 4.0 * dv + 0.5 * da;
+        let c4 = -15.0 * dq + 7.0 * dv - da;
+        let c5 = 6.0 * dq - 3.0 * dv + 0.5 * da;
+        let q = q0 + s * (v0 + s * (0.5 * a0 + s * (c3 + s * (c4 + s * c5))));
+        let v = v0 + s * (a0 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)));
+        let a = a0 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5));
+        (q, v / h, a)
+    }
+
+    /// Looks at the acceleration half-way and, where the quintic misses it by too much for the
+    /// tolerance, makes the correction.
+    pub fn correction<P: Problem<N> + ?Sized>(&self, problem: &P, modes: &P::Modes, tolerance: f64) -> Correction<N> {
+        let p = N / 2;
+        let half = self.defect(problem, modes, 0.5, &None);
+        let scales = problem.scales();
+        // Largest error of a quintic with this defect half-way: position d/24, velocity d/(10·h).
+        let good = (0..p).all(|i| {
+            let d = half[i].abs();
+            d / 24.0 <= SLACK * tolerance * scales[i] && d / (10.0 * self.h) <= SLACK * tolerance * scales[p + i]
+        });
+        if good {
+            return None;
+        }
+        let mut e = [[0.0; 3]; N];
+        for i in 0..p {
+            e[i][0] = -8.0 / 3.0 * half[i];
+        }
+        let sextic = Some(e);
+        let before = self.defect(problem, modes, 0.25, &sextic);
+        let after = self.defect(problem, modes, 0.75, &sextic);
+        for i in 0..p {
+            let even = 0.5 * (after[i] + before[i]);
+            let odd = 0.5 * (after[i] - before[i]);
+            e[i][0] = -(32.0 * half[i] + 256.0 / 9.0 * even) / 10.0;
+            e[i][1] = -512.0 / 45.0 * odd;
+            e[i][2] = 2.0 * e[i][0] - 256.0 / 9.0 * even;
+        }
+        Some(e)
+    }
+
+    /// h²·(acceleration of the system − acceleration of the quintic) at the share `s`, the system's
+    /// taken at the corrected state.
+    fn defect<P: Problem<N> + ?Sized>(
+        &self,
+        problem: &P,
+        modes: &P::Modes,
+        s: f64,
+        correction: &Correction<N>,
+    ) -> [f64; N] {
+        let mut rates = [0.0; N];
+        problem.rates(modes, self.t + s * self.h, &self.state(s, correction), &mut rates);
+        let mut defect = [0.0; N];
+        for i in 0..N / 2 {
+            defect[i] = self.h * self.h * rates[N / 2 + i] - self.quintic(i, s).2;
+        }
+        defect
+    }
+}

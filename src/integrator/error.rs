@@ -1,0 +1,71 @@
+//! Why the integrator cannot go on.
+
+use std::fmt;
+
+/// The time reached, and the cause. The state at that time is intact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IntegrationError {
+    /// The step no longer moves time.
+    StepUnderflow {
+        /// [s] Time reached.
+        time: f64,
+        /// [s] The step asked for.
+        step: f64,
+        /// The state with the largest error.
+        component: usize,
+    },
+    /// The rates at the start of a step are not finite.
+    NotFinite {
+        /// [s] Time reached.
+        time: f64,
+        /// The first state whose rate is not finite.
+        component: usize,
+    },
+    /// Events follow each other without time passing.
+    EventsAccumulate {
+        /// [s] Time reached.
+        time: f64,
+        /// The last guard that fell through zero.
+        guard: usize,
+    },
+    /// One advance took more steps than the stated bound.
+    TooManySteps {
+        /// [s] Time reached.
+        time: f64,
+        /// The bound.
+        steps: u64,
+    },
+}
+
+impl IntegrationError {
+    /// [s] Time reached.
+    pub fn time(&self) -> f64 {
+        match *self {
+            Self::StepUnderflow { time, .. }
+            | Self::NotFinite { time, .. }
+            | Self::EventsAccumulate { time, .. }
+            | Self::TooManySteps { time, .. } => time,
+        }
+    }
+}
+
+impl fmt::Display for IntegrationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::StepUnderflow { step, component, .. } => {
+                write!(f, "a step of {step:.1e} s no longer moves time; component {component} sets the error")
+            }
+            Self::NotFinite { component, .. } => {
+                write!(f, "the rate of component {component} is not finite")
+            }
+            Self::EventsAccumulate { guard, .. } => {
+                write!(f, "events accumulate; the last was of guard {guard}")
+            }
+            Self::TooManySteps { steps, .. } => {
+                write!(f, "{steps} steps did not reach the communication point")
+            }
+        }
+    }
+}
+
+impl std::error::Error for IntegrationError {}

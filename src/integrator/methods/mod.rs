@@ -1,0 +1,11 @@
+//! One method a file: coefficients as printed, and where they are printed.
+
+mod dop853;
+mod dopri5;
+mod rk4;
+mod verner7;
+
+pub use dop853::Dop853;
+pub use dopri5::Dopri5;
+pub use rk4::Rk4;
+pub use verner7::Verner7;

@@ -1,0 +1,94 @@
+//! The stages of one step: k_i = f(t + c_i·h, y + h·Σ a_ij·k_j).
+
+use super::problem::Problem;
+use super::tableau::{Method, STAGES};
+
+/// An attempted step.
+pub struct Attempt<const N: usize> {
+    /// The state at the step's end.
+    pub y: [f64; N],
+    /// Its rates, where the last stage gives them.
+    pub rates: Option<[f64; N]>,
+    /// The step's error in every state.
+    pub error: [f64; N],
+    /// A second estimate, where the method has one.
+    pub coarse_error: Option<[f64; N]>,
+}
+
+/// Attempts a step of `h` from `y` at `t`, whose rates are `rates`.
+pub fn attempt<const N: usize, M: Method, P: Problem<N> + ?Sized>(
+    problem: &P,
+    modes: &P::Modes,
+    t: f64,
+    y: &[f64; N],
+    rates: &[f64; N],
+    h: f64,
+) -> Attempt<N> {
+    let mut k = [[0.0; N]; STAGES];
+    k[0] = *rates;
+    let mut stages = Stages { problem, modes, t, y, h, k };
+    // A stage beyond the method's own is not compiled.
+    stages.evaluate::<M, 1>();
+    stages.evaluate::<M, 2>();
+    stages.evaluate::<M, 3>();
+    stages.evaluate::<M, 4>();
+    stages.evaluate::<M, 5>();
+    stages.evaluate::<M, 6>();
+    stages.evaluate::<M, 7>();
+    stages.evaluate::<M, 8>();
+    stages.evaluate::<M, 9>();
+    stages.evaluate::<M, 10>();
+    stages.evaluate::<M, 11>();
+    stages.finish::<M>()
+}
+
+struct Stages<'a, const N: usize, P: Problem<N> + ?Sized> {
+    problem: &'a P,
+    modes: &'a P::Modes,
+    t: f64,
+    y: &'a [f64; N],
+    h: f64,
+    k: [[f64; N]; STAGES],
+}
+
+impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
+    #[inline(always)]
+    fn evaluate<M: Method, const I: usize>(&mut self) {
+        if I < M::TABLEAU.stages {
+            let mut y = *self.y;
+            self.add(&mut y, &M::TABLEAU.a[I], I);
+            let t = self.t + M::TABLEAU.c[I] * self.h;
+            self.problem.rates(self.modes, t, &y, &mut self.k[I]);
+        }
+    }
+
+    #[inline(always)]
+    fn finish<M: Method>(&self) -> Attempt<N> {
+        let stages = M::TABLEAU.stages;
+        let mut y = *self.y;
+        let mut error = [0.0; N];
+        self.add(&mut y, &M::TABLEAU.b, stages);
+        self.add(&mut error, &M::TABLEAU.error, stages);
+        let coarse_error = M::TABLEAU.coarse_error.map(|weights| {
+            let mut error = [0.0; N];
+            self.add(&mut error, &weights, stages);
+            error
+        });
+        let rates = M::TABLEAU.first_same_as_last.then(|| self.k[stages - 1]);
+        Attempt { y, rates, error, coarse_error }
+    }
+
+    /// Adds h·Σ weight_j·k_j; a weight of zero costs nothing.
+    #[inline(always)]
+    fn add(&self, y: &mut [f64; N], weights: &[f64; STAGES], count: usize) {
+        for (i, y) in y.iter_mut().enumerate() {
+            let mut sum = 0.0;
+            for j in 0..count {
+                if weights[j] != 0.0 {
+                    sum += weights[j] * self.k[j][i];
+                }
+            }
+            *y += self.h * sum;
+        }
+    }
+}

@@ -1,0 +1,338 @@
+//! Attempt, judge, locate, commit.
+
+use super::controller::{self, Settings};
+use super::dense_output::{Correction, Step};
+use super::error::IntegrationError;
+use super::event;
+use super::problem::{Crossed, GUARDS, Guard, Problem};
+use super::stages::{Attempt, attempt};
+use super::statistics::Statistics;
+use super::tableau::Method;
+use std::marker::PhantomData;
+
+/// Most events without time passing.
+const STANDSTILL: usize = 64;
+/// Most times that a landing is repeated to bring the guard closer to zero.
+const LANDINGS: usize = 3;
+/// A guard this share of a tolerable error away from zero has been landed on.
+const LANDED: f64 = 0.1;
+/// Most steps of one advance.
+const STEPS: u64 = 200_000_000;
+/// [s] A first step of a motion without rates.
+const FIRST_STEP: f64 = 1e-4;
+
+/// One end of a step: a time, a state, its rates under the modes that hold on this side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Front<const N: usize, D> {
+    /// [s]
+    pub t: f64,
+    /// State.
+    pub y: [f64; N],
+    /// Its rates.
+    pub rates: [f64; N],
+    /// Discrete state.
+    pub modes: D,
+}
+
+/// All that an integrator remembers: as plain numbers, a saved state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memory<const N: usize, D> {
+    /// Start of the last step.
+    pub start: Front<N, D>,
+    /// Its end, before the events there.
+    pub end: Front<N, D>,
+    /// The same instant after its events: where the next step starts.
+    pub front: Front<N, D>,
+    /// [s] The next step.
+    pub step: f64,
+    /// Error of the last accepted step over the tolerance.
+    pub last_error: f64,
+    /// Events at the front, which the end does not know yet.
+    pub crossings: u64,
+    /// Work done.
+    pub statistics: Statistics,
+}
+
+/// An explicit Runge-Kutta integrator with event location.
+pub struct Integrator<const N: usize, D, M> {
+    settings: Settings,
+    memory: Memory<N, D>,
+    guards: [Guard; GUARDS],
+    correction: Option<Correction<N>>,
+    method: PhantomData<M>,
+}
+
+impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
+    /// Starts from the state `y` at `t`.
+    pub fn start<P>(problem: &P, settings: Settings, t: f64, y: [f64; N], modes: D) -> Self
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let mut front = Front { t, y, rates: [0.0; N], modes };
+        problem.rates(&modes, t, &y, &mut front.rates);
+        let statistics = Statistics { evaluations: 1, ..Statistics::default() };
+        let step = first_step(problem, &front);
+        let memory = Memory { start: front, end: front, front, step, last_error: 1e-4, crossings: 0, statistics };
+        Self::resume(problem, settings, memory)
+    }
+
+    /// Goes on from a saved state.
+    pub fn resume<P>(problem: &P, settings: Settings, memory: Memory<N, D>) -> Self
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let mut guards = [Guard::default(); GUARDS];
+        let front = &memory.front;
+        problem.guards(&front.modes, front.t, &front.y, &mut guards);
+        Self { settings, memory, guards, correction: None, method: PhantomData }
+    }
+
+    /// All that is needed to go on.
+    pub fn memory(&self) -> &Memory<N, D> {
+        &self.memory
+    }
+
+    /// Work done since the start to reach `t` in the last step.
+    pub fn statistics_at(&self, t: f64) -> Statistics {
+        let mut statistics = self.memory.statistics;
+        if t < self.memory.front.t {
+            statistics.events -= self.memory.crossings;
+        }
+        statistics
+    }
+
+    /// Steps until `t` lies within the last step.
+    ///
+    /// # Errors
+    /// See [`IntegrationError`]; the state at the error's time is intact.
+    pub fn advance<P>(&mut self, problem: &P, t: f64) -> Result<(), IntegrationError>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        for _ in 0..STEPS {
+            if self.memory.front.t >= t {
+                return Ok(());
+            }
+            self.settle(problem)?;
+            self.step(problem)?;
+        }
+        Err(IntegrationError::TooManySteps { time: self.memory.front.t, steps: STEPS })
+    }
+
+    /// State and modes at `t` in the last step.
+    pub fn state_at<P>(&mut self, problem: &P, t: f64) -> ([f64; N], D)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let Memory { start, end, front, .. } = &self.memory;
+        if t >= front.t {
+            return (front.y, front.modes);
+        }
+        let h = end.t - start.t;
+        let step = Step { t: start.t, h, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates };
+        let tolerance = self.settings.tolerance;
+        let correction = self.correction.get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));
+        (step.state((t - start.t) / h, correction), start.modes)
+    }
+
+    /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
+    /// step of its own. To be called with the problem that made the step.
+    pub fn rewind<P>(&mut self, problem: &P, t: f64)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let start = self.memory.start;
+        if t >= self.memory.front.t {
+            return;
+        }
+        self.memory.statistics = self.statistics_at(t);
+        self.memory.statistics.steps -= 1;
+        if t <= start.t {
+            self.memory.crossings = 0;
+            self.memory.front = start;
+            self.memory.end = start;
+        } else {
+            let made = self.attempt(problem, &start, t - start.t);
+            self.commit(problem, t, made);
+        }
+    }
+
+    fn attempt<P>(&mut self, problem: &P, start: &Front<N, D>, h: f64) -> Attempt<N>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        self.memory.statistics.evaluations += M::TABLEAU.stages as u64 - 1;
+        attempt::<N, M, P>(problem, &start.modes, start.t, &start.y, &start.rates, h)
+    }
+
+    /// To be called when the problem has changed at the front: rates and guards are taken anew.
+    pub fn refresh<P>(&mut self, problem: &P)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let front = &mut self.memory.front;
+        problem.rates(&front.modes, front.t, &front.y, &mut front.rates);
+        problem.guards(&front.modes, front.t, &front.y, &mut self.guards);
+        self.memory.statistics.evaluations += 1;
+    }
+
+    /// Handles the guards that are at or below zero and falling where the next step starts.
+    fn settle<P>(&mut self, problem: &P) -> Result<(), IntegrationError>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let count = problem.guard_count();
+        for _ in 0..STANDSTILL {
+            let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
+                return Ok(());
+            };
+            self.cross(problem, guard);
+        }
+        let guard = (0..count).find(|&i| has_fallen(&self.guards[i])).unwrap_or_default();
+        Err(IntegrationError::EventsAccumulate { time: self.memory.front.t, guard })
+    }
+
+    /// One accepted step, up to the first event in it.
+    fn step<P>(&mut self, problem: &P) -> Result<(), IntegrationError>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let start = self.memory.front;
+        if let Some(component) = start.rates.iter().position(|rate| !rate.is_finite()) {
+            return Err(IntegrationError::NotFinite { time: start.t, component });
+        }
+        let (h, made) = self.accepted(problem, &start)?;
+        let before = self.guards;
+        self.memory.start = start;
+        self.commit(problem, start.t + h, made);
+        if problem.guard_count() == 0 {
+            return Ok(());
+        }
+        let end = self.memory.end;
+        let step = Step { t: start.t, h, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates };
+        match event::first(problem, &start.modes, &step, &before, &self.guards) {
+            None => {}
+            Some((share, guard)) => self.land(problem, h, share, guard),
+        }
+        Ok(())
+    }
+
+    /// Attempts until the error is tolerable.
+    fn accepted<P>(&mut self, problem: &P, start: &Front<N, D>) -> Result<(f64, Attempt<N>), IntegrationError>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let adaptive = M::TABLEAU.error.iter().any(|&weight| weight != 0.0);
+        let mut wanted = if adaptive { self.memory.step } else { self.settings.fixed_step };
+        let mut rejected = false;
+        loop {
+            // The step is what time really moves by, so that nothing drifts from its rounding.
+            let h = start.t + wanted.min(problem.longest_step()) - start.t;
+            if h <= 0.0 {
+                let made = self.attempt(problem, start, wanted);
+                let component = controller::worst_component(&made, problem.scales());
+                return Err(IntegrationError::StepUnderflow { time: start.t, step: wanted, component });
+            }
+            let made = self.attempt(problem, start, h);
+            let finite = made.y.iter().all(|y| y.is_finite());
+            let error = if finite {
+                controller::norm::<N, M>(&made, &start.y, problem.scales(), self.settings.tolerance)
+            } else {
+                f64::INFINITY
+            };
+            if error <= 1.0 {
+                let growth = controller::growth::<M>(error, self.memory.last_error);
+                self.memory.step = h * if rejected { growth.min(1.0) } else { growth };
+                self.memory.last_error = error.max(1e-4);
+                return Ok((h, made));
+            }
+            rejected = true;
+            self.memory.statistics.rejected += 1;
+            wanted = h * controller::shrinkage::<M>(error);
+        }
+    }
+
+    /// Makes `made` the step that ends at `t`.
+    fn commit<P>(&mut self, problem: &P, t: f64, made: Attempt<N>)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let modes = self.memory.start.modes;
+        let mut end = Front { t, y: made.y, rates: [0.0; N], modes };
+        match made.rates {
+            Some(rates) => end.rates = rates,
+            None => {
+                problem.rates(&modes, t, &end.y, &mut end.rates);
+                self.memory.statistics.evaluations += 1;
+            }
+        }
+        self.memory.statistics.steps += 1;
+        self.memory.end = end;
+        self.memory.front = end;
+        self.memory.crossings = 0;
+        self.correction = None;
+        problem.guards(&modes, t, &end.y, &mut self.guards);
+    }
+
+    /// Repeats the step up to the event at `share` of it and crosses the event.
+    fn land<P>(&mut self, problem: &P, h: f64, share: f64, guard: usize)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let start = self.memory.start;
+        // The step that was too long is made anew, shorter.
+        self.memory.statistics.steps -= 1;
+        let close = LANDED * self.settings.tolerance * problem.guard_scale();
+        let mut t = start.t + share * h;
+        for landing in 1..=LANDINGS {
+            if t <= start.t {
+                self.memory.end = start;
+                self.memory.front = start;
+                self.refresh(problem);
+                break;
+            }
+            let made = self.attempt(problem, &start, t - start.t);
+            problem.guards(&start.modes, t, &made.y, &mut self.guards);
+            let Guard { value, rate } = self.guards[guard];
+            let better = t - value / rate;
+            let useful = rate < 0.0 && better < start.t + h && better != t;
+            if landing == LANDINGS || value.abs() <= close || !useful {
+                self.commit(problem, t, made);
+                break;
+            }
+            t = better;
+        }
+        self.cross(problem, guard);
+    }
+
+    /// Crosses the event of `guard` at the front, and of all guards that have fallen with it.
+    fn cross<P>(&mut self, problem: &P, guard: usize)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let mut crossed: Crossed = [false; GUARDS];
+        for (i, crossed) in crossed.iter_mut().enumerate().take(problem.guard_count()) {
+            *crossed = i == guard || has_fallen(&self.guards[i]);
+            self.memory.crossings += u64::from(*crossed);
+            self.memory.statistics.events += u64::from(*crossed);
+        }
+        let front = &mut self.memory.front;
+        let reset = problem.cross(&front.modes, front.t, &front.y, &crossed);
+        front.modes = reset.modes;
+        if let Some(step) = reset.step {
+            self.memory.step = self.memory.step.min(step);
+        }
+        self.refresh(problem);
+    }
+}
+
+fn has_fallen(guard: &Guard) -> bool {
+    guard.value <= 0.0 && guard.rate < 0.0
+}
+
+/// A first step over which the rates move the state by a hundredth of its scales.
+fn first_step<const N: usize, P: Problem<N> + ?Sized>(problem: &P, front: &Front<N, P::Modes>) -> f64 {
+    let fastest =
+        (front.rates.iter().zip(problem.scales())).map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
+    (0.01 / fastest).min(FIRST_STEP).min(problem.longest_step())
+}

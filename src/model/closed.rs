@@ -1,0 +1,218 @@
+//! The closed loop: all joints ideal, one degree of freedom, no contact.
+
+use super::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers, viscous_couples, viscous_guide};
+use super::dynamics::Loads;
+use super::ideal::{IdealMechanism, IdealMotion};
+use super::joint::guide::CORNERS;
+use super::kinematics::{JointCentres, Turning};
+use super::mechanism::{Bodies, CRANK, ROD, SLIDER, bodies};
+use super::plane::{Rotation, Vec2, perp};
+use super::plant::Plant;
+use super::scales::Scale;
+use super::start::StartPose;
+use super::state::{Contacts, Instant, Pose};
+use crate::integrator::{Crossed, GUARDS, Guard, Problem, Reset};
+use crate::math;
+use crate::scene::Scene;
+
+/// The ideal mechanism with its constants and its inputs.
+#[derive(Clone, Debug)]
+pub struct Closed<const SPEED: bool, const N: usize> {
+    bodies: Bodies,
+    gravity: f64,
+    ideal: IdealMechanism,
+    rotor: Rotor,
+    rotary_dampers: Vec<RotaryDamper>,
+    guide_damping: Option<f64>,
+    signal: InputSignal,
+    scales: [f64; N],
+    longest_step: f64,
+}
+
+impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
+    /// Assembles the mechanism of a scene that starts at `time` [s].
+    pub fn assemble(scene: &Scene, time: f64) -> Self {
+        const { assert!(N == if SPEED { 0 } else { 2 }) };
+        let scale = Scale::of(scene);
+        let mut scales = [0.0; N];
+        for (weight, of) in scales.iter_mut().zip([scale.length, scale.length * scale.frequency]) {
+            *weight = of;
+        }
+        Self {
+            bodies: bodies(scene),
+            gravity: scene.gravity,
+            ideal: IdealMechanism::new(scene),
+            rotor: Rotor::new(scene, time),
+            rotary_dampers: rotary_dampers(scene),
+            guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
+            signal: InputSignal::default(),
+            scales,
+            longest_step: scale.longest_step,
+        }
+    }
+
+    #[inline(always)]
+    fn crank(&self, t: f64, y: &[f64; N]) -> (f64, f64) {
+        if SPEED { (self.rotor.at(t), self.rotor.speed) } else { (y[0], y[N - 1]) }
+    }
+
+    #[inline(always)]
+    fn loads(&self, t: f64, speed: &[f64; 3], pin_speed: f64) -> Loads {
+        let inputs = self.signal.at(t);
+        let slider_load = inputs.slider_load;
+        let mut loads = Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
+        if !SPEED {
+            loads.couple[CRANK] = inputs.crank_torque;
+        }
+        if !self.rotary_dampers.is_empty() {
+            let couples = viscous_couples(&self.rotary_dampers, speed);
+            for (couple, viscous) in loads.couple.iter_mut().zip(couples) {
+                *couple += viscous;
+            }
+        }
+        if let Some(damping) = self.guide_damping {
+            loads.add_guide(&viscous_guide(damping, pin_speed));
+        }
+        loads
+    }
+
+    /// [rad/s²] Crank acceleration: the principle of virtual power with K_i = ∂ṙ_i/∂θ̇.
+    #[inline(always)]
+    fn acceleration(&self, crank: Rotation, speed: f64, motion: &IdealMotion, loads: &Loads) -> f64 {
+        let [first, second, third] = &self.bodies;
+        let ratio = motion.rod_ratio;
+        let rod_speed = ratio * speed;
+        let crank_arm = crank.axis(first.length);
+        let crank_com = perp(crank.apply(first.com));
+        let rod_com = motion.rod.apply(second.com);
+        let rod_jacobian = perp(crank_arm) + ratio * perp(rod_com);
+        let rod_bias = -speed * speed * crank_arm + motion.rod_bias * perp(rod_com) - rod_speed * rod_speed * rod_com;
+        let inertia = first.inertia
+            + first.mass * crank_com.norm_squared()
+            + second.inertia * ratio * ratio
+            + second.mass * rod_jacobian.norm_squared()
+            + third.mass * motion.x_ratio * motion.x_ratio;
+        let power = loads.couple[CRANK] + loads.couple[ROD] * ratio + loads.pin.x * motion.x_ratio
+            - self.gravity * (first.mass * crank_com.y + second.mass * rod_jacobian.y)
+            - second.inertia * ratio * motion.rod_bias
+            - second.mass * rod_jacobian.dot(&rod_bias)
+            - third.mass * motion.x_ratio * motion.x_bias;
+        power / inertia
+    }
+}
+
+impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
+    type Modes = Contacts;
+
+    fn rates(&self, _: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+        if SPEED {
+            return;
+        }
+        let (angle, speed) = self.crank(t, y);
+        let crank = Rotation::new(angle);
+        let motion = self.ideal.motion(crank, speed);
+        let speeds = [speed, motion.rod_ratio * speed, 0.0];
+        let loads = self.loads(t, &speeds, motion.x_ratio * speed);
+        rates[0] = speed;
+        rates[N - 1] = self.acceleration(crank, speed, &motion, &loads);
+    }
+
+    fn scales(&self) -> &[f64; N] {
+        &self.scales
+    }
+
+    fn longest_step(&self) -> f64 {
+        self.longest_step
+    }
+
+    fn guard_count(&self) -> usize {
+        0
+    }
+
+    fn guards(&self, _: &Contacts, _: f64, _: &[f64; N], _: &mut [Guard; GUARDS]) {}
+
+    fn guard_scale(&self) -> f64 {
+        0.0
+    }
+
+    fn cross(&self, contacts: &Contacts, _: f64, _: &[f64; N], _: &Crossed) -> Reset<Contacts> {
+        Reset { modes: *contacts, step: None }
+    }
+}
+
+impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
+    fn start(&self, pose: &StartPose) -> [f64; N] {
+        let mut y = [0.0; N];
+        for (state, start) in y.iter_mut().zip([pose.angle[CRANK], pose.speed[CRANK]]) {
+            *state = start;
+        }
+        y
+    }
+
+    fn start_contacts(&self, _: f64, _: &[f64; N]) -> Contacts {
+        Contacts::default()
+    }
+
+    fn set_signal(&mut self, signal: InputSignal) {
+        self.signal = signal;
+    }
+
+    fn signal(&self) -> &InputSignal {
+        &self.signal
+    }
+
+    fn start_time(&self) -> f64 {
+        self.rotor.start_time
+    }
+
+    fn set_start_time(&mut self, time: f64) {
+        self.rotor.start_time = time;
+    }
+
+    fn instant(&self, _: &Contacts, t: f64, y: &[f64; N]) -> Instant {
+        let (angle, speed) = self.crank(t, y);
+        let crank = Rotation::new(angle);
+        let motion = self.ideal.motion(crank, speed);
+        let rod_speed = motion.rod_ratio * speed;
+        let speeds = [speed, rod_speed, 0.0];
+        let loads = self.loads(t, &speeds, motion.x_ratio * speed);
+        let acceleration = if SPEED { 0.0 } else { self.acceleration(crank, speed, &motion, &loads) };
+        let rod_acceleration = motion.rod_ratio * acceleration + motion.rod_bias;
+        let crank_arm = crank.axis(self.bodies[CRANK].length);
+        let at = |crank_pin: Vec2, pin: Vec2| JointCentres {
+            crank: Vec2::zeros(),
+            crank_pin,
+            big_end: crank_pin,
+            small_end: pin,
+            pin,
+        };
+        let along = |x: f64| Vec2::new(x, 0.0);
+        let turning = Turning {
+            angle: [angle, math::atan2(motion.rod.sin, motion.rod.cos), 0.0],
+            speed: speeds,
+            rotation: [crank, motion.rod, Rotation::NONE],
+        };
+        let pose = Pose {
+            turning,
+            place: at(crank_arm, Vec2::new(motion.x, self.ideal.height)),
+            velocity: at(speed * perp(crank_arm), along(motion.x_ratio * speed)),
+        };
+        let mut angle_acceleration = [0.0; 3];
+        angle_acceleration[CRANK] = acceleration;
+        angle_acceleration[ROD] = rod_acceleration;
+        angle_acceleration[SLIDER] = 0.0;
+        Instant {
+            pose,
+            acceleration: at(
+                acceleration * perp(crank_arm) - speed * speed * crank_arm,
+                along(motion.x_ratio * acceleration + motion.x_bias),
+            ),
+            angle_acceleration,
+            loads,
+        }
+    }
+
+    fn penetration(&self, _: &Pose) -> [f64; 3 + CORNERS] {
+        [f64::NEG_INFINITY; 3 + CORNERS]
+    }
+}

@@ -1,0 +1,123 @@
+//! Normal contact: f_n = max(0, F(δ)·(1 + χ·s)), s = min(δ̇/δ̇⁻, s_max).
+//!
+//! F is an [`Elastic`] law, χ a number from the damping law and the restitution
+//! ([`damping::factor`]). Which elastic law, whether χ is there at all and which friction law follow
+//! from the scene; each combination is compiled on its own.
+
+pub mod damping;
+mod elastic;
+
+pub use elastic::{Elastic, HertzThreeHalves, Liu, Power};
+
+use super::friction::{Friction, FrictionParameters};
+use crate::math;
+
+/// Numbers of one contact, ready for the inner loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactParameters {
+    /// [N/m^p] Stiffness K; for Liu's law (π/2)·E*·L [N/m].
+    pub stiffness: f64,
+    /// Exponent p.
+    pub exponent: f64,
+    /// [m] Clearance c, for the conformal law.
+    pub clearance: f64,
+    /// χ.
+    pub damping: f64,
+    /// s_max.
+    pub ratio_limit: f64,
+    /// [m/s] v_floor.
+    pub speed_floor: f64,
+    /// Friction.
+    pub friction: FrictionParameters,
+}
+
+/// The memory of one contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactMode {
+    /// Closed: δ has risen through zero and not fallen since.
+    pub closed: bool,
+    /// [m/s] δ̇⁻, while closed.
+    pub approach: f64,
+    /// [s/m] 1/δ̇⁻.
+    pub per_approach: f64,
+}
+
+impl ContactMode {
+    /// A contact that closes at the approach speed `rate` [m/s].
+    pub fn closing(rate: f64, speed_floor: f64) -> Self {
+        let approach = rate.max(speed_floor);
+        Self { closed: true, approach, per_approach: 1.0 / approach }
+    }
+}
+
+/// Whether χ is in the law.
+pub trait Damped {
+    /// 1 + χ·s.
+    fn factor(parameters: &ContactParameters, rate: f64, per_approach: f64) -> f64;
+}
+
+/// Hysteresis damping.
+pub struct Hysteresis;
+
+/// χ = 0.
+pub struct Undamped;
+
+impl Damped for Hysteresis {
+    #[inline(always)]
+    fn factor(parameters: &ContactParameters, rate: f64, per_approach: f64) -> f64 {
+        1.0 + parameters.damping * (rate * per_approach).min(parameters.ratio_limit)
+    }
+}
+
+impl Damped for Undamped {
+    #[inline(always)]
+    fn factor(_: &ContactParameters, _: f64, _: f64) -> f64 {
+        1.0
+    }
+}
+
+/// [N] (f_n, f_t) at the penetration `depth` [m], its `rate` [m/s] and the sliding speed that
+/// `sliding` gives [m/s]. Both are 0 while f_n would pull: no adhesion.
+#[inline(always)]
+pub fn force<E: Elastic, D: Damped, F: Friction>(
+    parameters: &ContactParameters,
+    per_approach: f64,
+    depth: f64,
+    rate: f64,
+    sliding: impl FnOnce() -> f64,
+) -> (f64, f64) {
+    if depth <= 0.0 {
+        return (0.0, 0.0);
+    }
+    let normal = E::force(parameters, depth) * D::factor(parameters, rate, per_approach);
+    if normal <= 0.0 {
+        return (0.0, 0.0);
+    }
+    let tangential = if F::PRESENT { normal * F::ratio(&parameters.friction, sliding()) } else { 0.0 };
+    (normal, tangential)
+}
+
+impl ContactParameters {
+    /// [s] How long a free impact of `mass` [kg] at `speed` [m/s] lasts: 2.94·δ_max/v, with δ_max
+    /// from ½·m·v² = K·δ^(p+1)/(p + 1) (Hertz; exact for p = 3/2).
+    pub fn contact_time(&self, mass: f64, speed: f64) -> f64 {
+        2.94 * self.penetration_of_energy(0.5 * mass * speed * speed) / speed
+    }
+
+    /// [m] The penetration that stores `energy` [J].
+    fn penetration_of_energy(&self, energy: f64) -> f64 {
+        let p = self.exponent;
+        math::powf((p + 1.0) * energy / self.small_stiffness(), 1.0 / (p + 1.0))
+    }
+
+    /// [1/s] Frequency of `mass` [kg] on this contact at the penetration `depth` [m].
+    pub fn frequency(&self, mass: f64, depth: f64) -> f64 {
+        let p = self.exponent;
+        (p * self.small_stiffness() * math::powf(depth, p - 1.0) / mass).sqrt()
+    }
+
+    /// [N/m^p] K of the power law that holds for small penetrations.
+    fn small_stiffness(&self) -> f64 {
+        self.stiffness * if self.clearance > 0.0 { 1.0 / (2.0 * self.clearance).sqrt() } else { 1.0 }
+    }
+}

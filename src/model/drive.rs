@@ -1,0 +1,107 @@
+//! What drives and loads the mechanism: inputs in time, the prescribed crank angle, viscous friction.
+
+use super::joint::guide;
+use super::plane::Vec2;
+use super::signals::Inputs;
+use crate::scene::Scene;
+
+/// Inputs from a communication point on: u(t) = value + rate·(t − at).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InputSignal {
+    /// [s] The communication point.
+    pub at: f64,
+    /// Inputs there.
+    pub value: Inputs,
+    /// [1/s] Their rates.
+    pub rate: Inputs,
+}
+
+impl InputSignal {
+    /// Inputs at `t`.
+    #[inline(always)]
+    pub fn at(&self, t: f64) -> Inputs {
+        let passed = t - self.at;
+        Inputs {
+            crank_torque: self.value.crank_torque + passed * self.rate.crank_torque,
+            slider_load: self.value.slider_load + passed * self.rate.slider_load,
+        }
+    }
+
+    /// It only goes on as `other` would from its own communication point, to the bit.
+    pub fn continues(&self, other: &Self) -> bool {
+        let bits = |value: &Inputs, rate: &Inputs| {
+            [value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load].map(f64::to_bits)
+        };
+        bits(&self.value, &self.rate) == bits(&other.at(self.at), &other.rate)
+    }
+}
+
+/// The prescribed rotation θ1 = θ0 + ω0·(t − t0).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotor {
+    /// [s] t0.
+    pub start_time: f64,
+    /// [rad] θ0.
+    pub angle: f64,
+    /// [rad/s] ω0.
+    pub speed: f64,
+}
+
+impl Rotor {
+    /// Of a scene that starts at `time` [s].
+    pub fn new(scene: &Scene, time: f64) -> Self {
+        Self { start_time: time, angle: scene.crank.angle_start, speed: scene.crank.speed_start }
+    }
+
+    /// [rad] at `t`.
+    #[inline(always)]
+    pub fn at(&self, t: f64) -> f64 {
+        self.angle + self.speed * (t - self.start_time)
+    }
+}
+
+/// Viscous friction in one joint's relative rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotaryDamper {
+    /// The joint: A, B, C as 0, 1, 2. Its journal is on the body of the same index, but B's bearing is
+    /// on the rod and its journal on the crank.
+    pub joint: usize,
+    /// [N·m·s/rad]
+    pub coefficient: f64,
+}
+
+/// The couples [N·m] of viscous friction on crank, rod and slider at their speeds [rad/s].
+#[inline(always)]
+pub fn viscous_couples(dampers: &[RotaryDamper], speed: &[f64; 3]) -> [f64; 3] {
+    let mut couples = [0.0; 3];
+    for damper in dampers {
+        let (journal, bearing) = match damper.joint {
+            0 => (0, None),
+            1 => (0, Some(1)),
+            _ => (2, Some(1)),
+        };
+        let couple = damper.coefficient * (speed[journal] - bearing.map_or(0.0, |b: usize| speed[b]));
+        couples[journal] -= couple;
+        if let Some(bearing) = bearing {
+            couples[bearing] += couple;
+        }
+    }
+    couples
+}
+
+/// The revolute joints with viscous friction.
+pub fn rotary_dampers(scene: &Scene) -> Vec<RotaryDamper> {
+    let joint = &scene.joint;
+    [&joint.a, &joint.b, &joint.c]
+        .into_iter()
+        .enumerate()
+        .filter(|(_, joint)| joint.damping != 0.0)
+        .map(|(index, joint)| RotaryDamper { joint: index, coefficient: joint.damping })
+        .collect()
+}
+
+/// The guide's viscous friction on a slider whose pin moves along it at `speed` [m/s].
+#[inline(always)]
+pub fn viscous_guide(damping: f64, speed: f64) -> guide::Load {
+    guide::Load { force: Vec2::new(-damping * speed, 0.0), couple: 0.0 }
+}

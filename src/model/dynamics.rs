@@ -1,0 +1,251 @@
+//! M(q)·q̈ = Q(t, q, q̇) of an open mechanism: loads on the bodies in, accelerations out.
+
+use super::joint::{guide, revolute};
+use super::kinematics::{Roots, Turning};
+use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology};
+use super::plane::{Vec2, cross};
+
+/// Loads on the bodies but for gravity and the reactions of ideal joints: forces at the joint
+/// centres and couples.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Loads {
+    /// [N] On the crank at its main journal.
+    pub crank: Vec2,
+    /// [N] On the crank at its pin.
+    pub crank_pin: Vec2,
+    /// [N] On the rod at its big end.
+    pub big_end: Vec2,
+    /// [N] On the rod at its small end.
+    pub small_end: Vec2,
+    /// [N] On the slider at its pin.
+    pub pin: Vec2,
+    /// [N·m] On crank, rod and slider; the slider's about its pin.
+    pub couple: [f64; 3],
+    /// The input's part of the force at the slider's pin [N].
+    pub slider_load: f64,
+    /// The guide's part: contact, or viscous friction of an ideal guide.
+    pub guide: guide::Load,
+}
+
+impl Loads {
+    /// Adds the contact of joint A, B or C (0, 1, 2).
+    #[inline(always)]
+    pub fn add_contact(&mut self, joint: usize, load: &revolute::Load) {
+        let (journal, bearing) = match joint {
+            0 => {
+                self.crank += load.force;
+                (CRANK, None)
+            }
+            1 => {
+                self.crank_pin += load.force;
+                self.big_end -= load.force;
+                (CRANK, Some(ROD))
+            }
+            _ => {
+                self.pin += load.force;
+                self.small_end -= load.force;
+                (SLIDER, Some(ROD))
+            }
+        };
+        self.couple[journal] += load.journal_couple;
+        if let Some(bearing) = bearing {
+            self.couple[bearing] += load.bearing_couple;
+        }
+    }
+
+    /// Adds forces and moment of the guide.
+    #[inline(always)]
+    pub fn add_guide(&mut self, load: &guide::Load) {
+        self.pin += load.force;
+        self.couple[SLIDER] += load.couple;
+        self.guide.force += load.force;
+        self.guide.couple += load.couple;
+    }
+}
+
+/// Accelerations of the roots and of the three angles.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Accelerations {
+    /// [m/s²]
+    pub roots: Roots,
+    /// [rad/s²] Of crank, rod and slider.
+    pub angle: [f64; 3],
+}
+
+/// Index of a pair of angles in [`ChainInertia`]'s arrays.
+const PAIRS: [(usize, usize); 3] = [(CRANK, ROD), (ROD, SLIDER), (CRANK, SLIDER)];
+
+/// Solves the equations of motion of an open mechanism.
+#[inline(always)]
+pub fn accelerate(
+    topology: Topology,
+    bodies: &Bodies,
+    chains: &ChainInertia,
+    gravity: f64,
+    turning: &Turning,
+    loads: &Loads,
+) -> Accelerations {
+    let Topology { a, b, c, t, speed } = topology;
+    let rotation = &turning.rotation;
+    let crank_length = rotation[CRANK].axis(bodies[CRANK].length);
+    let rod_length = rotation[ROD].axis(bodies[ROD].length);
+    let square = turning.speed.map(|speed| speed * speed);
+    let mut q = loads.couple;
+    let mut result = Accelerations::default();
+    let fall = Vec2::new(0.0, -gravity);
+
+    // Generalized forces: each chain handed down from its end to its root.
+    let rail_rod = c && t;
+    let rail_crank = b && c && t;
+    let mut on_rail = loads.pin;
+    if rail_rod {
+        let mut on_big_end = loads.big_end;
+        if rail_crank {
+            q[CRANK] -= cross(crank_length, loads.crank);
+            on_big_end = loads.crank;
+        }
+        q[ROD] -= cross(rod_length, on_big_end);
+        on_rail += on_big_end;
+    } else {
+        let on_small_end = if c { loads.pin } else { loads.small_end };
+        q[ROD] += cross(rod_length, on_small_end);
+        let mut on_rod = on_small_end;
+        if !b {
+            on_rod += loads.big_end;
+            let total = on_rod;
+            q[ROD] += cross(rotation[ROD].apply(chains.anchor[ROD]), total);
+            if c {
+                q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
+            }
+            result.roots.rod = total / chains.mass[ROD] + fall;
+        }
+        if !c && !t {
+            q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), loads.pin);
+            result.roots.slider = loads.pin / chains.mass[SLIDER] + fall;
+        }
+        let on_crank_pin = if b { on_rod } else { loads.crank_pin };
+        if !a || !speed {
+            q[CRANK] += cross(crank_length, on_crank_pin);
+        }
+        if !a {
+            let total = on_crank_pin + loads.crank;
+            q[CRANK] += cross(rotation[CRANK].apply(chains.anchor[CRANK]), total);
+            if b {
+                q[ROD] += cross(rotation[ROD].apply(chains.anchor[ROD]), total);
+            }
+            if b && c {
+                q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
+            }
+            result.roots.crank = total / chains.mass[CRANK] + fall;
+        }
+    }
+    if rail_rod && !b {
+        // The crank alone.
+        q[CRANK] += cross(crank_length, loads.crank_pin);
+        if !a {
+            let total = loads.crank_pin + loads.crank;
+            q[CRANK] += cross(rotation[CRANK].apply(chains.anchor[CRANK]), total);
+            result.roots.crank = total / chains.mass[CRANK] + fall;
+        }
+    }
+
+    // Elements of the mass matrix and the centrifugal terms.
+    let linked = [b, c && !t, b && c && !t];
+    let mut m = [0.0; 3];
+    for pair in 0..3 {
+        if linked[pair] {
+            let (k, l) = PAIRS[pair];
+            let cos = rotation[k].cos * rotation[l].cos + rotation[k].sin * rotation[l].sin;
+            let sin = rotation[l].sin * rotation[k].cos - rotation[l].cos * rotation[k].sin;
+            m[pair] = chains.cos[pair] * cos + chains.sin[pair] * sin;
+            let centrifugal = chains.cos[pair] * sin - chains.sin[pair] * cos;
+            q[k] += centrifugal * square[l];
+            q[l] -= centrifugal * square[k];
+        }
+    }
+    let mut d = chains.diagonal;
+
+    // Gravity on the chains that do not float, and the coupling with the pin on an ideal guide.
+    let rooted = [a || rail_crank, (b && a) || rail_rod, b && c && a && !t];
+    let mut first_moment = [Vec2::zeros(); 3];
+    for k in 0..3 {
+        if rooted[k] {
+            first_moment[k] = rotation[k].apply(chains.moment[k]);
+            q[k] -= gravity * first_moment[k].x;
+        }
+    }
+    let per_mass = 1.0 / chains.mass[SLIDER];
+    let mut along = on_rail.x;
+    if t {
+        for (k, on) in [(CRANK, rail_crank), (ROD, rail_rod)] {
+            if on {
+                along += square[k] * first_moment[k].x;
+            }
+        }
+    }
+    if rail_rod {
+        q[ROD] += first_moment[ROD].y * along * per_mass;
+        d[ROD] -= first_moment[ROD].y * first_moment[ROD].y * per_mass;
+    }
+    if rail_crank {
+        q[CRANK] += first_moment[CRANK].y * along * per_mass;
+        d[CRANK] -= first_moment[CRANK].y * first_moment[CRANK].y * per_mass;
+        m[0] -= first_moment[CRANK].y * first_moment[ROD].y * per_mass;
+    }
+
+    result.angle = solve(topology, &d, &m, &q);
+    if t {
+        for (k, on) in [(CRANK, rail_crank), (ROD, rail_rod)] {
+            if on {
+                along += first_moment[k].y * result.angle[k];
+            }
+        }
+        result.roots.slider = Vec2::new(along * per_mass, 0.0);
+    }
+    result
+}
+
+/// Angular accelerations from the diagonal `d`, the pairs' elements `m` and the right sides `q`.
+#[inline(always)]
+fn solve(topology: Topology, d: &[f64; 3], m: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+    let Topology { b, c, t, speed, .. } = topology;
+    let with_crank = b && !speed;
+    let with_slider = c && !t;
+    let mut angle = [0.0; 3];
+    match (with_crank, with_slider) {
+        (true, true) => angle = solve_three(d, m, q),
+        (true, false) => {
+            [angle[CRANK], angle[ROD]] = solve_two([d[CRANK], d[ROD]], m[0], [q[CRANK], q[ROD]]);
+        }
+        (false, true) => {
+            [angle[ROD], angle[SLIDER]] = solve_two([d[ROD], d[SLIDER]], m[1], [q[ROD], q[SLIDER]]);
+        }
+        (false, false) => angle[ROD] = q[ROD] / d[ROD],
+    }
+    if !b && !speed {
+        angle[CRANK] = q[CRANK] / d[CRANK];
+    }
+    if !c && !t {
+        angle[SLIDER] = q[SLIDER] / d[SLIDER];
+    }
+    angle
+}
+
+#[inline(always)]
+fn solve_two(d: [f64; 2], m: f64, q: [f64; 2]) -> [f64; 2] {
+    let per_determinant = 1.0 / (d[0] * d[1] - m * m);
+    [(q[0] * d[1] - m * q[1]) * per_determinant, (q[1] * d[0] - m * q[0]) * per_determinant]
+}
+
+/// By L·D·Lᵀ without pivoting: a mass matrix is positive definite.
+#[inline(always)]
+fn solve_three(d: &[f64; 3], m: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+    let [crank_rod, rod_slider, crank_slider] = *m;
+    let per_first = 1.0 / d[0];
+    let (l1, l2) = (crank_rod * per_first, crank_slider * per_first);
+    let d1 = d[1] - l1 * crank_rod;
+    let off = rod_slider - l1 * crank_slider;
+    let q1 = q[1] - l1 * q[0];
+    let [rod, slider] = solve_two([d1, d[2] - l2 * crank_slider], off, [q1, q[2] - l2 * q[0]]);
+    [(q[0] - crank_rod * rod - crank_slider * slider) * per_first, rod, slider]
+}

@@ -1,0 +1,137 @@
+//! A revolute joint with clearance: a journal in a bearing.
+//!
+//! e = journal centre − bearing centre, ε = |e|, n = e/ε, t = perp(n), δ = ε − c. Both bodies get the
+//! contact force at the one point P + R_b·n. The journal's material speed there against the bearing's
+//! is v_t = ė·t + (R_b − ε)·ω_journal − R_b·ω_bearing: force times this speed is the power lost.
+
+use super::{KernelFamily, choose, compliance, parameters};
+use crate::integrator::Guard;
+use crate::model::contact::{ContactMode, ContactParameters, Damped, Elastic, force};
+use crate::model::friction::Friction;
+use crate::model::plane::{Vec2, perp};
+use crate::scene::{self, Elasticity};
+
+/// Where the journal is in its bearing, and how both move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Play {
+    /// [m] e.
+    pub eccentricity: Vec2,
+    /// [m/s] ė.
+    pub rate: Vec2,
+    /// [rad/s] Of the journal's body.
+    pub journal_speed: f64,
+    /// [rad/s] Of the bearing's body.
+    pub bearing_speed: f64,
+}
+
+/// What the contact does to both bodies: a force on the journal at its centre, the opposite force on
+/// the bearing at its centre, and a couple on each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// [N] On the journal's body.
+    pub force: Vec2,
+    /// [N·m] On the journal's body, about the journal centre.
+    pub journal_couple: f64,
+    /// [N·m] On the bearing's body, about the bearing centre.
+    pub bearing_couple: f64,
+}
+
+type Kernel = fn(&Revolute, f64, &Play) -> Load;
+
+/// A revolute joint with clearance.
+#[derive(Clone, Copy, Debug)]
+pub struct Revolute {
+    /// [m] R_b.
+    radius: f64,
+    /// [m] c.
+    clearance: f64,
+    /// The contact's numbers.
+    pub contact: ContactParameters,
+    kernel: Kernel,
+}
+
+struct Family;
+
+impl KernelFamily for Family {
+    type Kernel = Kernel;
+    fn kernel<E: Elastic, D: Damped, F: Friction>() -> Kernel {
+        load::<E, D, F>
+    }
+}
+
+fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64, play: &Play) -> Load {
+    let epsilon = play.eccentricity.norm();
+    let depth = epsilon - joint.clearance;
+    if depth <= 0.0 {
+        return Load::default();
+    }
+    let n = play.eccentricity / epsilon;
+    let t = perp(n);
+    let rate = play.rate.dot(&n);
+    let to_contact = joint.radius - epsilon;
+    let sliding = || play.rate.dot(&t) + to_contact * play.journal_speed - joint.radius * play.bearing_speed;
+    let (normal, tangential) = force::<E, D, F>(&joint.contact, per_approach, depth, rate, sliding);
+    if F::PRESENT {
+        Load {
+            force: -normal * n - tangential * t,
+            journal_couple: -to_contact * tangential,
+            bearing_couple: joint.radius * tangential,
+        }
+    } else {
+        Load { force: -normal * n, ..Load::default() }
+    }
+}
+
+impl Revolute {
+    /// From the scene's.
+    pub fn new(joint: &scene::Revolute) -> Self {
+        let contact = &joint.contact;
+        let (bearing, clearance) = (joint.radius, joint.clearance);
+        let compliance = compliance(contact);
+        let (stiffness, conformal_clearance) = match joint.elasticity {
+            // H. M. Lankarani, P. E. Nikravesh 1990, with the journal's radius R_b − c.
+            Elasticity::Hertz if contact.stiffness > 0.0 => (contact.stiffness, 0.0),
+            Elasticity::Hertz => {
+                let curvature = bearing * (bearing - clearance) / clearance;
+                (4.0 / (3.0 * compliance) * curvature.sqrt(), 0.0)
+            }
+            Elasticity::Liu => (std::f64::consts::FRAC_PI_2 / compliance * contact.width, clearance),
+        };
+        let mut contact = parameters(contact, stiffness, conformal_clearance);
+        if joint.elasticity == Elasticity::Liu {
+            contact.exponent = 1.5; // of small penetrations; the law itself has none
+        }
+        Self { radius: bearing, clearance, contact, kernel: choose::<Family>(joint.elasticity, &joint.contact) }
+    }
+
+    /// [m] δ, negative when open.
+    #[inline(always)]
+    pub fn penetration(&self, play: &Play) -> f64 {
+        play.eccentricity.norm() - self.clearance
+    }
+
+    /// [m/s] δ̇; 0 where the journal is centred and n undefined.
+    #[inline(always)]
+    pub fn penetration_rate(&self, play: &Play) -> f64 {
+        let epsilon = play.eccentricity.norm();
+        if epsilon > 0.0 { play.rate.dot(&play.eccentricity) / epsilon } else { 0.0 }
+    }
+
+    /// The event at which the contact changes: closing when open, opening when closed.
+    #[inline(always)]
+    pub fn guard(&self, mode: &ContactMode, play: &Play) -> Guard {
+        guard(mode, self.penetration(play), self.penetration_rate(play))
+    }
+
+    /// The load of the closed contact.
+    #[inline(always)]
+    pub fn load(&self, mode: &ContactMode, play: &Play) -> Load {
+        (self.kernel)(self, mode.per_approach, play)
+    }
+}
+
+/// −δ of an open contact, δ of a closed one.
+#[inline(always)]
+pub fn guard(mode: &ContactMode, depth: f64, rate: f64) -> Guard {
+    if mode.closed { Guard { value: depth, rate } } else { Guard { value: -depth, rate: -rate } }
+}

@@ -1,0 +1,102 @@
+//! Outputs of one instant.
+
+use super::ideal::IdealMechanism;
+use super::joint::guide::CORNERS;
+use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
+use super::plane::{Rotation, Vec2};
+use super::reactions::{Reactions, reactions};
+use super::signals::{
+    AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
+};
+use super::state::{Contacts, Instant};
+use crate::scene::Scene;
+
+/// Makes outputs of instants.
+#[derive(Clone, Copy, Debug)]
+pub struct Observer {
+    topology: Topology,
+    bodies: Bodies,
+    gravity: f64,
+    ideal: IdealMechanism,
+}
+
+impl Observer {
+    /// Of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            topology: Topology::of(scene),
+            bodies: bodies(scene),
+            gravity: scene.gravity,
+            ideal: IdealMechanism::new(scene),
+        }
+    }
+
+    /// All outputs but the integrator's counters.
+    pub fn outputs(
+        &self,
+        instant: &Instant,
+        contacts: &Contacts,
+        penetration: &[f64; 3 + CORNERS],
+        torque_input: f64,
+    ) -> Outputs {
+        let Instant { pose, acceleration, angle_acceleration, .. } = instant;
+        let turning = &pose.turning;
+        let r = reactions(self.topology, &self.bodies, self.gravity, instant);
+        let Topology { a, b, c, t, speed } = self.topology;
+        let joint = |index: usize, ideal: bool, force: Vec2| RevoluteOutputs {
+            force: force.into(),
+            eccentricity: if ideal { [0.0; 2] } else { pose.play(index).eccentricity.into() },
+            penetration: if ideal { 0.0 } else { penetration[index] },
+            contact: contacts[index].closed,
+        };
+        Outputs {
+            slider: SliderOutputs {
+                x: pose.place.pin.x,
+                v: pose.velocity.pin.x,
+                a: acceleration.pin.x,
+                y: pose.place.pin.y,
+                angle: turning.angle[SLIDER],
+            },
+            crank: CrankOutputs {
+                angle: turning.angle[CRANK],
+                speed: turning.speed[CRANK],
+                acceleration: angle_acceleration[CRANK],
+            },
+            rod: RodOutputs { angle: turning.angle[ROD], speed: turning.speed[ROD] },
+            joint_a: joint(0, a, r.a),
+            joint_b: joint(1, b, r.b),
+            joint_c: joint(2, c, r.c),
+            joint_t: self.guide(t, &r, contacts, penetration),
+            drive_torque: if speed { r.torque } else { torque_input },
+            accuracy: self.accuracy(instant),
+            ..Outputs::default()
+        }
+    }
+
+    fn guide(&self, ideal: bool, r: &Reactions, contacts: &Contacts, penetration: &[f64; 3 + CORNERS]) -> GuideOutputs {
+        let deepest = penetration[3..].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        GuideOutputs {
+            force: r.t.into(),
+            moment: r.moment,
+            penetration: if ideal { 0.0 } else { deepest },
+            contacts: contacts[3..].iter().map(|contact| i32::from(contact.closed)).sum(),
+        }
+    }
+
+    /// The slider against the ideal mechanism at the same crank angle, speed and acceleration; zero
+    /// where the ideal mechanism cannot be.
+    fn accuracy(&self, instant: &Instant) -> AccuracyOutputs {
+        let turning = &instant.pose.turning;
+        let speed = turning.speed[CRANK];
+        let ideal = self.ideal.motion(Rotation::new(turning.angle[CRANK]), speed);
+        if !(ideal.rod.cos > 0.0) {
+            return AccuracyOutputs::default();
+        }
+        let acceleration = ideal.x_ratio * instant.angle_acceleration[CRANK] + ideal.x_bias;
+        AccuracyOutputs {
+            position: instant.pose.place.pin.x - ideal.x,
+            velocity: instant.pose.velocity.pin.x - ideal.x_ratio * speed,
+            acceleration: instant.acceleration.pin.x - acceleration,
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! What a simulation asks of a mechanism besides its rates.
+
+use super::drive::InputSignal;
+use super::joint::guide::CORNERS;
+use super::start::StartPose;
+use super::state::{Contacts, Instant, Pose};
+use crate::integrator::Problem;
+
+/// A mechanism in minimal coordinates.
+pub trait Plant<const N: usize>: Problem<N, Modes = Contacts> + Send {
+    /// The state of a start pose.
+    fn start(&self, pose: &StartPose) -> [f64; N];
+
+    /// The contacts of a state that no motion has led to: those that penetrate are closed.
+    fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts;
+
+    /// Inputs from a communication point on.
+    fn set_signal(&mut self, signal: InputSignal);
+
+    /// The inputs in force.
+    fn signal(&self) -> &InputSignal;
+
+    /// [s] t0, from which a prescribed crank angle counts.
+    fn start_time(&self) -> f64;
+
+    /// Sets t0.
+    fn set_start_time(&mut self, time: f64);
+
+    /// Everything about one instant.
+    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant;
+
+    /// [m] Penetration of every contact of a pose, −∞ where there is none.
+    fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];
+}

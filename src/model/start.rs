@@ -1,0 +1,81 @@
+//! The start: the crank at θ0, ω0; every clearance joint at its given eccentricity, with rate 0; rod and
+//! slider from closing the loop with those eccentricities in it, the slider on the +x side.
+
+use super::kinematics::JointCentres;
+use super::plane::{Rotation, Vec2, perp};
+use crate::math;
+use crate::scene::{JointModel, Point, Revolute, Scene};
+
+/// Angles and joint centres of the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartPose {
+    /// [rad]
+    pub angle: [f64; 3],
+    /// [rad/s]
+    pub speed: [f64; 3],
+    /// [m]
+    pub place: JointCentres,
+    /// [m/s]
+    pub velocity: JointCentres,
+}
+
+/// sin of the rod's angle at the start; the loop closes if it lies within (−1, 1).
+pub fn rod_sine(scene: &Scene) -> f64 {
+    let crank_pin = eccentricity(&scene.joint.a) + Rotation::new(scene.crank.angle_start).axis(scene.crank.length);
+    let big_end = crank_pin - eccentricity(&scene.joint.b);
+    let small_end_y = pin_height(scene) - eccentricity(&scene.joint.c).y;
+    (small_end_y - big_end.y) / scene.rod.length
+}
+
+/// [m] Height of the slider's pin at the start.
+fn pin_height(scene: &Scene) -> f64 {
+    let offset = match scene.joint.t.model {
+        JointModel::Ideal => 0.0,
+        JointModel::Clearance => scene.joint.t.offset_start,
+    };
+    scene.guide.offset + offset - scene.slider.centre.y
+}
+
+/// [m] Of the journal at the start; an ideal joint's is zero whatever is given.
+fn eccentricity(joint: &Revolute) -> Vec2 {
+    let Point { x, y } = joint.eccentricity_start;
+    match joint.model {
+        JointModel::Ideal => Vec2::zeros(),
+        JointModel::Clearance => Vec2::new(x, y),
+    }
+}
+
+impl StartPose {
+    /// Of a scene; `None` if the loop does not close.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let sine = rod_sine(scene);
+        let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
+        if !(cosine > 0.0) {
+            return None;
+        }
+        let (theta, omega) = (scene.crank.angle_start, scene.crank.speed_start);
+        let crank_arm = Rotation::new(theta).axis(scene.crank.length);
+        let rod_arm = scene.rod.length * Vec2::new(cosine, sine);
+        let crank = eccentricity(&scene.joint.a);
+        let crank_pin = crank + crank_arm;
+        let big_end = crank_pin - eccentricity(&scene.joint.b);
+        let small_end = big_end + rod_arm;
+        let pin = small_end + eccentricity(&scene.joint.c);
+        // The pin does not move across the guide: ω·r·cos θ + ω_rod·l·cos φ = 0.
+        let rod_speed = -omega * crank_arm.x / rod_arm.x;
+        let crank_velocity = omega * perp(crank_arm);
+        let pin_velocity = Vec2::new((crank_velocity + rod_speed * perp(rod_arm)).x, 0.0);
+        Some(Self {
+            angle: [theta, math::atan2(sine, cosine), 0.0],
+            speed: [omega, rod_speed, 0.0],
+            place: JointCentres { crank, crank_pin, big_end, small_end, pin },
+            velocity: JointCentres {
+                crank: Vec2::zeros(),
+                crank_pin: crank_velocity,
+                big_end: crank_velocity,
+                small_end: pin_velocity,
+                pin: pin_velocity,
+            },
+        })
+    }
+}

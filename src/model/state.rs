@@ -1,0 +1,79 @@
+//! A mechanism at one instant, the same for every topology: what outputs are made from.
+
+use super::contact::ContactMode;
+use super::dynamics::Loads;
+use super::joint::guide::{CORNERS, SliderPose};
+use super::joint::revolute::Play;
+use super::kinematics::{JointCentres, Turning};
+use super::mechanism::{CRANK, ROD, SLIDER};
+use super::plane::Rotation;
+
+/// Contacts of the joints A, B, C and of the guide's corners.
+pub const CONTACTS: usize = 3 + CORNERS;
+
+/// The discrete state: every contact's memory.
+pub type Contacts = [ContactMode; CONTACTS];
+
+/// Angles, positions and velocities of an open mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Angles and angular speeds.
+    pub turning: Turning,
+    /// [m]
+    pub place: JointCentres,
+    /// [m/s]
+    pub velocity: JointCentres,
+}
+
+impl Pose {
+    /// The journal in the bearing of joint A, B or C (0, 1, 2).
+    #[inline(always)]
+    pub fn play(&self, joint: usize) -> Play {
+        let (p, v, speed) = (&self.place, &self.velocity, &self.turning.speed);
+        match joint {
+            0 => Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: 0.0 },
+            1 => Play {
+                eccentricity: p.crank_pin - p.big_end,
+                rate: v.crank_pin - v.big_end,
+                journal_speed: speed[CRANK],
+                bearing_speed: speed[ROD],
+            },
+            _ => Play {
+                eccentricity: p.pin - p.small_end,
+                rate: v.pin - v.small_end,
+                journal_speed: speed[SLIDER],
+                bearing_speed: speed[ROD],
+            },
+        }
+    }
+
+    /// The slider in its guide.
+    #[inline(always)]
+    pub fn slider(&self) -> SliderPose {
+        SliderPose {
+            pin: self.place.pin,
+            pin_velocity: self.velocity.pin,
+            rotation: self.turning.rotation[SLIDER],
+            speed: self.turning.speed[SLIDER],
+        }
+    }
+}
+
+/// Everything about one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Angles, positions and velocities.
+    pub pose: Pose,
+    /// [m/s²] Of the joint centres.
+    pub acceleration: JointCentres,
+    /// [rad/s²] Of crank, rod and slider.
+    pub angle_acceleration: [f64; 3],
+    /// Loads, with the contact forces in them.
+    pub loads: Loads,
+}
+
+/// Turning from angles and rates.
+#[inline(always)]
+pub fn turning(angle: [f64; 3], speed: [f64; 3]) -> Turning {
+    Turning { angle, speed, rotation: angle.map(Rotation::new) }
+}

@@ -1,0 +1,74 @@
+//! Chooses the compiled mechanism and method that a scene calls for.
+
+use super::run::{Motion, Run};
+use crate::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
+use crate::model::closed::Closed;
+use crate::model::drive::InputSignal;
+use crate::model::mechanism::Topology;
+use crate::model::open::Open;
+use crate::model::plant::Plant;
+use crate::model::start::StartPose;
+use crate::scene::{Method, Scene};
+
+/// Starts the mechanism of `scene` at `time` [s] from `pose`.
+pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) -> Box<dyn Motion> {
+    /// The open mechanism whose ideal joints and drive are these literals.
+    macro_rules! open {
+        ($a:literal, $b:literal, $c:literal, $t:literal, $speed:literal) => {{
+            const N: usize = 2 * Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed }.freedoms();
+            let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
+            with_method::<N, _>(scene, time, pose, signal, plant)
+        }};
+    }
+    /// Both drives.
+    macro_rules! driven {
+        ($speed:expr, $a:literal, $b:literal, $c:literal, $t:literal) => {
+            if $speed { open!($a, $b, $c, $t, true) } else { open!($a, $b, $c, $t, false) }
+        };
+    }
+    let Topology { a, b, c, t, speed } = Topology::of(scene);
+    match (a, b, c, t) {
+        (true, true, true, true) if speed => {
+            let plant = Closed::<true, 0>::assemble(scene, time);
+            with_method::<0, _>(scene, time, pose, signal, plant)
+        }
+        (true, true, true, true) => {
+            let plant = Closed::<false, 2>::assemble(scene, time);
+            with_method::<2, _>(scene, time, pose, signal, plant)
+        }
+        (true, true, true, false) => driven!(speed, true, true, true, false),
+        (true, true, false, true) => driven!(speed, true, true, false, true),
+        (true, true, false, false) => driven!(speed, true, true, false, false),
+        (true, false, true, true) => driven!(speed, true, false, true, true),
+        (true, false, true, false) => driven!(speed, true, false, true, false),
+        (true, false, false, true) => driven!(speed, true, false, false, true),
+        (true, false, false, false) => driven!(speed, true, false, false, false),
+        (false, true, true, true) => driven!(speed, false, true, true, true),
+        (false, true, true, false) => driven!(speed, false, true, true, false),
+        (false, true, false, true) => driven!(speed, false, true, false, true),
+        (false, true, false, false) => driven!(speed, false, true, false, false),
+        (false, false, true, true) => driven!(speed, false, false, true, true),
+        (false, false, true, false) => driven!(speed, false, false, true, false),
+        (false, false, false, true) => driven!(speed, false, false, false, true),
+        (false, false, false, false) => driven!(speed, false, false, false, false),
+    }
+}
+
+/// The default method is compiled together with each mechanism; the others call it through a table of
+/// functions, once for every number of states.
+fn with_method<const N: usize, P: Plant<N> + 'static>(
+    scene: &Scene,
+    time: f64,
+    pose: &StartPose,
+    signal: InputSignal,
+    mut plant: P,
+) -> Box<dyn Motion> {
+    plant.set_signal(signal);
+    let plant = Box::new(plant);
+    match scene.solver.method {
+        Method::Verner7 => Box::new(Run::<N, Verner7, P>::start(scene, time, pose, plant)),
+        Method::Dopri5 => Box::new(Run::<N, Dopri5, dyn Plant<N>>::start(scene, time, pose, plant)),
+        Method::Dop853 => Box::new(Run::<N, Dop853, dyn Plant<N>>::start(scene, time, pose, plant)),
+        Method::Rk4 => Box::new(Run::<N, Rk4, dyn Plant<N>>::start(scene, time, pose, plant)),
+    }
+}

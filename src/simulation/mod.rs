@@ -1,0 +1,140 @@
+//! Model, state and integrator: a mechanism that moves through time.
+
+mod assemble;
+mod run;
+mod snapshot;
+
+pub use snapshot::Snapshot;
+
+use crate::model::drive::InputSignal;
+use crate::model::signals::{Inputs, Outputs};
+use crate::model::start::StartPose;
+use crate::scene::Scene;
+use run::Motion;
+use std::fmt;
+
+/// A mechanism at one communication point, ready to go on.
+///
+/// - Nothing is allocated after [`Simulation::start`] but by `snapshot` and `restore`.
+/// - While inputs stay the same (to the bit), any split of an interval gives the same bits.
+/// - Inputs are taken as they are: the caller keeps them finite.
+pub struct Simulation {
+    motion: Box<dyn Motion>,
+    time: f64,
+}
+
+/// Why a simulation cannot start or go on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SimulationError {
+    /// The scene contradicts itself; the text names the parameter and what is allowed.
+    Scene(String),
+    /// The integrator gave up at `time`; the state is that of `time`, still usable.
+    Integration {
+        /// [s] Last time reached.
+        time: f64,
+        /// One line: component and cause.
+        cause: String,
+    },
+    /// A snapshot does not fit this scene.
+    Snapshot(String),
+}
+
+impl fmt::Display for SimulationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(text) | Self::Snapshot(text) => f.write_str(text),
+            Self::Integration { time, cause } => write!(f, "at t = {time:.9} s: {cause}"),
+        }
+    }
+}
+
+impl std::error::Error for SimulationError {}
+
+impl Simulation {
+    /// Assembles the scene's mechanism and puts it in its start position at `time` [s].
+    ///
+    /// # Errors
+    /// `Scene` if the start position does not close the loop.
+    pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
+        let pose = StartPose::of(scene).ok_or_else(|| {
+            SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
+        })?;
+        let signal = InputSignal { at: time, value: inputs, rate: Inputs::default() };
+        Ok(Self { motion: assemble::start(scene, time, &pose, signal), time })
+    }
+
+    /// [s] The communication point reached.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Sets inputs and their first time derivatives from the communication point on:
+    /// u(t) = `inputs` + `rates`·(t − time). The same bits as those in force change nothing.
+    pub fn set_inputs(&mut self, inputs: Inputs, rates: Inputs) {
+        self.motion.set_signal(InputSignal { at: self.time, value: inputs, rate: rates });
+    }
+
+    /// Moves to `time` (≥ the time reached).
+    ///
+    /// # Errors
+    /// `Integration`; the simulation is then at the last time that it reached and can still be asked,
+    /// saved and restored.
+    pub fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
+        match self.motion.advance(time) {
+            Ok(()) => {
+                self.time = time;
+                Ok(())
+            }
+            Err(error) => {
+                self.time = self.time.max(error.time());
+                Err(SimulationError::Integration { time: error.time(), cause: error.to_string() })
+            }
+        }
+    }
+
+    /// Outputs at the communication point.
+    pub fn outputs(&mut self) -> Outputs {
+        self.motion.outputs(self.time)
+    }
+
+    /// First time derivatives of the real outputs at the communication point; its integers and
+    /// Booleans are without meaning.
+    pub fn output_rates(&mut self) -> Outputs {
+        self.motion.output_rates(self.time)
+    }
+
+    /// Derivative of the real outputs with respect to the inputs along `seed`, state held; its
+    /// integers and Booleans are without meaning.
+    pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
+        self.motion.output_sensitivity(self.time, seed)
+    }
+
+    /// All that is needed to go on from here.
+    pub fn snapshot(&self) -> Snapshot {
+        let mut snapshot = Snapshot::default();
+        snapshot.reals.push(self.time);
+        self.motion.save(&mut snapshot);
+        snapshot
+    }
+
+    /// A simulation of `scene` that goes on where `snapshot` was taken.
+    ///
+    /// # Errors
+    /// `Snapshot` if it is not one of a scene with these joints and this drive; `Scene` as in
+    /// [`Simulation::start`].
+    pub fn restore(scene: &Scene, snapshot: &Snapshot) -> Result<Self, SimulationError> {
+        let mut simulation = Self::start(scene, 0.0, Inputs::default())?;
+        let mut reader = snapshot::Reader::new(snapshot);
+        let time = reader.real();
+        let loaded = time.is_some() && simulation.motion.load(&mut reader).is_some();
+        match time {
+            Some(time) if loaded && reader.is_at_end() => {
+                simulation.time = time;
+                Ok(simulation)
+            }
+            _ => Err(SimulationError::Snapshot(
+                "the saved state is not one of a scene with these joints and this drive".into(),
+            )),
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! A saved state as plain numbers.
+
+use serde::{Deserialize, Serialize};
+
+/// Everything that a simulation needs to go on as if never stopped.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// Real-valued memory.
+    pub reals: Vec<f64>,
+    /// Counters and flags.
+    pub integers: Vec<u64>,
+}
+
+/// Takes a snapshot apart in the order in which it was put together.
+pub struct Reader<'a> {
+    reals: std::slice::Iter<'a, f64>,
+    integers: std::slice::Iter<'a, u64>,
+}
+
+impl<'a> Reader<'a> {
+    /// From the start.
+    pub fn new(snapshot: &'a Snapshot) -> Self {
+        Self { reals: snapshot.reals.iter(), integers: snapshot.integers.iter() }
+    }
+
+    /// The next real number.
+    pub fn real(&mut self) -> Option<f64> {
+        self.reals.next().copied()
+    }
+
+    /// The next real numbers.
+    pub fn reals<const N: usize>(&mut self) -> Option<[f64; N]> {
+        let mut list = [0.0; N];
+        for place in &mut list {
+            *place = self.real()?;
+        }
+        Some(list)
+    }
+
+    /// The next integer.
+    pub fn integer(&mut self) -> Option<u64> {
+        self.integers.next().copied()
+    }
+
+    /// Nothing is left.
+    pub fn is_at_end(&self) -> bool {
+        self.reals.len() == 0 && self.integers.len() == 0
+    }
+}
