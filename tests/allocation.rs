@@ -1,9 +1,6 @@
 //! No allocation between initialization and termination: steps with contacts opening and closing,
 //! inputs with slopes, outputs, derivatives and sensitivities.
-#![allow(
-    unsafe_code,
-    reason = "a counting allocator, and calls of the C functions"
-)]
+#![allow(unsafe_code, reason = "a counting allocator, and calls of the C functions")]
 
 use slidercrank::fmi::Status;
 use slidercrank::fmi::abi::exports::{co_simulation::*, variables::*, *};
@@ -66,22 +63,11 @@ fn run(joints: &[&str], method: i32) -> (usize, i32) {
     let (count, ok) = (outputs.len(), Status::Ok);
     // SAFETY: a live component, arrays of the lengths said.
     unsafe {
-        let c = fmi2Instantiate(
-            c"x".as_ptr(),
-            1,
-            guid.as_ptr(),
-            null(),
-            &raw const callbacks,
-            0,
-            1,
-        );
+        let c = fmi2Instantiate(c"x".as_ptr(), 1, guid.as_ptr(), null(), &raw const callbacks, 0, 1);
         assert_eq!(fmi2SetReal(c, &vr("crank.speed_start"), 1, &300.0), ok);
         assert_eq!(fmi2SetInteger(c, &vr("solver.method"), 1, &method), ok);
         for joint in joints {
-            assert_eq!(
-                fmi2SetInteger(c, &vr(&format!("joint.{joint}.model")), 1, &2),
-                ok
-            );
+            assert_eq!(fmi2SetInteger(c, &vr(&format!("joint.{joint}.model")), 1, &2), ok);
         }
         assert_eq!(fmi2EnterInitializationMode(c), ok);
         assert_eq!(fmi2ExitInitializationMode(c), ok);
@@ -92,27 +78,10 @@ fn run(joints: &[&str], method: i32) -> (usize, i32) {
             assert_eq!(fmi2SetReal(c, &load, 1, &value), ok);
             assert_eq!(fmi2SetRealInputDerivatives(c, &torque, 1, &1, &value), ok);
             assert_eq!(fmi2DoStep(c, point, step, 1), ok);
-            assert_eq!(
-                fmi2GetReal(c, outputs.as_ptr(), count, values.as_mut_ptr()),
-                ok
-            );
-            let rates = fmi2GetRealOutputDerivatives(
-                c,
-                outputs.as_ptr(),
-                count,
-                orders.as_ptr(),
-                values.as_mut_ptr(),
-            );
+            assert_eq!(fmi2GetReal(c, outputs.as_ptr(), count, values.as_mut_ptr()), ok);
+            let rates = fmi2GetRealOutputDerivatives(c, outputs.as_ptr(), count, orders.as_ptr(), values.as_mut_ptr());
             assert_eq!(rates, ok);
-            let along = fmi2GetDirectionalDerivative(
-                c,
-                outputs.as_ptr(),
-                count,
-                &load,
-                1,
-                &1.0,
-                values.as_mut_ptr(),
-            );
+            let along = fmi2GetDirectionalDerivative(c, outputs.as_ptr(), count, &load, 1, &1.0, values.as_mut_ptr());
             assert_eq!(along, ok);
             point += step;
         }
@@ -130,10 +99,7 @@ fn steps_with_events_do_not_allocate() {
         for joints in [&[][..], &["C"], &["T"], &["A", "B", "C", "T"]] {
             let (allocations, events) = run(joints, method);
             assert_eq!(allocations, 0, "{joints:?}, method {method}");
-            assert!(
-                joints.is_empty() || events > 1,
-                "{joints:?}: {events} events"
-            );
+            assert!(joints.is_empty() || events > 1, "{joints:?}: {events} events");
         }
     }
 }

@@ -131,9 +131,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let h = end.t - start.t;
         let step = Step { t: start.t, h, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates };
         let tolerance = self.settings.tolerance;
-        let correction = self
-            .correction
-            .get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));
+        let correction = self.correction.get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));
         (step.state((t - start.t) / h, correction), start.modes)
     }
 
@@ -220,11 +218,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// Attempts until the error is tolerable.
-    fn accepted<P>(
-        &mut self,
-        problem: &P,
-        start: &Front<N, D>,
-    ) -> Result<(f64, Attempt<N>), IntegrationError>
+    fn accepted<P>(&mut self, problem: &P, start: &Front<N, D>) -> Result<(f64, Attempt<N>), IntegrationError>
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
@@ -338,8 +332,7 @@ fn has_fallen(guard: &Guard) -> bool {
 
 /// A first step over which the rates move the state by a hundredth of its scales.
 fn first_step<const N: usize, P: Problem<N> + ?Sized>(problem: &P, front: &Front<N, P::Modes>) -> f64 {
-    let fastest = (front.rates.iter().zip(problem.scales()))
-        .map(|(rate, scale)| (rate / scale).abs())
-        .fold(0.0, f64::max);
+    let fastest =
+        (front.rates.iter().zip(problem.scales())).map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
     (0.01 / fastest).min(FIRST_STEP).min(problem.longest_step())
 }

@@ -15,8 +15,7 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
     /// The open mechanism whose ideal joints and drive are these literals.
     macro_rules! open {
         ($a:literal, $b:literal, $c:literal, $t:literal, $speed:literal) => {{
-            const N: usize =
-                2 * Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed }.freedoms();
+            const N: usize = 2 * Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed }.freedoms();
             let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
             with_method::<N, _>(scene, time, pose, signal, plant)
         }};

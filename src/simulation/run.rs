@@ -1,9 +1,7 @@
 //! One mechanism under one method.
 
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{
-    Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics,
-};
+use crate::integrator::{Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -45,8 +43,7 @@ const DIFFERENCE: f64 = 1e-8;
 impl<const N: usize, M: Method, P: Plant<N> + ?Sized> Run<N, M, P> {
     /// Starts `plant` at `time` from `pose`.
     pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<P>) -> Self {
-        let settings =
-            Settings { tolerance: scene.solver.tolerance, fixed_step: scene.solver.step };
+        let settings = Settings { tolerance: scene.solver.tolerance, fixed_step: scene.solver.step };
         let y = plant.start(pose);
         let contacts = plant.start_contacts(time, &y);
         let integrator = Integrator::start(plant.as_ref(), settings, time, y, contacts);
@@ -123,19 +120,14 @@ impl<const N: usize, M: Method, P: Plant<N> + Send + ?Sized> Motion for Run<N, M
     fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs {
         // Outputs are affine in the inputs: any difference is the derivative.
         let one = self.observe_under(t, seed);
-        let other = self.observe_under(
-            t,
-            Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load },
-        );
+        let other = self.observe_under(t, Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
         one.combined(&other, |one, other| 0.5 * (one - other))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let Memory { start, end, front, step, last_error, crossings, statistics } =
-            self.integrator.memory();
+        let Memory { start, end, front, step, last_error, crossings, statistics } = self.integrator.memory();
         let InputSignal { at, value, rate } = self.plant.signal();
-        let inputs =
-            [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
+        let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
         snapshot.reals.extend(inputs);
         snapshot.reals.extend([self.plant.start_time(), *step, *last_error]);
         for Front { t, y, rates, modes } in [start, end, front] {

@@ -19,11 +19,7 @@ fn value_and_derivative_combine_in_either_order() {
         let slave = resting();
         let point = slave.steps(0.0, H, 2);
         for value in [value_first, !value_first] {
-            let status = if value {
-                slave.set("crank.torque", 2.0)
-            } else {
-                slave.set_rate("crank.torque", 1, 3.0)
-            };
+            let status = if value { slave.set("crank.torque", 2.0) } else { slave.set_rate("crank.torque", 1, 3.0) };
             assert_eq!(status, Status::Ok);
         }
         assert_eq!(slave.get("crank.torque"), 2.0);
@@ -90,18 +86,12 @@ fn the_mechanism_feels_the_slope_between_points() {
     ramp.steps(0.0, h, 1);
     let (mut point, small) = (0.0, h / f64::from(n));
     for _ in 0..n {
-        assert_eq!(
-            stairs.set("crank.torque", slope * (point + small / 2.0)),
-            Status::Ok
-        );
+        assert_eq!(stairs.set("crank.torque", slope * (point + small / 2.0)), Status::Ok);
         point = stairs.steps(point, small, 1);
     }
     let (expected, found) = (ramp.get("crank.speed"), stairs.get("crank.speed"));
     // Midpoint stairs err by about (1/n)² of the whole, and the integrator by its tolerance 1e-6.
-    assert!(
-        (found - expected).abs() < 1e-5 * expected.abs(),
-        "{expected} {found}"
-    );
+    assert!((found - expected).abs() < 1e-5 * expected.abs(), "{expected} {found}");
     assert!(expected > 0.1);
 }
 
@@ -126,15 +116,9 @@ fn other_orders_and_other_variables_are_refused_by_name() {
     refused(["slider.load", "output"]);
     assert_eq!(slave.rate("solver.steps", 1), Err(Status::Error));
     refused(["solver.steps", "real output"]);
-    assert_eq!(
-        slave.sensitivity("rod.length", "slider.load", 1.0),
-        Err(Status::Error)
-    );
+    assert_eq!(slave.sensitivity("rod.length", "slider.load", 1.0), Err(Status::Error));
     refused(["rod.length", "real output"]);
-    assert_eq!(
-        slave.sensitivity("slider.a", "slider.x", 1.0),
-        Err(Status::Error)
-    );
+    assert_eq!(slave.sensitivity("slider.a", "slider.x", 1.0), Err(Status::Error));
     refused(["slider.x", "real input"]);
 }
 
@@ -145,13 +129,7 @@ fn derivatives_set_together_are_applied_all_or_none() {
     let (orders, rates) = ([1, 2], [5.0, 5.0]);
     // SAFETY: live component, arrays of two entries.
     let status = unsafe {
-        (slave.api.SetRealInputDerivatives)(
-            slave.c,
-            references.as_ptr(),
-            2,
-            orders.as_ptr(),
-            rates.as_ptr(),
-        )
+        (slave.api.SetRealInputDerivatives)(slave.c, references.as_ptr(), 2, orders.as_ptr(), rates.as_ptr())
     };
     assert_eq!(status, Status::Error);
     slave.steps(0.0, H, 1);
@@ -163,13 +141,7 @@ fn output_derivatives_are_the_slopes_of_the_outputs() {
     let slave = Slave::running();
     let mut point = slave.steps(0.0, 1e-3, 3);
     let h = 1e-6;
-    for name in [
-        "slider.x",
-        "slider.v",
-        "crank.angle",
-        "rod.angle",
-        "joint.C.eccentricity.x",
-    ] {
+    for name in ["slider.x", "slider.v", "crank.angle", "rod.angle", "joint.C.eccentricity.x"] {
         let (before, slope) = (slave.get(name), slave.rate(name, 1).expect("an output"));
         point = slave.steps(point, h, 1);
         let after = slave.rate(name, 1).expect("an output");
@@ -177,15 +149,9 @@ fn output_derivatives_are_the_slopes_of_the_outputs() {
         // The trapezoid's slope; its error is h² of the third derivative, and differences of
         // positions near 0.1 m lose 1e-17/h.
         let bound = 1e-4 * slope.abs().max(1.0);
-        assert!(
-            (found - 0.5 * (slope + after)).abs() < bound,
-            "{name}: {slope} {found}"
-        );
+        assert!((found - 0.5 * (slope + after)).abs() < bound, "{name}: {slope} {found}");
     }
-    assert_eq!(
-        slave.rate("slider.x", 1).expect("an output"),
-        slave.get("slider.v")
-    );
+    assert_eq!(slave.rate("slider.x", 1).expect("an output"), slave.get("slider.v"));
 }
 
 #[test]
@@ -195,13 +161,7 @@ fn sensitivities_are_what_a_changed_input_does() {
     for known in ["crank.torque", "slider.load"] {
         // A first change ends the integrator's step here; a second one leaves the state alone.
         assert_eq!(slave.set(known, 1.0), Status::Ok);
-        for unknown in [
-            "slider.a",
-            "crank.acceleration",
-            "joint.A.force.x",
-            "drive.torque",
-            "slider.x",
-        ] {
+        for unknown in ["slider.a", "crank.acceleration", "joint.A.force.x", "drive.torque", "slider.x"] {
             let before = slave.get(unknown);
             let sensitivity = slave.sensitivity(unknown, known, 2.0).expect("an answer");
             assert_eq!(slave.set(known, 3.0), Status::Ok);
@@ -209,10 +169,7 @@ fn sensitivities_are_what_a_changed_input_does() {
             assert_eq!(slave.set(known, 1.0), Status::Ok);
             // Outputs are affine in the inputs: all but their rounding is the derivative.
             let bound = 1e-12 * before.abs().max(1.0);
-            assert!(
-                (found - sensitivity).abs() < bound,
-                "{unknown}/{known}: {sensitivity} {found}"
-            );
+            assert!((found - sensitivity).abs() < bound, "{unknown}/{known}: {sensitivity} {found}");
         }
     }
     assert_eq!(slave.sensitivity("slider.x", "slider.load", 1.0), Ok(0.0));
@@ -222,10 +179,7 @@ fn sensitivities_are_what_a_changed_input_does() {
 #[test]
 fn sensitivities_exist_in_initialization_mode_and_leave_the_run_alone() {
     let (asked, alone) = (Slave::initializing(), Slave::initializing());
-    assert_eq!(
-        asked.sensitivity("drive.torque", "crank.torque", 1.0),
-        Ok(1.0)
-    );
+    assert_eq!(asked.sensitivity("drive.torque", "crank.torque", 1.0), Ok(1.0));
     for slave in [&asked, &alone] {
         assert_eq!(slave.exit(), Status::Ok);
         assert_eq!(slave.set("crank.torque", 1.0), Status::Ok);

@@ -117,14 +117,7 @@ impl Slave {
     pub fn set_all(&self, references: &[u32], values: &[f64]) -> Status {
         assert_eq!(references.len(), values.len());
         // SAFETY: live component, arrays of equal length.
-        unsafe {
-            (self.api.SetReal)(
-                self.c,
-                references.as_ptr(),
-                references.len(),
-                values.as_ptr(),
-            )
-        }
+        unsafe { (self.api.SetReal)(self.c, references.as_ptr(), references.len(), values.as_ptr()) }
     }
 
     pub fn set_integer(&self, name: &str, value: i32) -> Status {
@@ -136,16 +129,11 @@ impl Slave {
         let mut value = f64::NAN;
         // SAFETY: live component, arrays of one entry.
         let status = unsafe { (self.api.GetReal)(self.c, &vr(name), 1, &mut value) };
-        if status == Status::Ok {
-            Ok(value)
-        } else {
-            Err(status)
-        }
+        if status == Status::Ok { Ok(value) } else { Err(status) }
     }
 
     pub fn get(&self, name: &str) -> f64 {
-        self.try_get(name)
-            .unwrap_or_else(|status| panic!("{status:?} {:?}", self.log.take()))
+        self.try_get(name).unwrap_or_else(|status| panic!("{status:?} {:?}", self.log.take()))
     }
 
     pub fn get_integer(&self, name: &str) -> i32 {
@@ -164,34 +152,16 @@ impl Slave {
     pub fn rate(&self, name: &str, order: i32) -> Result<f64, Status> {
         let mut rate = f64::NAN;
         // SAFETY: live component, arrays of one entry.
-        let status =
-            unsafe { (self.api.GetRealOutputDerivatives)(self.c, &vr(name), 1, &order, &mut rate) };
-        if status == Status::Ok {
-            Ok(rate)
-        } else {
-            Err(status)
-        }
+        let status = unsafe { (self.api.GetRealOutputDerivatives)(self.c, &vr(name), 1, &order, &mut rate) };
+        if status == Status::Ok { Ok(rate) } else { Err(status) }
     }
 
     pub fn sensitivity(&self, unknown: &str, known: &str, seed: f64) -> Result<f64, Status> {
         let mut answer = f64::NAN;
         // SAFETY: live component, arrays of one entry.
-        let status = unsafe {
-            (self.api.GetDirectionalDerivative)(
-                self.c,
-                &vr(unknown),
-                1,
-                &vr(known),
-                1,
-                &seed,
-                &mut answer,
-            )
-        };
-        if status == Status::Ok {
-            Ok(answer)
-        } else {
-            Err(status)
-        }
+        let status =
+            unsafe { (self.api.GetDirectionalDerivative)(self.c, &vr(unknown), 1, &vr(known), 1, &seed, &mut answer) };
+        if status == Status::Ok { Ok(answer) } else { Err(status) }
     }
 
     pub fn step(&self, point: f64, size: f64) -> Status {
@@ -244,36 +214,20 @@ impl Slave {
 
     pub fn serialize(&self, state: fmi2FMUstate, bytes: &mut [u8]) -> Status {
         // SAFETY: live component, buffer of the length said.
-        unsafe {
-            (self.api.SerializeFMUstate)(
-                self.c,
-                state,
-                bytes.as_mut_ptr().cast::<c_char>(),
-                bytes.len(),
-            )
-        }
+        unsafe { (self.api.SerializeFMUstate)(self.c, state, bytes.as_mut_ptr().cast::<c_char>(), bytes.len()) }
     }
 
     pub fn deserialize(&self, bytes: &[u8]) -> Result<fmi2FMUstate, Status> {
         let mut state = null_mut();
         // SAFETY: live component, buffer of the length said, one place.
-        let status = unsafe {
-            (self.api.DeSerializeFMUstate)(self.c, bytes.as_ptr().cast(), bytes.len(), &mut state)
-        };
-        if status == Status::Ok {
-            Ok(state)
-        } else {
-            Err(status)
-        }
+        let status = unsafe { (self.api.DeSerializeFMUstate)(self.c, bytes.as_ptr().cast(), bytes.len(), &mut state) };
+        if status == Status::Ok { Ok(state) } else { Err(status) }
     }
 
     /// Every real output and input, as bits.
     pub fn picture(&self) -> Vec<u64> {
         use slidercrank::fmi::variables::Access;
-        let real = VARIABLES
-            .iter()
-            .filter(|v| matches!(v.access, Access::RealOutput(_) | Access::Input { .. }));
-        real.map(|variable| self.get(variable.name).to_bits())
-            .collect()
+        let real = VARIABLES.iter().filter(|v| matches!(v.access, Access::RealOutput(_) | Access::Input { .. }));
+        real.map(|variable| self.get(variable.name).to_bits()).collect()
     }
 }

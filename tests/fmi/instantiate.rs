@@ -20,15 +20,7 @@ fn instantiate(
     let api = Api::linked();
     // SAFETY: strings and callbacks are valid or NULL.
     unsafe {
-        let c = (api.Instantiate)(
-            pointer(name),
-            fmu_type,
-            pointer(guid),
-            pointer(location),
-            callbacks,
-            1,
-            logging_on,
-        );
+        let c = (api.Instantiate)(pointer(name), fmu_type, pointer(guid), pointer(location), callbacks, 1, logging_on);
         (api.FreeInstance)(c);
         !c.is_null()
     }
@@ -47,18 +39,9 @@ fn platform_and_version_are_the_standards() {
 fn a_wrong_guid_is_told_with_the_right_one() {
     let log = Log::default();
     for logging_on in [0, 1] {
-        assert!(!instantiate(
-            Some(c"x"),
-            1,
-            Some(c"{wrong}"),
-            None,
-            &log.callbacks(),
-            logging_on
-        ));
+        assert!(!instantiate(Some(c"x"), 1, Some(c"{wrong}"), None, &log.callbacks(), logging_on));
         let line = log.only();
-        assert!(
-            line.text.contains("{wrong}") && line.text.contains(guid().to_str().expect("text"))
-        );
+        assert!(line.text.contains("{wrong}") && line.text.contains(guid().to_str().expect("text")));
         assert_eq!((line.instance.as_str(), line.status), ("x", 3));
         assert_eq!(line.category, "logStatusError");
     }
@@ -69,33 +52,12 @@ fn a_wrong_guid_is_told_with_the_right_one() {
 #[test]
 fn name_and_type_are_needed() {
     let (log, guid) = (Log::default(), guid());
-    assert!(!instantiate(
-        None,
-        1,
-        Some(&guid),
-        None,
-        &log.callbacks(),
-        1
-    ));
+    assert!(!instantiate(None, 1, Some(&guid), None, &log.callbacks(), 1));
     assert!(log.only().text.contains("instanceName"));
-    assert!(!instantiate(
-        Some(c""),
-        1,
-        Some(&guid),
-        None,
-        &log.callbacks(),
-        1
-    ));
+    assert!(!instantiate(Some(c""), 1, Some(&guid), None, &log.callbacks(), 1));
     assert!(log.only().text.contains("instanceName"));
     for fmu_type in [0, 2, -1, i32::MAX] {
-        assert!(!instantiate(
-            Some(c"x"),
-            fmu_type,
-            Some(&guid),
-            None,
-            &log.callbacks(),
-            1
-        ));
+        assert!(!instantiate(Some(c"x"), fmu_type, Some(&guid), None, &log.callbacks(), 1));
         assert!(log.only().text.contains("fmuType"));
     }
 }
@@ -112,14 +74,7 @@ fn callbacks_are_needed_but_none_of_their_functions() {
         component_environment: null_mut(),
     };
     assert!(instantiate(Some(c"x"), 1, Some(&guid), None, &nothing, 1));
-    assert!(!instantiate(
-        Some(c"x"),
-        1,
-        Some(c"wrong"),
-        None,
-        &nothing,
-        1
-    ));
+    assert!(!instantiate(Some(c"x"), 1, Some(c"wrong"), None, &nothing, 1));
 }
 
 #[test]
@@ -137,46 +92,15 @@ fn every_spelling_of_a_file_uri_is_silent_and_others_cost_a_remark() {
     ];
     for location in silent {
         let location = CString::new(location).expect("no zero");
-        assert!(instantiate(
-            Some(c"x"),
-            1,
-            Some(&guid),
-            Some(&location),
-            &log.callbacks(),
-            1
-        ));
+        assert!(instantiate(Some(c"x"), 1, Some(&guid), Some(&location), &log.callbacks(), 1));
         assert_eq!(log.take(), [], "{location:?}");
     }
-    assert!(instantiate(
-        Some(c"x"),
-        1,
-        Some(&guid),
-        None,
-        &log.callbacks(),
-        1
-    ));
+    assert!(instantiate(Some(c"x"), 1, Some(&guid), None, &log.callbacks(), 1));
     assert_eq!(log.take(), []);
-    for location in [
-        c"http://x/y%20z",
-        c"/x/resources",
-        c"file://elsewhere/x",
-        c"nonsense",
-        c"file:///\xff\xfe%",
-    ] {
-        assert!(instantiate(
-            Some(c"x"),
-            1,
-            Some(&guid),
-            Some(location),
-            &log.callbacks(),
-            1
-        ));
+    for location in [c"http://x/y%20z", c"/x/resources", c"file://elsewhere/x", c"nonsense", c"file:///\xff\xfe%"] {
+        assert!(instantiate(Some(c"x"), 1, Some(&guid), Some(location), &log.callbacks(), 1));
         let line = log.only();
-        assert_eq!(
-            (line.status, line.category.as_str()),
-            (1, "logStatusWarning"),
-            "{location:?}"
-        );
+        assert_eq!((line.status, line.category.as_str()), (1, "logStatusWarning"), "{location:?}");
     }
 }
 
@@ -185,29 +109,12 @@ fn ten_thousand_instances_come_and_go() {
     let (log, guid) = (Log::default(), guid());
     let resident = || {
         let status = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
-        status
-            .split(' ')
-            .nth(1)
-            .and_then(|pages| pages.parse::<usize>().ok())
-            .unwrap_or(0)
+        status.split(' ').nth(1).and_then(|pages| pages.parse::<usize>().ok()).unwrap_or(0)
     };
-    let cycle = || {
-        assert!(instantiate(
-            Some(c"x"),
-            1,
-            Some(&guid),
-            None,
-            &log.callbacks(),
-            1
-        ))
-    };
+    let cycle = || assert!(instantiate(Some(c"x"), 1, Some(&guid), None, &log.callbacks(), 1));
     (0..1000).for_each(|_| cycle());
     let before = resident();
     (0..10_000).for_each(|_| cycle());
     // A leak of one instance a cycle would be some thousand pages; other tests run beside this one.
-    assert!(
-        resident() < before + 4096,
-        "{before} pages before, {} after",
-        resident()
-    );
+    assert!(resident() < before + 4096, "{before} pages before, {} after", resident());
 }

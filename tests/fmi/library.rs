@@ -12,22 +12,14 @@ fn library() -> PathBuf {
     let test = std::env::current_exe().expect("a path");
     let name = libloading::library_filename("slidercrank");
     let beside = test.parent().expect("a folder").join(&name);
-    if beside.exists() {
-        beside
-    } else {
-        test.ancestors().nth(2).expect("a folder").join(name)
-    }
+    if beside.exists() { beside } else { test.ancestors().nth(2).expect("a folder").join(name) }
 }
 
 #[test]
 fn a_loaded_library_runs_as_the_linked_one() {
     // SAFETY: our own library, whose initializers do nothing.
     let library = unsafe { libloading::Library::new(library()) }.expect("a shared library");
-    let loaded = Slave::of(
-        Api::loaded(&library).expect("all functions"),
-        "loaded",
-        true,
-    );
+    let loaded = Slave::of(Api::loaded(&library).expect("all functions"), "loaded", true);
     assert_eq!(loaded.enter(), Status::Ok);
     loaded.wear();
     assert_eq!(loaded.exit(), Status::Ok);
@@ -53,16 +45,9 @@ fn the_list_of_calls_is_the_list_of_functions() {
 #[test]
 #[cfg(target_os = "linux")]
 fn the_functions_of_the_standard_are_exported_and_nothing_else() {
-    let output = Command::new("nm")
-        .args(["-D", "--defined-only"])
-        .arg(library())
-        .output()
-        .expect("nm");
+    let output = Command::new("nm").args(["-D", "--defined-only"]).arg(library()).output().expect("nm");
     let text = String::from_utf8(output.stdout).expect("text");
-    let mut exported: Vec<_> = text
-        .lines()
-        .filter_map(|line| line.split(' ').nth(2))
-        .collect();
+    let mut exported: Vec<_> = text.lines().filter_map(|line| line.split(' ').nth(2)).collect();
     let mut expected = Api::NAMES.to_vec();
     exported.sort_unstable();
     expected.sort_unstable();
@@ -72,23 +57,12 @@ fn the_functions_of_the_standard_are_exported_and_nothing_else() {
 #[test]
 #[cfg(target_os = "linux")]
 fn the_library_stays_in_memory_and_needs_the_c_library_only() {
-    let output = Command::new("readelf")
-        .arg("-d")
-        .arg(library())
-        .output()
-        .expect("readelf");
+    let output = Command::new("readelf").arg("-d").arg(library()).output().expect("readelf");
     let text = String::from_utf8(output.stdout).expect("text");
     assert!(text.contains("NODELETE"), "{text}");
     let needed = text.lines().filter(|line| line.contains("(NEEDED)"));
     for line in needed {
-        let known = [
-            "libc.so",
-            "libm.so",
-            "libgcc_s.so",
-            "ld-linux",
-            "libdl.so",
-            "libpthread.so",
-        ];
+        let known = ["libc.so", "libm.so", "libgcc_s.so", "ld-linux", "libdl.so", "libpthread.so"];
         assert!(known.iter().any(|name| line.contains(name)), "{line}");
     }
 }

@@ -11,58 +11,28 @@ use std::ptr::null;
 
 use Call::*;
 
-const QUERIES: &[Call] = &[
-    GetStatus,
-    GetRealStatus,
-    GetIntegerStatus,
-    GetBooleanStatus,
-    GetStringStatus,
-];
-const SAVING: &[Call] = &[
-    GetFMUstate,
-    SetFMUstate,
-    FreeFMUstate,
-    SerializedFMUstateSize,
-    SerializeFMUstate,
-    DeSerializeFMUstate,
-];
+const QUERIES: &[Call] = &[GetStatus, GetRealStatus, GetIntegerStatus, GetBooleanStatus, GetStringStatus];
+const SAVING: &[Call] =
+    &[GetFMUstate, SetFMUstate, FreeFMUstate, SerializedFMUstateSize, SerializeFMUstate, DeSerializeFMUstate];
 const READING: &[Call] = &[GetReal, GetInteger, GetBoolean, GetString];
 const WRITING: &[Call] = &[SetReal, SetInteger, SetBoolean, SetString];
 const ANY_TIME: &[Call] = &[GetTypesPlatform, GetVersion];
-const ALIVE: &[Call] = &[
-    GetTypesPlatform,
-    GetVersion,
-    SetDebugLogging,
-    FreeInstance,
-    Reset,
-];
+const ALIVE: &[Call] = &[GetTypesPlatform, GetVersion, SetDebugLogging, FreeInstance, Reset];
 
 /// FMI 2.0.4, table in 4.2.4, a column at a time. Reading while instantiated is our addition, for
 /// inputs and parameters.
 fn allowed(state: State) -> Vec<&'static [Call]> {
     match state {
         State::StartAndEnd => vec![ANY_TIME, &[Instantiate]],
-        State::Instantiated => vec![
-            ALIVE,
-            SAVING,
-            WRITING,
-            READING,
-            &[
-                SetupExperiment,
-                EnterInitializationMode,
-                SetRealInputDerivatives,
-            ],
-        ],
+        State::Instantiated => {
+            vec![ALIVE, SAVING, WRITING, READING, &[SetupExperiment, EnterInitializationMode, SetRealInputDerivatives]]
+        }
         State::InitializationMode => vec![
             ALIVE,
             SAVING,
             WRITING,
             READING,
-            &[
-                ExitInitializationMode,
-                GetDirectionalDerivative,
-                SetRealInputDerivatives,
-            ],
+            &[ExitInitializationMode, GetDirectionalDerivative, SetRealInputDerivatives],
         ],
         State::StepComplete => vec![
             ALIVE,
@@ -71,40 +41,17 @@ fn allowed(state: State) -> Vec<&'static [Call]> {
             READING,
             QUERIES,
             &[Terminate, DoStep],
-            &[
-                GetDirectionalDerivative,
-                SetRealInputDerivatives,
-                GetRealOutputDerivatives,
-            ],
+            &[GetDirectionalDerivative, SetRealInputDerivatives, GetRealOutputDerivatives],
         ],
         State::StepInProgress => vec![ANY_TIME, QUERIES, &[SetDebugLogging, CancelStep]],
-        State::StepFailed => vec![
-            ALIVE,
-            SAVING,
-            READING,
-            QUERIES,
-            &[
-                Terminate,
-                GetDirectionalDerivative,
-                GetRealOutputDerivatives,
-            ],
-        ],
+        State::StepFailed => {
+            vec![ALIVE, SAVING, READING, QUERIES, &[Terminate, GetDirectionalDerivative, GetRealOutputDerivatives]]
+        }
         State::StepCanceled | State::Error => {
-            vec![
-                ALIVE,
-                SAVING,
-                READING,
-                &[GetDirectionalDerivative, GetRealOutputDerivatives],
-            ]
+            vec![ALIVE, SAVING, READING, &[GetDirectionalDerivative, GetRealOutputDerivatives]]
         }
         State::Terminated => {
-            vec![
-                ALIVE,
-                SAVING,
-                READING,
-                QUERIES,
-                &[GetDirectionalDerivative, GetRealOutputDerivatives],
-            ]
+            vec![ALIVE, SAVING, READING, QUERIES, &[GetDirectionalDerivative, GetRealOutputDerivatives]]
         }
         State::Fatal => vec![&[FreeInstance]],
     }
@@ -115,12 +62,7 @@ fn the_table_is_the_standards() {
     for state in State::ALL {
         let allowed = allowed(state).concat();
         for &call in Call::ALL {
-            assert_eq!(
-                call.allowed(state),
-                allowed.contains(&call),
-                "{} in {state}",
-                call.name()
-            );
+            assert_eq!(call.allowed(state), allowed.contains(&call), "{} in {state}", call.name());
         }
     }
 }
@@ -132,10 +74,7 @@ fn variables_are_touched_as_the_footnotes_say() {
         let reading = allowed(state).concat().contains(&GetReal);
         assert_eq!(Touch::GetInput.allowed(state), reading);
         assert_eq!(Touch::GetParameter.allowed(state), reading);
-        assert_eq!(
-            Touch::GetOutput.allowed(state),
-            reading && state != State::Instantiated
-        );
+        assert_eq!(Touch::GetOutput.allowed(state), reading && state != State::Instantiated);
         assert_eq!(Touch::SetParameter.allowed(state), setting.contains(&state));
         let inputs = setting.contains(&state) || state == State::StepComplete;
         assert_eq!(Touch::SetInput.allowed(state), inputs);
@@ -144,13 +83,8 @@ fn variables_are_touched_as_the_footnotes_say() {
 }
 
 /// States that an importer can bring about.
-const REACHABLE: [State; 5] = [
-    State::Instantiated,
-    State::InitializationMode,
-    State::StepComplete,
-    State::StepFailed,
-    State::Terminated,
-];
+const REACHABLE: [State; 5] =
+    [State::Instantiated, State::InitializationMode, State::StepComplete, State::StepFailed, State::Terminated];
 
 /// A slave in this state, with a state saved when it was young.
 fn reach(state: State) -> (Slave, fmi2FMUstate) {
@@ -196,18 +130,10 @@ fn every_call_in_every_reachable_state_answers_as_the_table_says() {
             };
             let lines = slave.log.take();
             assert_eq!(answer, expected, "{} in {state}: {lines:?}", call.name());
-            assert_eq!(
-                lines.len(),
-                usize::from(expected != Status::Ok),
-                "{} in {state}",
-                call.name()
-            );
+            assert_eq!(lines.len(), usize::from(expected != Status::Ok), "{} in {state}", call.name());
             if expected == Status::Error {
                 assert!(lines[0].text.starts_with(call.name()), "{lines:?}");
-                assert!(
-                    lines[0].text.contains(&state.to_string()) || call.is_model_exchange(),
-                    "{lines:?}"
-                );
+                assert!(lines[0].text.contains(&state.to_string()) || call.is_model_exchange(), "{lines:?}");
             }
         }
     }
@@ -218,16 +144,9 @@ fn a_refused_call_leaves_the_run_alone() {
     let (slave, reference) = (Slave::running(), Slave::running());
     let saved = slave.save();
     let point = slave.steps(0.0, 1e-4, 5);
-    let refused = Call::ALL
-        .iter()
-        .filter(|call| !call.allowed(State::StepComplete));
+    let refused = Call::ALL.iter().filter(|call| !call.allowed(State::StepComplete));
     for &call in refused {
-        assert_ne!(
-            perform(call, &slave, saved),
-            Some(Status::Ok),
-            "{}",
-            call.name()
-        );
+        assert_ne!(perform(call, &slave, saved), Some(Status::Ok), "{}", call.name());
     }
     slave.steps(point, 1e-4, 5);
     reference.steps(0.0, 1e-4, 10);

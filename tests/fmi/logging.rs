@@ -8,10 +8,7 @@ use slidercrank::fmi::variables::LogCategory;
 use std::ffi::CString;
 
 fn choose(slave: &Slave, on: i32, names: &[&str]) -> Status {
-    let names: Vec<_> = names
-        .iter()
-        .map(|name| CString::new(*name).expect("no zero"))
-        .collect();
+    let names: Vec<_> = names.iter().map(|name| CString::new(*name).expect("no zero")).collect();
     let pointers: Vec<_> = names.iter().map(|name| name.as_ptr()).collect();
     // SAFETY: live component, array of the length said.
     unsafe { (slave.api.SetDebugLogging)(slave.c, on, pointers.len(), pointers.as_ptr()) }
@@ -82,11 +79,7 @@ fn a_line_names_call_variable_and_cause() {
     let line = slave.log.only();
     assert_eq!((line.instance.as_str(), line.status), ("slave", 3));
     assert_eq!(line.category, "logStatusError");
-    assert!(
-        line.text
-            .starts_with("fmi2SetReal: rod.length = -1.0 is out of range; allowed: "),
-        "{line:?}"
-    );
+    assert!(line.text.starts_with("fmi2SetReal: rod.length = -1.0 is out of range; allowed: "), "{line:?}");
 }
 
 #[test]
@@ -94,16 +87,9 @@ fn a_logger_that_calls_back_is_refused() {
     use slidercrank::fmi::abi::types::*;
     use std::ffi::{c_int, c_void};
     use std::sync::atomic::{AtomicPtr, Ordering};
-    unsafe extern "C" fn call_back(
-        e: *mut c_void,
-        _: fmi2String,
-        _: c_int,
-        _: fmi2String,
-        _: fmi2String,
-    ) {
+    unsafe extern "C" fn call_back(e: *mut c_void, _: fmi2String, _: c_int, _: fmi2String, _: fmi2String) {
         // SAFETY: the environment is the atomic below.
-        let component = unsafe { &*e.cast::<AtomicPtr<c_void>>() }
-            .swap(std::ptr::null_mut(), Ordering::Relaxed);
+        let component = unsafe { &*e.cast::<AtomicPtr<c_void>>() }.swap(std::ptr::null_mut(), Ordering::Relaxed);
         for _ in 0..2 {
             // SAFETY: NULL or a live component.
             assert_eq!(unsafe { (Api::linked().Reset)(component) }, Status::Error);
@@ -120,21 +106,10 @@ fn a_logger_that_calls_back_is_refused() {
     let (api, guid) = (Api::linked(), crate::host::guid());
     // SAFETY: valid strings and callbacks, which outlive the instance.
     unsafe {
-        let c = (api.Instantiate)(
-            c"x".as_ptr(),
-            1,
-            guid.as_ptr(),
-            std::ptr::null(),
-            &raw const callbacks,
-            0,
-            1,
-        );
+        let c = (api.Instantiate)(c"x".as_ptr(), 1, guid.as_ptr(), std::ptr::null(), &raw const callbacks, 0, 1);
         component.store(c, Ordering::Relaxed);
         assert_eq!((api.DoStep)(c, 0.0, 1.0, 1), Status::Error);
-        assert!(
-            component.load(Ordering::Relaxed).is_null(),
-            "the logger was called"
-        );
+        assert!(component.load(Ordering::Relaxed).is_null(), "the logger was called");
         assert_eq!((api.EnterInitializationMode)(c), Status::Ok);
         (api.FreeInstance)(c);
     }

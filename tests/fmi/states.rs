@@ -11,10 +11,7 @@ fn drive(slave: &Slave, mut point: f64, count: u32) -> f64 {
     for i in 0..count {
         if i % 3 == 0 {
             assert_eq!(slave.set("crank.torque", f64::from(i)), Status::Ok);
-            assert_eq!(
-                slave.set_rate("slider.load", 1, -10.0 * f64::from(i)),
-                Status::Ok
-            );
+            assert_eq!(slave.set_rate("slider.load", 1, -10.0 * f64::from(i)), Status::Ok);
         }
         point = slave.steps(point, H, 1);
     }
@@ -157,11 +154,7 @@ fn cut_bytes_and_bytes_of_others_are_refused_in_their_own_words() {
     let slave = Slave::running();
     let bytes = slave.bytes_of(slave.save());
     for length in 0..bytes.len() {
-        assert_eq!(
-            slave.deserialize(&bytes[..length]),
-            Err(Status::Error),
-            "{length}"
-        );
+        assert_eq!(slave.deserialize(&bytes[..length]), Err(Status::Error), "{length}");
         slave.log.only();
     }
     let refused = |change: fn(&mut Vec<u8>), words: &str| {
@@ -176,14 +169,8 @@ fn cut_bytes_and_bytes_of_others_are_refused_in_their_own_words() {
     refused(|bytes| bytes.push(1), "instead of");
     refused(|bytes| bytes.truncate(bytes.len() - 1), "instead of");
     refused(|bytes| *bytes.last_mut().expect("bytes") ^= 1, "checksum");
-    refused(
-        |bytes| reseal(bytes, |sealed| sealed[12] ^= 1),
-        "other variables",
-    );
-    refused(
-        |bytes| reseal(bytes, |sealed| sealed[48] = 99),
-        "contradicts itself",
-    );
+    refused(|bytes| reseal(bytes, |sealed| sealed[12] ^= 1), "other variables");
+    refused(|bytes| reseal(bytes, |sealed| sealed[48] = 99), "contradicts itself");
 }
 
 /// Changes the sealed part and mends the checksum.
@@ -200,8 +187,7 @@ fn an_old_place_is_kept_when_bytes_are_refused() {
     let mut state = slave.save();
     let before = state;
     // SAFETY: live component, buffer of the length said, one place.
-    let status =
-        unsafe { (slave.api.DeSerializeFMUstate)(slave.c, [0; 4].as_ptr(), 4, &mut state) };
+    let status = unsafe { (slave.api.DeSerializeFMUstate)(slave.c, [0; 4].as_ptr(), 4, &mut state) };
     assert_eq!((status, state), (Status::Error, before));
     assert_eq!(slave.set_state(state), Status::Ok);
 }

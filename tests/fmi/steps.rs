@@ -11,13 +11,7 @@ fn up(x: f64) -> f64 {
 /// Initialized without stop or with one.
 fn from_to(start: f64, stop: Option<f64>) -> Slave {
     let slave = Slave::new();
-    let setup = slave.setup_raw(
-        0,
-        0.0,
-        start,
-        i32::from(stop.is_some()),
-        stop.unwrap_or(0.0),
-    );
+    let setup = slave.setup_raw(0, 0.0, start, i32::from(stop.is_some()), stop.unwrap_or(0.0));
     assert_eq!(setup, Status::Ok);
     assert_eq!(slave.set("crank.speed_start", 100.0), Status::Ok);
     assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
@@ -65,10 +59,7 @@ fn another_communication_point_is_refused_and_changes_nothing() {
     for elsewhere in [1.0, point - 1e-3, point + 1e-3, point + 1e-6, -point, 0.0] {
         assert_eq!(slave.step(elsewhere, 1e-3), Status::Error);
         let text = slave.log.only().text;
-        assert!(
-            text.contains("currentCommunicationPoint") && text.contains(&format!("{point:?}")),
-            "{text}"
-        );
+        assert!(text.contains("currentCommunicationPoint") && text.contains(&format!("{point:?}")), "{text}");
     }
     assert_eq!(slave.picture(), before);
     slave.steps(point, 1e-3, 1);
@@ -105,10 +96,7 @@ fn a_stop_before_the_start_and_a_tolerance_of_nothing_are_refused() {
     }
     assert_eq!(slave.setup_raw(1, 1e-30, 0.0, 0, 0.0), Status::Warning);
     let line = slave.log.only();
-    assert_eq!(
-        (line.status, line.category.as_str()),
-        (1, "logStatusWarning")
-    );
+    assert_eq!((line.status, line.category.as_str()), (1, "logStatusWarning"));
     assert!(line.text.contains("1e-30"), "{line:?}");
 }
 
@@ -117,10 +105,7 @@ fn the_experiments_tolerance_comes_before_the_scenes() {
     let evaluations = |own: f64, experiment: Option<f64>| {
         let slave = Slave::new();
         let defined = i32::from(experiment.is_some());
-        assert_eq!(
-            slave.setup_raw(defined, experiment.unwrap_or(1e-2), 0.0, 0, 0.0),
-            Status::Ok
-        );
+        assert_eq!(slave.setup_raw(defined, experiment.unwrap_or(1e-2), 0.0, 0, 0.0), Status::Ok);
         slave.wear();
         assert_eq!(slave.set("solver.tolerance", own), Status::Ok);
         assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
@@ -149,19 +134,13 @@ fn a_failed_step_is_told_undone_and_redone() {
     assert_eq!(slave.set("slider.load", 1e308), Status::Ok);
     assert_eq!(slave.step(point, 1e-3), Status::Discard);
     let line = slave.log.only();
-    assert_eq!(
-        (line.status, line.category.as_str()),
-        (2, "logStatusDiscard")
-    );
+    assert_eq!((line.status, line.category.as_str()), (2, "logStatusDiscard"));
     assert!(slave.last_time() >= point && slave.last_time() < point + 1e-3);
     let (mut status, mut terminated) = (-1, -1);
     // SAFETY: live component, one place each.
     unsafe {
         assert_eq!((slave.api.GetStatus)(slave.c, 0, &mut status), Status::Ok);
-        assert_eq!(
-            (slave.api.GetBooleanStatus)(slave.c, 3, &mut terminated),
-            Status::Ok
-        );
+        assert_eq!((slave.api.GetBooleanStatus)(slave.c, 3, &mut terminated), Status::Ok);
     }
     assert_eq!((status, terminated), (2, 0));
     assert_eq!(slave.step(point, 1e-3), Status::Error);

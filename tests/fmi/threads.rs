@@ -10,10 +10,7 @@ const H: f64 = 1e-4;
 fn nth(i: u32) -> Slave {
     let slave = Slave::initializing();
     slave.wear();
-    assert_eq!(
-        slave.set("crank.speed_start", 100.0 + f64::from(i)),
-        Status::Ok
-    );
+    assert_eq!(slave.set("crank.speed_start", 100.0 + f64::from(i)), Status::Ok);
     assert_eq!(slave.exit(), Status::Ok);
     slave
 }

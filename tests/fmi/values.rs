@@ -12,16 +12,10 @@ fn inputs_and_parameters_read_back_in_every_state() {
         for variable in VARIABLES {
             match &variable.access {
                 Access::Input { start, .. } => assert_eq!(slave.get(variable.name), *start),
-                Access::Parameter(Parameter {
-                    kind: Kind::Real { start, .. },
-                    ..
-                }) => {
+                Access::Parameter(Parameter { kind: Kind::Real { start, .. }, .. }) => {
                     assert_eq!(slave.get(variable.name), *start);
                 }
-                Access::Parameter(Parameter {
-                    kind: Kind::Enumeration { start, .. },
-                    ..
-                }) => {
+                Access::Parameter(Parameter { kind: Kind::Enumeration { start, .. }, .. }) => {
                     assert_eq!(slave.get_integer(variable.name), *start);
                 }
                 _ => {}
@@ -59,10 +53,7 @@ fn outputs_are_not_there_before_initialization() {
     let slave = Slave::new();
     assert_eq!(slave.try_get("slider.x"), Err(Status::Error));
     let text = slave.log.only().text;
-    assert!(
-        text.contains("slider.x") && text.contains("output"),
-        "{text}"
-    );
+    assert!(text.contains("slider.x") && text.contains("output"), "{text}");
 }
 
 #[test]
@@ -81,17 +72,11 @@ fn an_input_shows_at_once_and_without_a_step() {
     let slave = Slave::running();
     let point = slave.steps(0.0, 1e-3, 3);
     assert_eq!(slave.set("crank.torque", 7.0), Status::Ok);
-    assert_eq!(
-        (slave.get("crank.torque"), slave.get("drive.torque")),
-        (7.0, 7.0)
-    );
+    assert_eq!((slave.get("crank.torque"), slave.get("drive.torque")), (7.0, 7.0));
     assert_eq!(slave.set("crank.torque", 8.0), Status::Ok);
     assert_eq!(slave.get("drive.torque"), 8.0);
     slave.steps(point, 1e-3, 1);
-    assert_eq!(
-        (slave.get("crank.torque"), slave.get("drive.torque")),
-        (8.0, 8.0)
-    );
+    assert_eq!((slave.get("crank.torque"), slave.get("drive.torque")), (8.0, 8.0));
 }
 
 #[test]
@@ -119,10 +104,7 @@ fn parameters_are_fixed_once_initialization_is_over_and_outputs_always() {
     assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
     assert_eq!(slave.set("rod.length", 0.2), Status::Error);
     let text = slave.log.only().text;
-    assert!(
-        text.contains("rod.length (fixed parameter)") && text.contains("step complete"),
-        "{text}"
-    );
+    assert!(text.contains("rod.length (fixed parameter)") && text.contains("step complete"), "{text}");
     assert_eq!(slave.set_integer("joint.A.model", 2), Status::Error);
     assert_eq!(slave.set_integer("joint.T.contacts", 2), Status::Error);
     assert_eq!(slave.get("rod.length"), 0.12);
@@ -134,10 +116,7 @@ fn every_parameter_refuses_what_is_outside_its_range_and_says_the_range() {
     let refused = |name: &str, status: Status| {
         let line = slave.log.only();
         assert_eq!(status, Status::Error, "{line:?}");
-        assert!(
-            line.text.contains(name) && line.text.contains("allowed"),
-            "{line:?}"
-        );
+        assert!(line.text.contains(name) && line.text.contains("allowed"), "{line:?}");
     };
     for variable in VARIABLES {
         let Access::Parameter(parameter) = variable.access else {
@@ -146,16 +125,10 @@ fn every_parameter_refuses_what_is_outside_its_range_and_says_the_range() {
         match parameter.kind {
             Kind::Real { min, max, .. } => {
                 let before = slave.get(variable.name);
-                for limit in [min, max]
-                    .into_iter()
-                    .filter(|limit| limit.abs() < f64::MAX)
-                {
+                for limit in [min, max].into_iter().filter(|limit| limit.abs() < f64::MAX) {
                     assert_eq!(slave.set(variable.name, limit), Status::Ok);
                 }
-                for beyond in [
-                    min - min.abs().max(1.0) * 1e-9,
-                    max + max.abs().max(1.0) * 1e-9,
-                ] {
+                for beyond in [min - min.abs().max(1.0) * 1e-9, max + max.abs().max(1.0) * 1e-9] {
                     if beyond.is_finite() && beyond.abs() < 1e300 {
                         refused(variable.name, slave.set(variable.name, beyond));
                     }
@@ -176,10 +149,7 @@ fn values_set_together_are_applied_all_or_none() {
     let slave = Slave::initializing();
     let references = [vr("rod.length"), vr("crank.torque"), vr("crank.length")];
     let before = [0.12, 0.0, 0.05];
-    for (values, culprit) in [
-        ([0.2, 5.0, -1.0], "crank.length"),
-        ([0.2, f64::NAN, 0.06], "crank.torque"),
-    ] {
+    for (values, culprit) in [([0.2, 5.0, -1.0], "crank.length"), ([0.2, f64::NAN, 0.06], "crank.torque")] {
         assert_eq!(slave.set_all(&references, &values), Status::Error);
         assert!(slave.log.only().text.contains(culprit));
         let names = ["rod.length", "crank.torque", "crank.length"];
@@ -210,10 +180,7 @@ fn reset_brings_every_start_value_back_and_can_be_repeated() {
     for _ in 0..3 {
         assert_eq!(slave.set("crank.torque", 4.0), Status::Ok);
         assert_eq!(slave.reset(), Status::Ok);
-        assert_eq!(
-            (slave.get("crank.torque"), slave.get("crank.speed_start")),
-            (0.0, 0.0)
-        );
+        assert_eq!((slave.get("crank.torque"), slave.get("crank.speed_start")), (0.0, 0.0));
         assert_eq!(slave.get_integer("joint.C.model"), 1);
         assert_eq!(slave.setup_raw(0, 0.0, 0.0, 0, 0.0), Status::Ok);
         assert_eq!(slave.enter(), Status::Ok);

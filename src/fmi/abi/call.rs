@@ -58,11 +58,7 @@ fn answer<S: Into<Status>>(
 fn text(payload: Box<dyn Any + Send>) -> String {
     match payload.downcast::<String>() {
         Ok(text) => *text,
-        Err(payload) => payload
-            .downcast_ref::<&str>()
-            .copied()
-            .unwrap_or("no message")
-            .to_owned(),
+        Err(payload) => payload.downcast_ref::<&str>().copied().unwrap_or("no message").to_owned(),
     }
 }
 
@@ -90,11 +86,7 @@ mod tests {
         give(Instance::instantiate(&request).expect("an instance"))
     }
 
-    fn ask(
-        c: fmi2Component,
-        function: Call,
-        body: fn(&mut Instance) -> Result<(), Error>,
-    ) -> Status {
+    fn ask(c: fmi2Component, function: Call, body: fn(&mut Instance) -> Result<(), Error>) -> Status {
         // SAFETY: the component is live.
         unsafe { call(c, function, body) }
     }
@@ -104,16 +96,8 @@ mod tests {
         let (c, other) = (instance(), instance());
         let fault = |_: &mut Instance| std::panic::panic_any("a fault on purpose");
         assert_eq!(ask(c, Call::Reset, fault), Status::Fatal);
-        for &function in Call::ALL
-            .iter()
-            .filter(|&&function| function != Call::FreeInstance)
-        {
-            assert_eq!(
-                ask(c, function, |_| Ok(())),
-                Status::Fatal,
-                "{}",
-                function.name()
-            );
+        for &function in Call::ALL.iter().filter(|&&function| function != Call::FreeInstance) {
+            assert_eq!(ask(c, function, |_| Ok(())), Status::Fatal, "{}", function.name());
         }
         assert_eq!(ask(other, Call::Reset, Instance::reset), Status::Ok);
         for c in [c, other] {
@@ -131,17 +115,8 @@ mod tests {
         };
         assert_eq!(ask(c, Call::Reset, broken), Status::Ok);
         for &function in Call::ALL {
-            let expected = if function.allowed(State::Error) {
-                Status::Ok
-            } else {
-                Status::Error
-            };
-            assert_eq!(
-                ask(c, function, |_| Ok(())),
-                expected,
-                "{}",
-                function.name()
-            );
+            let expected = if function.allowed(State::Error) { Status::Ok } else { Status::Error };
+            assert_eq!(ask(c, function, |_| Ok(())), expected, "{}", function.name());
         }
         assert_eq!(ask(c, Call::Reset, Instance::reset), Status::Ok);
         // SAFETY: the component is live and not used again.
@@ -150,18 +125,9 @@ mod tests {
 
     #[test]
     fn a_panic_tells_its_text() {
-        assert_eq!(
-            guarded(|| std::panic::panic_any("text")),
-            Err::<(), _>("text".into())
-        );
-        assert_eq!(
-            guarded(|| std::panic::panic_any(String::from("text"))),
-            Err::<(), _>("text".into())
-        );
-        assert_eq!(
-            guarded(|| std::panic::panic_any(7)),
-            Err::<(), _>("no message".into())
-        );
+        assert_eq!(guarded(|| std::panic::panic_any("text")), Err::<(), _>("text".into()));
+        assert_eq!(guarded(|| std::panic::panic_any(String::from("text"))), Err::<(), _>("text".into()));
+        assert_eq!(guarded(|| std::panic::panic_any(7)), Err::<(), _>("no message".into()));
     }
 
     #[test]

@@ -67,10 +67,5 @@ unsafe extern "C" fn write(
     };
     let (instance, category, text) = (text(instance), text(category), text(message));
     assert!(!text.contains(['%', '#', '\n']), "{text}");
-    log.0.lock().expect("no panic in the logger").push(Line {
-        instance,
-        status,
-        category,
-        text,
-    });
+    log.0.lock().expect("no panic in the logger").push(Line { instance, status, category, text });
 }

@@ -10,8 +10,7 @@ use std::ptr::null;
 /// Makes a call with sound arguments; `None` if it has no status.
 pub fn perform(call: Call, slave: &Slave, saved: fmi2FMUstate) -> Option<Status> {
     let (api, c) = (slave.api, slave.c);
-    let (mut real, mut integer, mut size, mut string): (f64, i32, usize, fmi2String) =
-        (0.0, 0, 0, null());
+    let (mut real, mut integer, mut size, mut string): (f64, i32, usize, fmi2String) = (0.0, 0, 0, null());
     let (mut flag, mut bytes, mut state) = (0, slave.bytes_of(saved), saved);
     let mut info = fmi2EventInfo {
         new_discrete_states_needed: 0,
@@ -21,12 +20,7 @@ pub fn perform(call: Call, slave: &Slave, saved: fmi2FMUstate) -> Option<Status>
         next_event_time_defined: 0,
         next_event_time: 0.0,
     };
-    let (input, output, gravity, model) = (
-        vr("slider.load"),
-        vr("slider.x"),
-        vr("gravity"),
-        vr("joint.C.model"),
-    );
+    let (input, output, gravity, model) = (vr("slider.load"), vr("slider.x"), vr("gravity"), vr("joint.C.model"));
     let one = 1;
     // SAFETY: live component, arrays and places of the lengths said.
     Some(unsafe {
@@ -50,19 +44,11 @@ pub fn perform(call: Call, slave: &Slave, saved: fmi2FMUstate) -> Option<Status>
             SetFMUstate => (api.SetFMUstate)(c, state),
             FreeFMUstate => (api.FreeFMUstate)(c, &mut state),
             SerializedFMUstateSize => (api.SerializedFMUstateSize)(c, state, &mut size),
-            SerializeFMUstate => {
-                (api.SerializeFMUstate)(c, state, bytes.as_mut_ptr().cast(), bytes.len())
-            }
-            DeSerializeFMUstate => {
-                (api.DeSerializeFMUstate)(c, bytes.as_ptr().cast(), bytes.len(), &mut state)
-            }
-            GetDirectionalDerivative => {
-                (api.GetDirectionalDerivative)(c, &output, 1, &input, 1, &1.0, &mut real)
-            }
+            SerializeFMUstate => (api.SerializeFMUstate)(c, state, bytes.as_mut_ptr().cast(), bytes.len()),
+            DeSerializeFMUstate => (api.DeSerializeFMUstate)(c, bytes.as_ptr().cast(), bytes.len(), &mut state),
+            GetDirectionalDerivative => (api.GetDirectionalDerivative)(c, &output, 1, &input, 1, &1.0, &mut real),
             SetRealInputDerivatives => (api.SetRealInputDerivatives)(c, &input, 1, &one, &real),
-            GetRealOutputDerivatives => {
-                (api.GetRealOutputDerivatives)(c, &output, 1, &one, &mut real)
-            }
+            GetRealOutputDerivatives => (api.GetRealOutputDerivatives)(c, &output, 1, &one, &mut real),
             DoStep => (api.DoStep)(c, 0.0, 1e-3, 1),
             CancelStep => (api.CancelStep)(c),
             GetStatus => (api.GetStatus)(c, 0, &mut integer),

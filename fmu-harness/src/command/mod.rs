@@ -1,0 +1,24 @@
+//! The subcommands.
+
+mod inspect;
+mod package;
+mod run;
+
+pub use inspect::Inspect;
+pub use package::Package;
+pub use run::Run;
+
+use crate::package::build::workspace;
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// Where results go unless told otherwise.
+fn out_directory() -> PathBuf {
+    workspace().join("target").join("out")
+}
+
+/// A path as seen from the working directory, where that is shorter.
+fn shown(path: &Path) -> String {
+    let relative = env::current_dir().ok().and_then(|here| path.strip_prefix(here).ok().map(Path::to_path_buf));
+    relative.as_deref().unwrap_or(path).display().to_string()
+}

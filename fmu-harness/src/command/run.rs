@@ -1,0 +1,186 @@
+//! `run`: a scene, or any FMU, through time; figures and numbers of it.
+
+use super::{out_directory, package, shown};
+use crate::host::{Archive, Fmu, LogLine, Setting};
+use crate::inputs;
+use crate::report::figure::{self, Pair};
+use crate::report::summary;
+use crate::run::{ANGLE, Experiment, Recording, Until, run};
+use crate::scenes::Scenario;
+use crate::trajectory::Trajectory;
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::scene::read::{SceneFile, read};
+use slidercrank::scene::run::End;
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Where the FMU is told how fast its crank starts.
+const SPEED: &str = "crank.speed_start";
+/// A crank that needs so many times longer than at its start speed is taken for stuck.
+const PATIENCE: f64 = 20.0;
+const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
+
+/// Runs a scene, or any FMI 2.0 co-simulation FMU.
+#[derive(Args)]
+pub struct Run {
+    /// Scene: the name of a shipped one, or a .toml file
+    #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
+    scene: String,
+    /// An FMU to run in place of a scene; one of ours brings its scene's inputs and length along
+    #[arg(long, value_name = "FILE", conflicts_with = "scene")]
+    fmu: Option<PathBuf>,
+    /// Crank turns [default: the scene's]
+    #[arg(long, value_name = "NUMBER", conflicts_with = "stop")]
+    turns: Option<f64>,
+    /// Stop time in seconds, in place of turns
+    #[arg(long, value_name = "SECONDS")]
+    stop: Option<f64>,
+    /// Communication step in seconds [default: the scene's, or what the FMU suggests]
+    #[arg(long, value_name = "SECONDS")]
+    step: Option<f64>,
+    /// Relative tolerance, in place of the FMU's own
+    #[arg(long, value_name = "NUMBER")]
+    tolerance: Option<f64>,
+    /// Inputs: a CSV whose first column is time and whose others are named as inputs
+    #[arg(long, value_name = "FILE")]
+    input: Option<PathBuf>,
+    /// Sets a variable before initialisation; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<Setting>,
+    /// Directory of the results [default: target/out]
+    #[arg(short, long, value_name = "DIRECTORY")]
+    output: Option<PathBuf>,
+}
+
+/// What to run: an FMU, the name of its results, and its scene if it has one.
+struct Subject {
+    name: String,
+    fmu: Fmu,
+    scene: Option<SceneFile>,
+}
+
+impl Run {
+    /// Packages if need be, runs, reports.
+    pub fn execute(&self) -> Result<()> {
+        let out = self.output.clone().unwrap_or_else(out_directory);
+        fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
+        let subject = self.subject(&out)?;
+        let experiment = self.experiment(&subject)?;
+        let actual = watched(&subject.fmu, &experiment, &subject.name)?;
+        let csv = out.join(format!("{}.csv", subject.name));
+        let mut written = vec![csv.clone()];
+        actual.trajectory.write_csv(&csv)?;
+        if is_slider_crank(&subject.fmu) {
+            let ideal = with_ideal_joints(&subject.fmu, &experiment)?;
+            let pair = Pair { title: &subject.name, actual: &actual, ideal: &ideal };
+            written.extend(draw(&pair, &out)?);
+            print!("\n{}\n", summary::mechanism(&pair)?);
+        } else {
+            print!("\n{}\n", summary::outputs(subject.fmu.description(), &actual)?);
+        }
+        written.iter().for_each(|file| println!("{}", shown(file)));
+        Ok(())
+    }
+
+    /// The FMU that was asked for, or the scene as one.
+    fn subject(&self, out: &Path) -> Result<Subject> {
+        match &self.fmu {
+            Some(file) => {
+                let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let scene =
+                    Archive::open(file)?.text("documentation/scene.toml").and_then(|text| read(&text, &name).ok());
+                Ok(Subject { name, fmu: Fmu::open(file)?, scene })
+            }
+            None => {
+                let scenario = Scenario::find(&self.scene)?;
+                let file = out.join(format!("{}.fmu", scenario.name));
+                package::write(&scenario, &file)?;
+                Ok(Subject { name: scenario.name, fmu: Fmu::open(&file)?, scene: Some(scenario.file) })
+            }
+        }
+    }
+
+    /// What was asked for, else what the scene says, else what the FMU suggests.
+    fn experiment(&self, subject: &Subject) -> Result<Experiment> {
+        let Subject { fmu, scene, .. } = subject;
+        let suggested = |name: &str| fmu.description().experiment.number(name);
+        let start = suggested("startTime").unwrap_or(0.0);
+        let end = match (self.stop, self.turns, scene) {
+            (Some(stop), ..) => End::Time(stop),
+            (None, Some(turns), _) => End::Turns(turns),
+            (None, None, Some(scene)) => scene.run.end,
+            (None, None, None) => End::Time(suggested("stopTime").unwrap_or(start + 1.0)),
+        };
+        let until = match (end, self.start_speed(fmu)) {
+            (End::Time(stop), _) => Until::Time(stop),
+            (End::Turns(turns), Some(speed)) => Until::Turns { turns, latest: start + PATIENCE * turns * TAU / speed },
+            (End::Turns(_), None) => bail!("`{SPEED}` does not tell how long a turn lasts; give a --stop time"),
+        };
+        let (Until::Time(latest) | Until::Turns { latest, .. }) = until;
+        ensure!(latest > start, "the end, {latest} s, is not after the start, {start} s");
+        let step = self.step.or(scene.as_ref().map(|scene| scene.run.step)).or_else(|| suggested("stepSize"));
+        let step = step.unwrap_or((latest - start) / 1000.0);
+        let inputs = match (&self.input, scene) {
+            (Some(file), _) => inputs::of_table(&Trajectory::read_csv(file)?)?,
+            (None, Some(scene)) => inputs::of_scene(&scene.inputs),
+            (None, None) => vec![],
+        };
+        Ok(Experiment { settings: self.set.clone(), inputs, start, until, step, tolerance: self.tolerance })
+    }
+
+    /// [rad/s] Speed of the crank at the start, if the FMU has a crank and it turns.
+    fn start_speed(&self, fmu: &Fmu) -> Option<f64> {
+        let set =
+            self.set.iter().rev().find(|setting| setting.name == SPEED).and_then(|setting| setting.value.parse().ok());
+        let declared = || fmu.description().variable(SPEED).ok()?.of_kind.number("start");
+        set.or_else(declared).map(f64::abs).filter(|speed| *speed > 0.0)
+    }
+}
+
+/// Whether the figures of a slider-crank can be drawn of it.
+fn is_slider_crank(fmu: &Fmu) -> bool {
+    let has = |name: &str| fmu.description().variable(name).is_ok();
+    has(ANGLE) && has("accuracy.position") && JOINTS.iter().all(|joint| has(&format!("joint.{joint}.model")))
+}
+
+/// The same experiment with every joint ideal.
+fn with_ideal_joints(fmu: &Fmu, experiment: &Experiment) -> Result<Recording> {
+    let mut experiment = experiment.clone();
+    let ideal = |joint: &str| Setting { name: format!("joint.{joint}.model"), value: "1".into() };
+    experiment.settings.extend(JOINTS.map(ideal));
+    watched(fmu, &experiment, "the same with ideal joints").context("with ideal joints")
+}
+
+/// Runs with a progress bar; log lines of the FMU go above it.
+fn watched(fmu: &Fmu, experiment: &Experiment, name: &str) -> Result<Recording> {
+    let style = ProgressStyle::with_template("{msg:30} {wide_bar:.cyan/blue} {percent:>3} % {elapsed:>4}")?;
+    let bar = ProgressBar::new(1000).with_style(style).with_message(name.to_owned());
+    let above = bar.clone();
+    let log = move |line: &LogLine| {
+        above.suspend(|| eprintln!("{} [{}] {}", line.status, line.category, line.message));
+    };
+    let recording = run(fmu, experiment, log, |share| bar.set_position((share.min(1.0) * 1000.0) as u64));
+    bar.finish_and_clear();
+    recording
+}
+
+/// Draws every figure that the run has data for, and returns the files.
+fn draw(pair: &Pair, out: &Path) -> Result<Vec<PathBuf>> {
+    let sheets = [
+        ("slider", Some(figure::slider_motion(pair)?)),
+        ("forces", Some(figure::joint_forces(pair)?)),
+        ("journal", figure::journal_paths(pair)?),
+        ("guide", figure::guide_play(pair)?),
+    ];
+    let mut files = Vec::new();
+    for (what, sheet) in sheets {
+        let Some(sheet) = sheet else { continue };
+        let file = out.join(format!("{}-{what}.svg", pair.title));
+        fs::write(&file, sheet.svg()?).with_context(|| format!("cannot write {}", file.display()))?;
+        files.push(file);
+    }
+    Ok(files)
+}

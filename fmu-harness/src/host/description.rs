@@ -1,0 +1,187 @@
+//! modelDescription.xml: what an FMU says that it is.
+
+use super::error::HostError;
+use super::parser::Parser;
+use std::collections::HashMap;
+
+/// All that a host needs of modelDescription.xml.
+#[derive(Clone, Debug, Default)]
+pub struct Description {
+    /// Attributes of the root element, such as `modelName`, `guid` and `generationTool`.
+    pub model: Attributes,
+    /// Attributes of the element CoSimulation, `None` where there is none.
+    pub co_simulation: Option<Attributes>,
+    /// Whether model exchange is offered too.
+    pub model_exchange: bool,
+    /// Attributes of DefaultExperiment.
+    pub experiment: Attributes,
+    /// Names of the units.
+    pub units: Vec<String>,
+    /// The simple types, by name.
+    pub types: HashMap<String, SimpleType>,
+    /// Names of the log categories.
+    pub log_categories: Vec<String>,
+    /// Every variable, in the order of the file.
+    pub variables: Vec<Variable>,
+    /// ModelStructure.
+    pub structure: Structure,
+}
+
+/// Attributes of one element.
+#[derive(Clone, Debug, Default)]
+pub struct Attributes(pub(super) HashMap<String, String>);
+
+/// A type that variables may refer to.
+#[derive(Clone, Debug, Default)]
+pub struct SimpleType {
+    /// Unit and range, where declared.
+    pub attributes: Attributes,
+    /// Items of an enumeration: name and value.
+    pub items: Vec<(String, i32)>,
+}
+
+/// The five types of FMI 2.0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// fmi2Real.
+    Real,
+    /// fmi2Integer.
+    Integer,
+    /// fmi2Boolean.
+    Boolean,
+    /// fmi2String.
+    String,
+    /// An fmi2Integer with names.
+    Enumeration,
+}
+
+/// One scalar variable.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// Unique name.
+    pub name: String,
+    /// The number by which the binary knows it.
+    pub reference: u32,
+    /// Its type.
+    pub kind: Kind,
+    /// Attributes of ScalarVariable: causality, variability, initial, description.
+    pub attributes: Attributes,
+    /// Attributes of the type's element: start, unit, min, max, declaredType.
+    pub of_kind: Attributes,
+}
+
+/// Numbers of variables, from 1, as listed in ModelStructure.
+#[derive(Clone, Debug, Default)]
+pub struct Structure {
+    /// Outputs.
+    pub outputs: Vec<Unknown>,
+    /// Derivatives.
+    pub derivatives: Vec<Unknown>,
+    /// What can be asked for while initialising.
+    pub initial_unknowns: Vec<Unknown>,
+}
+
+/// One entry of ModelStructure.
+#[derive(Clone, Debug)]
+pub struct Unknown {
+    /// The variable's number, from 1.
+    pub index: usize,
+    /// What it depends on; `None` where that is not said.
+    pub dependencies: Option<Vec<usize>>,
+}
+
+impl Attributes {
+    /// The attribute's text.
+    pub fn get(&self, name: &str) -> Option<&str> {
+        self.0.get(name).map(String::as_str)
+    }
+
+    /// The attribute as a number.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.get(name)?.trim().parse().ok()
+    }
+
+    /// All of them, by name.
+    pub fn sorted(&self) -> Vec<(&str, &str)> {
+        let mut sorted: Vec<_> = self.0.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+        sorted.sort_unstable();
+        sorted
+    }
+
+    /// Whether the attribute is there and true.
+    pub fn flag(&self, name: &str) -> bool {
+        matches!(self.get(name), Some("true" | "1"))
+    }
+}
+
+impl Variable {
+    /// Parameter, input, output, local, …
+    pub fn causality(&self) -> &str {
+        self.attributes.get("causality").unwrap_or("local")
+    }
+
+    /// Constant, fixed, tunable, discrete or continuous.
+    pub fn variability(&self) -> &str {
+        self.attributes.get("variability").unwrap_or("continuous")
+    }
+}
+
+impl Description {
+    /// Reads the text of modelDescription.xml.
+    pub fn parse(xml: &str) -> Result<Self, HostError> {
+        Parser::new(xml).run()
+    }
+
+    /// The model's name.
+    pub fn name(&self) -> &str {
+        self.model.get("modelName").unwrap_or_default()
+    }
+
+    /// The variable of this name, or an error that suggests another.
+    pub fn variable(&self, name: &str) -> Result<&Variable, HostError> {
+        self.variables.iter().find(|variable| variable.name == name).ok_or_else(|| {
+            let nearest = self.variables.iter().min_by_key(|variable| distance(&variable.name, name));
+            HostError::Unknown { name: name.into(), nearest: nearest.map(|variable| variable.name.clone()) }
+        })
+    }
+
+    /// The variable's unit, its own or its type's.
+    pub fn unit<'a>(&'a self, variable: &'a Variable) -> Option<&'a str> {
+        self.of_type(variable, "unit")
+    }
+
+    /// The variable's display unit, its own or its type's.
+    pub fn display_unit<'a>(&'a self, variable: &'a Variable) -> Option<&'a str> {
+        self.of_type(variable, "displayUnit")
+    }
+
+    /// Items of the variable's enumeration.
+    pub fn items(&self, variable: &Variable) -> &[(String, i32)] {
+        self.declared_type(variable).map_or(&[], |declared| &declared.items)
+    }
+
+    fn of_type<'a>(&'a self, variable: &'a Variable, attribute: &str) -> Option<&'a str> {
+        let own = variable.of_kind.get(attribute);
+        own.or_else(|| self.declared_type(variable)?.attributes.get(attribute))
+    }
+
+    fn declared_type(&self, variable: &Variable) -> Option<&SimpleType> {
+        self.types.get(variable.of_kind.get("declaredType")?)
+    }
+}
+
+/// Number of letters to insert, delete or change (Levenshtein).
+fn distance(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (i, letter) in from.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, other) in to.iter().enumerate() {
+            let changed = diagonal + usize::from(letter != *other);
+            diagonal = row[j + 1];
+            row[j + 1] = changed.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[to.len()]
+}

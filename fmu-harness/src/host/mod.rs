@@ -1,0 +1,204 @@
+//! An FMU, foreign or own, as a host uses it: `Fmu::open`, then `instantiate`, then a `Slave` whose type tells
+//! where in the lifecycle of FMI 2.0 §4.2.4 it is.
+
+mod archive;
+mod description;
+mod error;
+mod library;
+mod log;
+mod parser;
+mod selection;
+mod value;
+
+pub use archive::{Archive, PLATFORM};
+pub use description::{Attributes, Description, Kind, Structure, Unknown, Variable};
+pub use error::HostError;
+pub use library::{Library, Status};
+pub use log::{Log, LogLine};
+pub use selection::Selection;
+pub use value::{Setting, Value};
+
+use library::Instance;
+use std::ffi::CString;
+use std::marker::PhantomData;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tempfile::TempDir;
+
+/// An unpacked FMU with its binary loaded. The directory goes when this goes.
+pub struct Fmu {
+    description: Description,
+    library: Arc<Library>,
+    resources: String,
+    _directory: TempDir,
+}
+
+impl Fmu {
+    /// Reads the file, unpacks it to a directory of its own and loads the binary of this platform.
+    pub fn open(file: &Path) -> Result<Self, HostError> {
+        let mut archive = Archive::open(file)?;
+        let description = Description::parse(&archive.description()?)?;
+        let binary = binary_of(&description, &archive)?;
+        let directory = TempDir::with_prefix("fmu-")?;
+        archive.unpack(directory.path())?;
+        let library = Arc::new(Library::load(&directory.path().join(binary))?);
+        let resources = file_uri(&directory.path().join("resources"));
+        Ok(Self { description, library, resources, _directory: directory })
+    }
+
+    /// What it says that it is.
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// Makes an instance whose log lines go to `log`.
+    pub fn instantiate(&self, name: &str, log: Arc<Log>, logging: bool) -> Result<Slave<'_, Instantiated>, HostError> {
+        let guid = self.description.model.get("guid").unwrap_or_default();
+        let instance = Instance::new(Arc::clone(&self.library), name, guid, &self.resources, log, logging)?;
+        Ok(Slave { instance, description: &self.description, phase: PhantomData })
+    }
+}
+
+/// Path of this platform's binary inside the archive; an error unless it is an FMI 2.0 co-simulation FMU with one.
+fn binary_of(description: &Description, archive: &Archive) -> Result<PathBuf, HostError> {
+    let fault = |fault: String| HostError::Description { position: 0, fault };
+    match description.model.get("fmiVersion") {
+        Some("2.0") => {}
+        version => return Err(fault(format!("FMI version {}, wanted 2.0", version.unwrap_or("not given")))),
+    }
+    let identifier = description.co_simulation.as_ref().and_then(|element| element.get("modelIdentifier"));
+    let identifier = identifier.ok_or_else(|| fault("no co-simulation is offered".into()))?;
+    let wanted = format!("binaries/{PLATFORM}/{identifier}{}", std::env::consts::DLL_SUFFIX);
+    if archive.names().contains(&wanted) {
+        return Ok(wanted.into());
+    }
+    let platforms = archive.platforms();
+    let offered = if platforms.is_empty() { "none".into() } else { platforms.join(", ") };
+    Err(HostError::NoBinary { wanted, offered })
+}
+
+/// `file:///…` with every byte escaped that RFC 3986 wants escaped.
+fn file_uri(path: &Path) -> String {
+    let path = path.to_string_lossy().replace('\\', "/");
+    let root = if path.starts_with('/') { "" } else { "/" };
+    let mut uri = format!("file://{root}");
+    for byte in path.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'_' | b'.' | b'~' | b':' => uri.push(byte.into()),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+/// Fresh: start values can be set.
+pub struct Instantiated;
+/// In initialisation mode: start values and inputs can be set, outputs read.
+pub struct Initialising;
+/// At a communication point: inputs can be set, outputs read, steps taken.
+pub struct Stepping;
+
+/// One instance of an FMU.
+pub struct Slave<'a, Phase> {
+    instance: Instance,
+    description: &'a Description,
+    phase: PhantomData<Phase>,
+}
+
+impl<'a, Phase> Slave<'a, Phase> {
+    /// Sets one variable.
+    pub fn set(&mut self, variable: &Variable, value: &Value) -> Result<(), HostError> {
+        let reference = [variable.reference];
+        let status = match value {
+            Value::Real(number) => self.instance.set_real(&reference, &[*number]),
+            Value::Integer(number) => self.instance.set_integer(&reference, &[*number]),
+            Value::Boolean(flag) => self.instance.set_boolean(&reference, &[(*flag).into()]),
+            Value::String(text) => {
+                let text = CString::new(text.as_str()).map_err(|_| HostError::Value {
+                    name: variable.name.clone(),
+                    value: text.clone(),
+                    wanted: "a text without zero bytes".into(),
+                })?;
+                self.instance.set_string(variable.reference, &text)
+            }
+        };
+        self.check(status, || format!("setting `{}`", variable.name))
+    }
+
+    /// Sets real variables by reference.
+    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), HostError> {
+        let status = self.instance.set_real(references, values);
+        self.check(status, || format!("fmi2SetReal of {references:?}"))
+    }
+
+    /// OK and Warning pass; anything else is an error that carries the FMU's last log line.
+    fn check(&self, status: Status, call: impl FnOnce() -> String) -> Result<(), HostError> {
+        match status {
+            Status::Ok | Status::Warning => Ok(()),
+            status => Err(HostError::Call { call: call(), status, log: self.instance.last_log() }),
+        }
+    }
+
+    fn into_phase<Next>(self) -> Slave<'a, Next> {
+        Slave { instance: self.instance, description: self.description, phase: PhantomData }
+    }
+}
+
+impl<'a> Slave<'a, Instantiated> {
+    /// fmi2SetupExperiment and fmi2EnterInitializationMode.
+    pub fn enter_initialization(
+        mut self,
+        tolerance: Option<f64>,
+        start: f64,
+        stop: Option<f64>,
+    ) -> Result<Slave<'a, Initialising>, HostError> {
+        let status = self.instance.setup_experiment(tolerance, start, stop);
+        self.check(status, || "fmi2SetupExperiment".into())?;
+        let status = self.instance.enter_initialization();
+        self.check(status, || "fmi2EnterInitializationMode".into())?;
+        Ok(self.into_phase())
+    }
+}
+
+impl<'a> Slave<'a, Initialising> {
+    /// fmi2ExitInitializationMode.
+    pub fn exit_initialization(mut self) -> Result<Slave<'a, Stepping>, HostError> {
+        let status = self.instance.exit_initialization();
+        self.check(status, || "fmi2ExitInitializationMode".into())?;
+        Ok(self.into_phase())
+    }
+}
+
+impl Slave<'_, Stepping> {
+    /// fmi2DoStep from `time` by `step`.
+    pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), HostError> {
+        let status = self.instance.do_step(time, step);
+        self.check(status, || format!("fmi2DoStep from {time} s by {step} s"))
+    }
+
+    /// fmi2Terminate.
+    pub fn terminate(mut self) -> Result<(), HostError> {
+        let status = self.instance.terminate();
+        self.check(status, || "fmi2Terminate".into())
+    }
+}
+
+/// Variables whose values can be asked for.
+pub trait Readable {}
+impl Readable for Initialising {}
+impl Readable for Stepping {}
+
+impl<Phase: Readable> Slave<'_, Phase> {
+    /// fmi2GetReal, fmi2GetInteger and fmi2GetBoolean of a selection.
+    pub fn read(&mut self, selection: &mut Selection) -> Result<(), HostError> {
+        let status = selection.read_from(&mut self.instance);
+        self.check(status, || "reading outputs".into())
+    }
+
+    /// One variable as a number.
+    pub fn read_one(&mut self, name: &str) -> Result<f64, HostError> {
+        let mut selection = Selection::new([self.description.variable(name)?]);
+        self.read(&mut selection)?;
+        Ok(selection.values()[0])
+    }
+}

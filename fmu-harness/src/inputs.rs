@@ -1,0 +1,58 @@
+//! What goes into an FMU while time runs: each input as a profile over time or crank angle.
+
+use crate::trajectory::Trajectory;
+use anyhow::Result;
+use slidercrank::scene::profile::{Against, Profile, Profiles};
+
+/// One input variable and its profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// The variable.
+    pub name: String,
+    /// What it is set to.
+    pub profile: Profile,
+}
+
+impl Input {
+    /// Whether it needs the crank's angle.
+    pub fn wants_angle(&self) -> bool {
+        matches!(self.profile, Profile::Points { against: Against::CrankAngle, .. })
+    }
+}
+
+/// The inputs of a scene.
+pub fn of_scene(profiles: &Profiles) -> Vec<Input> {
+    let Profiles { crank_torque, slider_load } = profiles;
+    [("crank.torque", crank_torque), ("slider.load", slider_load)]
+        .map(|(name, profile)| Input { name: name.into(), profile: profile.clone() })
+        .into()
+}
+
+/// The columns of a CSV as profiles over time.
+pub fn of_table(table: &Trajectory) -> Result<Vec<Input>> {
+    let input = |name: &String| {
+        let points = table.times().iter().zip(table.column(name)?).map(|(time, value)| [*time, *value]).collect();
+        Ok(Input { name: name.clone(), profile: Profile::Points { against: Against::Time, points } })
+    };
+    table.names().iter().map(input).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_straight_between_its_rows_and_level_outside() {
+        let mut table = Trajectory::new(["slider.load".to_owned()]);
+        for (time, load) in [(0.0, 1.0), (2.0, 5.0), (3.0, 7.5)] {
+            table.push(time, &[load]);
+        }
+        let inputs = of_table(&table).expect("inputs");
+        assert_eq!((inputs.len(), inputs[0].name.as_str()), (1, "slider.load"));
+        let profile = &inputs[0].profile;
+        assert_eq!(
+            [-1.0, 0.0, 0.5, 2.0, 2.5, 9.0].map(|time| profile.value(time, f64::NAN)),
+            [1.0, 1.0, 2.0, 5.0, 6.25, 7.5]
+        );
+    }
+}

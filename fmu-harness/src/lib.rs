@@ -1,0 +1,11 @@
+//! Builds, packages, loads and runs FMUs of FMI 2.0 co-simulation.
+
+pub mod command;
+pub mod host;
+pub mod inputs;
+pub mod inspect;
+pub mod package;
+pub mod report;
+pub mod run;
+pub mod scenes;
+pub mod trajectory;

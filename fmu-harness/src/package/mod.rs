@@ -1,0 +1,94 @@
+//! Library + description + documents → a `.fmu` whose bytes depend on nothing else.
+
+pub mod archive;
+pub mod build;
+pub mod elf;
+mod licences;
+
+use crate::scenes::Scenario;
+use anyhow::{Context, Result, bail};
+use archive::Part;
+use slidercrank::model_description::raw::Experiment;
+use slidercrank::model_description::rows::Declaration;
+use slidercrank::model_description::{self, page, xml};
+use slidercrank::scene::check::LEAST_RESTITUTION;
+use slidercrank::scene::parameter::PARAMETERS;
+use slidercrank::scene::read::SceneFile;
+use slidercrank::scene::slot;
+use std::env::consts::DLL_SUFFIX;
+use std::fs;
+use std::path::Path;
+
+/// Drawing of the mechanism, made from `model.svg` by the test `the_picture_is_the_drawing`.
+const PICTURE: &[u8] = include_bytes!("../../assets/model.png");
+
+/// A packaged FMU.
+pub struct Package {
+    /// The `.fmu` file.
+    pub bytes: Vec<u8>,
+    /// Newest glibc that the Linux binary asks for.
+    pub glibc: Option<String>,
+}
+
+impl Package {
+    /// Builds the library and packages it with the scenario's values as start values.
+    pub fn make(scenario: &Scenario) -> Result<Self> {
+        let path = build::library()?;
+        let library = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        let parts = parts(scenario, library)?;
+        let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
+        Ok(Self { bytes: archive::write(&parts)?, glibc })
+    }
+
+    /// Writes the file, making its directory if need be.
+    pub fn save(&self, file: &Path) -> Result<()> {
+        let context = || format!("cannot write {}", file.display());
+        fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).with_context(context)?;
+        fs::write(file, &self.bytes).with_context(context)
+    }
+}
+
+/// Everything that goes into the archive, in its order.
+fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
+    let scene = &scenario.file.scene;
+    let declaration = model_description::load().context("the declaration of the variables")?;
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
+    slot::write(&mut library, scene)?;
+    let identifier = &declaration.model.identifier;
+    Ok(vec![
+        Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
+        Part::new("model.png", PICTURE),
+        Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
+        Part::new("documentation/index.html", page(&declaration, scenario, &starts)),
+        Part::new("documentation/scene.toml", scenario.text.as_str()),
+        Part::new("documentation/licenses/license.txt", licences::own()),
+        Part::new("documentation/licenses/third-party.txt", licences::third_party()?),
+    ])
+}
+
+/// modelDescription.xml: the scene's values are the start values, its run the default experiment.
+fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> Result<String> {
+    let SceneFile { scene, run, .. } = &scenario.file;
+    let (stop, step, tolerance) = (run.stop(scene), run.step, scene.solver.tolerance);
+    let experiment = Experiment { start: 0.0, stop, tolerance, step };
+    let guid = slot::guid(scene);
+    let package = xml::Package { guid: &guid, starts, experiment, written: None };
+    Ok(xml::write(declaration, &package)?)
+}
+
+/// documentation/index.html.
+fn page(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> String {
+    let SceneFile { name, description, .. } = &scenario.file;
+    let scene = format!("{name}: {description}");
+    page::write(declaration, &page::Subject { scene: &scene, starts, least_restitution: LEAST_RESTITUTION })
+}
+
+/// FMI 2.0 names three platforms that there are machines of.
+fn platform() -> Result<&'static str> {
+    match (std::env::consts::OS, std::env::consts::ARCH) {
+        ("linux", "x86_64") => Ok("linux64"),
+        ("windows", "x86_64") => Ok("win64"),
+        ("macos", _) => Ok("darwin64"),
+        (os, arch) => bail!("FMI 2.0 has no name for the platform {arch} {os}"),
+    }
+}

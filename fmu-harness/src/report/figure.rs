@@ -1,0 +1,141 @@
+//! The figures of a run of the slider-crank beside the same run with ideal joints, one function a figure.
+
+use super::plot::{Curve, Panel, Role, Sheet, square_panel};
+use super::units::Shown;
+use crate::run::{ANGLE, Recording};
+use anyhow::Result;
+use std::f64::consts::TAU;
+
+/// Turns shown: the last ones, when what the start was like is forgotten.
+const TURNS_SHOWN: f64 = 2.0;
+/// Turns of journal path shown.
+const PATH_TURNS: f64 = 3.0;
+
+/// Value of `joint.J.model` of a joint with clearance.
+const CLEARANCE: f64 = 2.0;
+
+/// A run and its ideal counterpart.
+pub struct Pair<'a> {
+    /// Name of the scene.
+    pub title: &'a str,
+    /// The mechanism as it is.
+    pub actual: &'a Recording,
+    /// The same FMU with every joint ideal.
+    pub ideal: &'a Recording,
+}
+
+/// Position, velocity and acceleration of the slider.
+pub fn slider_motion(pair: &Pair) -> Result<Sheet> {
+    let panels = [("slider.x", "m", "position"), ("slider.v", "m/s", "velocity"), ("slider.a", "m/s2", "acceleration")]
+        .map(|(variable, unit, name)| {
+            pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into()))
+        });
+    pair.sheet("slider motion", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))
+}
+
+/// Size of the force in every joint.
+pub fn joint_forces(pair: &Pair) -> Result<Sheet> {
+    let panels = ["A", "B", "C", "T"].map(|joint| {
+        let name = format!("force in {joint}");
+        pair.panel(&name, "N", &name, |recording| force(recording, joint))
+    });
+    pair.sheet("joint forces", panels.into_iter().collect::<Result<_>>()?, 2, (600, 270))
+}
+
+/// Path of every journal that has clearance, inside its clearance circle; `None` without such a joint.
+pub fn journal_paths(pair: &Pair) -> Result<Option<Sheet>> {
+    let joints = ["A", "B", "C"];
+    let has_clearance = |joint: &&str| pair.actual.parameter(&format!("joint.{joint}.model")) == Some(CLEARANCE);
+    let panels: Vec<Panel> =
+        joints.into_iter().filter(has_clearance).map(|joint| path(pair, joint)).collect::<Result<_>>()?;
+    if panels.is_empty() {
+        return Ok(None);
+    }
+    let title = format!("{}: journal centre in its bearing, last {PATH_TURNS} turns", pair.title);
+    let legend = vec![(Role::Limit, "clearance circle".into()), (Role::Actual, "journal".into())];
+    let columns = panels.len();
+    Ok(Some(Sheet { title, legend, columns, panels, panel_size: square_panel(540) }))
+}
+
+/// Height and tilt of the slider in a guide that has clearance; `None` in an ideal one.
+pub fn guide_play(pair: &Pair) -> Result<Option<Sheet>> {
+    if pair.actual.parameter("joint.T.model") != Some(CLEARANCE) {
+        return Ok(None);
+    }
+    let panels =
+        [("slider.y", "m", "pin across the guide"), ("slider.angle", "rad", "tilt")].map(|(variable, unit, name)| {
+            pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into()))
+        });
+    Ok(Some(pair.sheet("slider in its guide", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))?))
+}
+
+fn path(pair: &Pair, joint: &str) -> Result<Panel> {
+    let clearance = pair.actual.parameter(&format!("joint.{joint}.clearance")).unwrap_or_default();
+    let shown = Shown::of("m", clearance);
+    let circle = (0..=360).map(|degree| f64::from(degree).to_radians());
+    let circle = circle.map(|angle| (clearance * angle.cos() * shown.factor, clearance * angle.sin() * shown.factor));
+    let [x, y] = ["x", "y"].map(|axis| pair.actual.column(&format!("joint.{joint}.eccentricity.{axis}")));
+    let points = x?.iter().zip(y?).map(|(x, y)| (x * shown.factor, y * shown.factor));
+    let first = first_shown(pair.actual, PATH_TURNS)?;
+    Ok(Panel {
+        x_label: shown.axis(&format!("eccentricity of {joint} along the guide")),
+        y_label: shown.axis("across"),
+        curves: vec![
+            Curve { role: Role::Limit, points: circle.collect() },
+            Curve { role: Role::Actual, points: points.skip(first).collect() },
+        ],
+        square: true,
+    })
+}
+
+impl Pair<'_> {
+    /// Both runs against turns of the crank. `what` names the quantity in errors.
+    fn panel(
+        &self,
+        what: &str,
+        unit: &str,
+        name: &str,
+        quantity: impl Fn(&Recording) -> Result<Vec<f64>>,
+    ) -> Result<Panel> {
+        let context = |error: anyhow::Error| error.context(format!("no figure of {what}"));
+        let (ideal, actual) = (quantity(self.ideal).map_err(context)?, quantity(self.actual).map_err(context)?);
+        let peak = ideal.iter().chain(&actual).fold(0.0, |peak: f64, value| peak.max(value.abs()));
+        let shown = Shown::of(unit, peak);
+        let curve = |role: Role, recording: &Recording, values: Vec<f64>| -> Result<Curve> {
+            let first = first_shown(recording, TURNS_SHOWN)?;
+            let points = turns(recording)?.into_iter().zip(values.iter().map(|value| value * shown.factor));
+            Ok(Curve { role, points: points.skip(first).collect() })
+        };
+        let curves = vec![curve(Role::Ideal, self.ideal, ideal)?, curve(Role::Actual, self.actual, actual)?];
+        Ok(Panel { x_label: "crank turns".into(), y_label: shown.axis(name), curves, square: false })
+    }
+
+    /// Panels above one another share the lowest one's abscissa.
+    fn sheet(&self, what: &str, mut panels: Vec<Panel>, columns: usize, panel_size: (u32, u32)) -> Result<Sheet> {
+        let upper = panels.len().saturating_sub(columns);
+        panels[..upper].iter_mut().for_each(|panel| panel.x_label.clear());
+        let legend = vec![(Role::Ideal, "ideal joints".into()), (Role::Actual, "this mechanism".into())];
+        Ok(Sheet { title: format!("{}: {what}", self.title), legend, panels, columns, panel_size })
+    }
+}
+
+/// [N] |F| of a joint at every communication point.
+pub fn force(recording: &Recording, joint: &str) -> Result<Vec<f64>> {
+    let [x, y] = ["x", "y"].map(|axis| recording.column(&format!("joint.{joint}.force.{axis}")));
+    Ok(x?.iter().zip(y?).map(|(x, y)| x.hypot(*y)).collect())
+}
+
+/// Turns of the crank since the start, forwards.
+fn turns(recording: &Recording) -> Result<Vec<f64>> {
+    let angle = recording.column(ANGLE)?;
+    let first = angle.first().copied().unwrap_or_default();
+    Ok(angle.iter().map(|angle| (angle - first).abs() / TAU).collect())
+}
+
+/// Number of the first row of the last `shown` turns.
+fn first_shown(recording: &Recording, shown: f64) -> Result<usize> {
+    let turns = turns(recording)?;
+    let last = turns.last().copied().unwrap_or_default();
+    // A thousandth of a turn more, so that rounding does not cut off the first row.
+    Ok(turns.partition_point(|turn| *turn < last - shown - 1e-3))
+}

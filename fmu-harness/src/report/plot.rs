@@ -1,0 +1,244 @@
+//! Panels of curves on one sheet, as SVG: the only file that knows the plotting library.
+
+use anyhow::{Result, anyhow};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use std::ops::Range;
+
+/// Drawing units a pixel: the library rounds to whole units, so that a fine grid keeps curves smooth.
+const FINE: u32 = 8;
+/// Curves are thinned to so many points, peaks kept.
+const MOST_POINTS: usize = 4000;
+/// Room for numbers and names of the axes [pixel].
+const LABELS: (u32, u32) = (40, 74);
+/// Height of the sheet's title with its legend [pixel].
+const HEAD: u32 = 60;
+/// Room around a panel [pixel]: left, right, top, bottom.
+const MARGINS: [u32; 4] = [12, 18, 8, 4];
+
+const INK: RGBColor = RGBColor(38, 44, 54);
+const GRID: RGBColor = RGBColor(226, 229, 234);
+
+/// What a curve stands for, which decides its looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The mechanism as it is.
+    Actual,
+    /// The same with ideal joints.
+    Ideal,
+    /// A bound, such as a clearance circle.
+    Limit,
+}
+
+impl Role {
+    fn style(self) -> ShapeStyle {
+        let (color, width) = match self {
+            Self::Actual => (RGBColor(24, 84, 158), 1.1),
+            Self::Ideal => (RGBColor(247, 181, 94), 3.2),
+            Self::Limit => (RGBColor(196, 62, 62), 1.4),
+        };
+        ShapeStyle { color: color.to_rgba(), filled: false, stroke_width: (width * f64::from(FINE)) as u32 }
+    }
+}
+
+/// One curve.
+pub struct Curve {
+    /// What it stands for.
+    pub role: Role,
+    /// Its points, in the units of the axes.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// One coordinate system. Curves are drawn in their order, the last on top.
+pub struct Panel {
+    /// Name and unit of the abscissa.
+    pub x_label: String,
+    /// Name and unit of the ordinate.
+    pub y_label: String,
+    /// What is drawn.
+    pub curves: Vec<Curve>,
+    /// Whether both axes have one scale and one range.
+    pub square: bool,
+}
+
+/// A titled grid of panels.
+pub struct Sheet {
+    /// One line.
+    pub title: String,
+    /// Names of the curves.
+    pub legend: Vec<(Role, String)>,
+    /// The panels, row by row.
+    pub panels: Vec<Panel>,
+    /// Panels side by side.
+    pub columns: usize,
+    /// [pixel] Of one panel: width, height.
+    pub panel_size: (u32, u32),
+}
+
+impl Sheet {
+    /// Draws the sheet as an SVG document.
+    pub fn svg(&self) -> Result<String> {
+        let rows = self.panels.len().div_ceil(self.columns);
+        let size = (self.panel_size.0 * self.columns as u32, self.panel_size.1 * rows as u32 + HEAD);
+        let mut text = String::new();
+        self.draw(SVGBackend::with_string(&mut text, (size.0 * FINE, size.1 * FINE)), rows)
+            .map_err(|error| anyhow!("`{}` cannot be drawn: {error}", self.title))?;
+        let [fine, shown] = [FINE, 1].map(|unit| format!("width=\"{}\" height=\"{}\"", size.0 * unit, size.1 * unit));
+        Ok(text.replacen(&fine, &shown, 1))
+    }
+
+    fn draw(&self, backend: SVGBackend, rows: usize) -> Drawn {
+        let root = backend.into_drawing_area();
+        root.fill(&WHITE)?;
+        let (head, body) = root.split_vertically(HEAD * FINE);
+        self.head(&head)?;
+        for (panel, area) in self.panels.iter().zip(body.split_evenly((rows, self.columns))) {
+            panel.draw(&area)?;
+        }
+        root.present()?;
+        Ok(())
+    }
+
+    /// Title, and below it the legend, clear of all data.
+    fn head(&self, area: &Area) -> Drawn {
+        let fine = |pixels: f64| (pixels * f64::from(FINE)) as i32;
+        let mut left = 18.0;
+        area.draw(&Text::new(self.title.as_str(), (fine(left), fine(12.0)), bold(17.0)))?;
+        for (role, name) in &self.legend {
+            area.draw(&PathElement::new(
+                vec![(fine(left), fine(46.0)), (fine(left + 26.0), fine(46.0))],
+                role.style(),
+            ))?;
+            area.draw(&Text::new(name.as_str(), (fine(left + 33.0), fine(39.5)), font(13.0)))?;
+            // Letters of this size are about 7 pixels wide.
+            left += 33.0 + 7.0 * name.chars().count() as f64 + 22.0;
+        }
+        Ok(())
+    }
+}
+
+/// Size of a panel whose coordinate system is a square of this side [pixel].
+pub fn square_panel(side: u32) -> (u32, u32) {
+    (side + LABELS.1 + MARGINS[0] + MARGINS[1], side + LABELS.0 + MARGINS[2] + MARGINS[3])
+}
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
+
+fn font(pixels: f64) -> TextStyle<'static> {
+    ("sans-serif", pixels * f64::from(FINE)).into_font().color(&INK)
+}
+
+fn bold(pixels: f64) -> TextStyle<'static> {
+    ("sans-serif", pixels * f64::from(FINE)).into_font().style(FontStyle::Bold).color(&INK)
+}
+
+impl Panel {
+    fn draw(&self, area: &Area) -> Drawn {
+        let points = || self.curves.iter().flat_map(|curve| &curve.points);
+        let (mut x, mut y) = (range(points().map(|point| point.0)), margin(range(points().map(|point| point.1))));
+        if self.square {
+            let reach =
+                1.08 * [x.start, x.end, y.start, y.end].iter().fold(0.0, |reach: f64, edge| reach.max(edge.abs()));
+            (x, y) = (-reach..reach, -reach..reach);
+        }
+        let mut chart = ChartBuilder::on(area)
+            .margin_left(MARGINS[0] * FINE)
+            .margin_right(MARGINS[1] * FINE)
+            .margin_top(MARGINS[2] * FINE)
+            .margin_bottom(MARGINS[3] * FINE)
+            .x_label_area_size(if self.x_label.is_empty() { LABELS.0 / 2 } else { LABELS.0 } * FINE)
+            .y_label_area_size(LABELS.1 * FINE)
+            .build_cartesian_2d(x.clone(), y.clone())?;
+        let (x_ticks, y_ticks) = (decimals(&x), decimals(&y));
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID.stroke_width(FINE))
+            .axis_style(INK.stroke_width(FINE))
+            .set_all_tick_mark_size(4 * FINE)
+            .label_style(font(12.0))
+            .axis_desc_style(font(13.0))
+            .x_labels(8)
+            .y_labels(6)
+            .x_label_formatter(&|value| tick(*value, x_ticks))
+            .y_label_formatter(&|value| tick(*value, y_ticks))
+            .x_desc(self.x_label.as_str())
+            .y_desc(self.y_label.as_str())
+            .draw()?;
+        for curve in &self.curves {
+            let points = if self.square { curve.points.clone() } else { thinned(&curve.points) };
+            chart.draw_series(LineSeries::new(points, curve.role.style()))?;
+        }
+        Ok(())
+    }
+}
+
+/// From the least to the greatest number; something to draw on where there is none.
+fn range(numbers: impl Iterator<Item = f64>) -> Range<f64> {
+    let (low, high) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    if low < high {
+        low..high
+    } else if low == high {
+        low - 0.5..high + 0.5
+    } else {
+        0.0..1.0
+    }
+}
+
+/// Keeps curves off the frame.
+fn margin(range: Range<f64>) -> Range<f64> {
+    let margin = 0.06 * (range.end - range.start);
+    range.start - margin..range.end + margin
+}
+
+/// Decimals that tell the ticks of this range apart.
+fn decimals(range: &Range<f64>) -> usize {
+    let tick = (range.end - range.start) / 10.0;
+    (-tick.log10().floor()).clamp(0.0, 9.0) as usize
+}
+
+/// A tick's number, with a real minus sign and no needless zeros.
+fn tick(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
+}
+
+/// At most `MOST_POINTS` points in order: of every bucket the first, the lowest, the highest and the last.
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= MOST_POINTS {
+        return points.to_vec();
+    }
+    let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+    let of_bucket = |bucket: &[(f64, f64)]| -> Vec<(f64, f64)> {
+        let kept = [bucket.first(), bucket.iter().min_by(by_height), bucket.iter().max_by(by_height), bucket.last()];
+        let mut kept: Vec<(f64, f64)> = kept.into_iter().flatten().copied().collect();
+        kept.sort_by(|a, b| a.0.total_cmp(&b.0));
+        kept
+    };
+    points.chunks(points.len().div_ceil(MOST_POINTS / 4)).flat_map(of_bucket).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_ends_peaks_and_order() {
+        let mut points: Vec<(f64, f64)> = (0..50_000).map(|i| (f64::from(i), f64::from(i % 7))).collect();
+        (points[31_234].1, points[44_321].1) = (1e6, -1e6);
+        let thin = thinned(&points);
+        assert!(thin.len() <= MOST_POINTS + 4 && thin.is_sorted_by(|a, b| a.0 <= b.0));
+        assert!(thin.contains(&points[31_234]) && thin.contains(&points[44_321]));
+        assert_eq!((thin.first(), thin.last()), (points.first(), points.last()));
+    }
+
+    #[test]
+    fn ticks_read_well() {
+        assert_eq!(tick(-0.0, 2), "0");
+        assert_eq!(tick(-1.50, 2), "−1.5");
+        assert_eq!(tick(20.0, 0), "20");
+        assert_eq!(decimals(&(0.0..2.0)), 1);
+    }
+}

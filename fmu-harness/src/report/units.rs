@@ -1,0 +1,88 @@
+//! SI numbers in the multiple of their unit that people read.
+
+/// A unit with its prefix: shown number = factor · SI number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shown {
+    /// Shown number for 1 in SI.
+    pub factor: f64,
+    /// As printed.
+    pub unit: String,
+}
+
+impl Shown {
+    /// The multiple of `unit`, as modelDescription.xml spells it, that suits numbers as large as `peak`.
+    pub fn of(unit: &str, peak: f64) -> Self {
+        let (shown, large, small) = match unit {
+            "N" => ("N", true, true),
+            "m" => ("m", false, true),
+            "N.m" => ("N·m", true, false),
+            "m/s" => ("m/s", false, true),
+            "m/s2" => ("m/s²", true, false),
+            "rad/s" => ("rad/s", false, false),
+            "rad/s2" => ("rad/s²", false, false),
+            "rad" => ("rad", false, true),
+            "s" => ("s", false, true),
+            "1" => ("", false, false),
+            other => (other, false, false),
+        };
+        let (factor, prefix) = match peak.abs() {
+            peak if large && peak >= 2e6 => (1e-6, "M"),
+            peak if large && peak >= 2e3 => (1e-3, "k"),
+            peak if small && peak > 0.0 && peak < 2e-3 => (1e6, "µ"),
+            peak if small && peak > 0.0 && peak < 1.0 => (1e3, "m"),
+            _ => (1.0, ""),
+        };
+        Self { factor, unit: format!("{prefix}{shown}") }
+    }
+
+    /// `name [unit]`, for an axis.
+    pub fn axis(&self, name: &str) -> String {
+        if self.unit.is_empty() { name.into() } else { format!("{name} [{}]", self.unit) }
+    }
+
+    /// The SI number with four significant digits and its unit.
+    pub fn print(&self, value: f64) -> String {
+        let text = significant(value * self.factor);
+        if self.unit.is_empty() { text } else { format!("{text} {}", self.unit) }
+    }
+}
+
+/// Four significant digits, never with an exponent between 0.001 and a million.
+pub fn significant(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".into(),
+        size if (1e-3..1e6).contains(&size) => {
+            let decimals = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
+            format!("{value:.decimals$}")
+        }
+        _ => format!("{value:.3e}"),
+    }
+}
+
+/// A whole number in groups of three digits.
+pub fn grouped(number: f64) -> String {
+    let digits = format!("{:.0}", number.abs());
+    let mut text = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place) % 3 == 0 {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    if number < 0.0 { format!("-{text}") } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_wear_the_prefix_of_their_size() {
+        assert_eq!(Shown::of("N", 54_321.0).print(54_321.0), "54.32 kN");
+        assert_eq!(Shown::of("m", 5e-4).print(5e-4), "500.0 µm");
+        assert_eq!(Shown::of("m", 0.05).print(-0.05), "-50.00 mm");
+        assert_eq!(Shown::of("m/s2", 19_419.4).print(19_419.4), "19.42 km/s²");
+        assert_eq!(Shown::of("1", 0.3).print(0.3), "0.3000");
+        assert_eq!(grouped(1234567.0), "1 234 567");
+    }
+}

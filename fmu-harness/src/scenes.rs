@@ -1,0 +1,48 @@
+//! The shipped scenes, and any other scene file: a mechanism with what is done to it.
+
+use crate::package::build::workspace;
+use anyhow::{Context, Result, bail};
+use slidercrank::scene::read::{SceneFile, read};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A scene that has been read.
+pub struct Scenario {
+    /// Name of the file without its ending.
+    pub name: String,
+    /// As written.
+    pub text: String,
+    /// As understood.
+    pub file: SceneFile,
+}
+
+impl Scenario {
+    /// Reads the scene of this name, or the file at this path.
+    pub fn find(name_or_file: &str) -> Result<Self> {
+        let file = if name_or_file.ends_with(".toml") { name_or_file.into() } else { shipped(name_or_file)? };
+        let shown = file.display().to_string();
+        let text = fs::read_to_string(&file).with_context(|| format!("cannot read {shown}"))?;
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let file = read(&text, &shown)?;
+        Ok(Self { name, text, file })
+    }
+}
+
+/// The file of a shipped scene.
+fn shipped(name: &str) -> Result<PathBuf> {
+    let directory = workspace().join("fmu-harness").join("scenes");
+    let file = directory.join(format!("{name}.toml"));
+    if file.is_file() {
+        return Ok(file);
+    }
+    bail!("no scene `{name}`: shipped are {}; or give a file that ends in .toml", names(&directory).join(", "))
+}
+
+/// Names of the scenes in a directory, sorted.
+pub fn names(directory: &Path) -> Vec<String> {
+    let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+    let scene = |path: PathBuf| (path.extension()? == "toml").then(|| Some(path.file_stem()?.to_str()?.to_owned()))?;
+    let mut names: Vec<String> = entries.filter_map(|entry| scene(entry.path())).collect();
+    names.sort();
+    names
+}

@@ -1,0 +1,150 @@
+//! Inputs as a scene tells them: constant, or straight lines between points over time or over the
+//! crank's turn. The FMU does not know them; a harness evaluates them and sets the inputs.
+
+use std::f64::consts::TAU;
+
+/// The inputs of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Profiles {
+    /// [N·m] Of `crank.torque`.
+    pub crank_torque: Profile,
+    /// [N] Of `slider.load`.
+    pub slider_load: Profile,
+}
+
+/// One input.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Profile {
+    /// Always the same.
+    Constant(f64),
+    /// Straight lines between points.
+    Points {
+        /// What the points are over.
+        against: Against,
+        /// Abscissa ([s], or [rad] in 0 ..= 2π) and value; abscissae rise. Over time, the first
+        /// and the last value hold outside; over the crank angle, the turn repeats.
+        points: Vec<[f64; 2]>,
+    },
+}
+
+/// What a profile is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Against {
+    /// Time.
+    Time,
+    /// Crank angle, the same every turn.
+    CrankAngle,
+}
+
+impl Against {
+    /// Names in scene files.
+    pub const ITEMS: [(&str, Self); 2] = [("time", Self::Time), ("crank.angle", Self::CrankAngle)];
+
+    /// The name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::CrankAngle => "crank.angle",
+        }
+    }
+
+    /// SI unit of the abscissa.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Time => "s",
+            Self::CrankAngle => "rad",
+        }
+    }
+}
+
+impl Default for Profile {
+    fn default() -> Self {
+        Self::Constant(0.0)
+    }
+}
+
+impl Profile {
+    /// Value at a time [s] and crank angle [rad].
+    pub fn value(&self, time: f64, crank_angle: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Points { .. } => {
+                let (at, [from, to]) = self.segment(time, crank_angle);
+                from[1] + slope(from, to) * (at - from[0])
+            }
+        }
+    }
+
+    /// Time derivative at a time [s], crank angle [rad] and crank speed [rad/s]; at a point, that
+    /// of the line after it.
+    pub fn rate(&self, time: f64, crank_angle: f64, crank_speed: f64) -> f64 {
+        let abscissa_rate = match self {
+            Self::Constant(_) => return 0.0,
+            Self::Points { against: Against::Time, .. } => 1.0,
+            Self::Points { against: Against::CrankAngle, .. } => crank_speed,
+        };
+        let (_, [from, to]) = self.segment(time, crank_angle);
+        slope(from, to) * abscissa_rate
+    }
+
+    /// The abscissa and the ends of the line around it; a line that holds a value has equal ends.
+    fn segment(&self, time: f64, crank_angle: f64) -> (f64, [[f64; 2]; 2]) {
+        let Self::Points { against, points } = self else {
+            return (0.0, [[0.0; 2]; 2]);
+        };
+        let (Some(first), Some(last)) = (points.first(), points.last()) else {
+            return (0.0, [[0.0; 2]; 2]);
+        };
+        let at = match against {
+            Against::Time => time,
+            Against::CrankAngle => crank_angle.rem_euclid(TAU),
+        };
+        let next = points.partition_point(|point| point[0] <= at);
+        let ends = match (next, against) {
+            (0, Against::Time) => [*first, *first],
+            (0, Against::CrankAngle) => [[last[0] - TAU, last[1]], *first],
+            (n, Against::Time) if n == points.len() => [*last, *last],
+            (n, Against::CrankAngle) if n == points.len() => [*last, [first[0] + TAU, first[1]]],
+            (n, _) => [points[n - 1], points[n]],
+        };
+        (at, ends)
+    }
+}
+
+fn slope(from: [f64; 2], to: [f64; 2]) -> f64 {
+    if from[0] < to[0] { (to[1] - from[1]) / (to[0] - from[0]) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn over(against: Against) -> Profile {
+        Profile::Points { against, points: vec![[1.0, 10.0], [3.0, 30.0], [4.0, 0.0]] }
+    }
+
+    #[test]
+    fn over_time_the_ends_hold() {
+        let profile = over(Against::Time);
+        let values = [0.0, 1.0, 2.0, 3.0, 3.5, 4.0, 9.0].map(|time| profile.value(time, 0.0));
+        assert_eq!(values, [10.0, 10.0, 20.0, 30.0, 15.0, 0.0, 0.0]);
+        let rates = [0.0, 1.0, 3.0, 9.0].map(|time| profile.rate(time, 0.0, 7.0));
+        assert_eq!(rates, [0.0, 10.0, -30.0, 0.0]);
+    }
+
+    #[test]
+    fn over_the_crank_angle_the_turn_repeats() {
+        let profile = over(Against::CrankAngle);
+        for turns in [-2.0, 0.0, 5.0] {
+            let value = |angle: f64| profile.value(0.0, angle + turns * TAU);
+            // Rounding of the wrapped angle, at most a few ulp of 2π·5, times the steepest slope.
+            let near = |found: f64, wanted: f64| (found - wanted).abs() < 30.0 * 32.0 * f64::EPSILON;
+            assert!(near(value(2.0), 20.0));
+            assert!(near(value(3.5), 15.0));
+            // From 0 at 4 rad to 10 at 2π + 1 rad.
+            let middle = (4.0 + TAU + 1.0) / 2.0;
+            assert!(near(value(middle), 5.0));
+        }
+        assert_eq!(profile.rate(0.0, 2.0, 7.0), 70.0);
+    }
+}
