@@ -1,71 +1,16 @@
 //! A small importer: one slave with its log, every call a method.
 
 pub mod api;
+pub mod log;
 
 use api::Api;
+use log::Log;
 use slidercrank::fmi::Status;
 use slidercrank::fmi::abi::types::*;
 use slidercrank::fmi::variables::VARIABLES;
 use slidercrank::scene::slot;
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ffi::{CString, c_char};
 use std::ptr::{null, null_mut};
-use std::sync::Mutex;
-
-/// A line that the logger got.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Line {
-    pub instance: String,
-    pub status: c_int,
-    pub category: String,
-    pub text: String,
-}
-
-/// Where the logger writes.
-#[derive(Default)]
-pub struct Log(Mutex<Vec<Line>>);
-
-impl Log {
-    /// All lines so far, which are then forgotten.
-    pub fn take(&self) -> Vec<Line> {
-        std::mem::take(&mut self.0.lock().expect("no panic in the logger"))
-    }
-
-    /// The only line since the last look.
-    pub fn only(&self) -> Line {
-        let lines = self.take();
-        assert_eq!(lines.len(), 1, "{lines:?}");
-        lines[0].clone()
-    }
-
-    /// Callbacks that write here; there is no memory management and no stepFinished.
-    pub fn callbacks(&self) -> fmi2CallbackFunctions {
-        let logger: unsafe extern "C" fn(*mut c_void, fmi2String, c_int, fmi2String, fmi2String) = write;
-        fmi2CallbackFunctions {
-            // SAFETY: the calling convention passes the named arguments alike; as ctypes hosts do.
-            logger: Some(unsafe { std::mem::transmute::<_, fmi2CallbackLogger>(logger) }),
-            allocate_memory: None,
-            free_memory: None,
-            step_finished: None,
-            component_environment: (&raw const *self).cast_mut().cast(),
-        }
-    }
-}
-
-unsafe extern "C" fn write(
-    environment: *mut c_void,
-    instance: fmi2String,
-    status: c_int,
-    category: fmi2String,
-    message: fmi2String,
-) {
-    // SAFETY: the environment is the `Log` that `callbacks` was called on.
-    let log = unsafe { &*environment.cast::<Log>() };
-    // SAFETY: the slave passes strings.
-    let text = |pointer| unsafe { CStr::from_ptr(pointer) }.to_str().expect("UTF-8").to_owned();
-    let (instance, category, text) = (text(instance), text(category), text(message));
-    assert!(!text.contains(['%', '#', '\n']), "{text}");
-    log.0.lock().expect("no panic in the logger").push(Line { instance, status, category, text });
-}
 
 /// Value reference of a variable.
 pub fn vr(name: &str) -> u32 {
@@ -112,7 +57,6 @@ calls! {
     exit = ExitInitializationMode();
     terminate = Terminate();
     reset = Reset();
-    cancel = CancelStep();
     set_state = SetFMUstate(state: fmi2FMUstate);
     setup_raw = SetupExperiment(tolerance_defined: i32, tolerance: f64, start: f64, stop_defined: i32, stop: f64);
     step_raw = DoStep(point: f64, size: f64, no_set: i32);

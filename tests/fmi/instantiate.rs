@@ -1,7 +1,8 @@
 //! What an instance needs to come into being, and what it does not.
 
 use crate::host::api::Api;
-use crate::host::{Log, guid};
+use crate::host::guid;
+use crate::host::log::Log;
 use slidercrank::fmi::abi::types::fmi2CallbackFunctions;
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};

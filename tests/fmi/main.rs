@@ -1,5 +1,6 @@
 //! The FMI face as an importer sees it: through the C functions.
 #![allow(unsafe_code, reason = "the tests call the C functions")]
+#![allow(clippy::panic, reason = "a test that cannot go on")]
 
 mod host;
 

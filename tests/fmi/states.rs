@@ -191,3 +191,35 @@ fn an_old_place_is_kept_when_bytes_are_refused() {
     assert_eq!((status, state), (Status::Error, before));
     assert_eq!(slave.set_state(state), Status::Ok);
 }
+
+/// Where the other process finds the bytes.
+const BYTES: &str = "SLIDERCRANK_TEST_STATE";
+
+#[test]
+fn bytes_are_restored_in_another_process_to_the_bit() {
+    let slave = Slave::running();
+    let point = drive(&slave, 0.0, 40);
+    let file = std::env::temp_dir().join(format!("slidercrank-state-{}", std::process::id()));
+    std::fs::write(&file, slave.bytes_of(slave.save())).expect("a writable temporary folder");
+    drive(&slave, point, 40);
+    let output = std::process::Command::new(std::env::current_exe().expect("a path"))
+        .args(["--exact", "states::the_other_process", "--ignored", "--nocapture"])
+        .env(BYTES, &file)
+        .output()
+        .expect("another process");
+    std::fs::remove_file(&file).expect("the file just written");
+    let told = String::from_utf8(output.stdout).expect("text");
+    assert!(told.contains(&format!("{:?}", slave.picture())), "{told}");
+}
+
+#[test]
+#[ignore = "run by the test above, in a process of its own"]
+fn the_other_process() {
+    let Some(file) = std::env::var_os(BYTES) else { return };
+    let bytes = std::fs::read(file).expect("bytes");
+    let slave = Slave::new();
+    let state = slave.deserialize(&bytes).expect("sound bytes");
+    assert_eq!(slave.set_state(state), Status::Ok);
+    drive(&slave, slave.last_time(), 40);
+    println!("{:?}", slave.picture());
+}

@@ -72,7 +72,7 @@ const SEEDS: [(&str, &str, &str); 22] = [
     ("modelIdentifier=\"SliderCrank\"", "modelIdentifier=\"Slider-Crank\"", "modelIdentifier"),
     ("stopTime=\"1.0\"", "stopTime=\"-1.0\"", "stopTime"),
     ("<SimpleType name=\"Force\"", "<SimpleType name=\"gravity\"", "declaredType"),
-    ("<Category name=\"logAll\"", "<Category name=\"logEvents\"", "twice"),
+    ("<Category name=\"logAll\"", "<Category name=\"logStatusError\"", "twice"),
 ];
 
 #[test]

@@ -63,6 +63,7 @@ fn text(payload: Box<dyn Any + Send>) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::panic, reason = "faults on purpose")]
 mod tests {
     use super::super::component::{give, take_back};
     use super::super::host_logger::HostLogger;
