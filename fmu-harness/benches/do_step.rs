@@ -3,8 +3,7 @@
 //! mechanism at constant speed): the host's and the interface's own part.
 
 use cpu_time::ThreadTime;
-use fmu_harness::host::Fmu;
-use fmu_harness::host::log::Log;
+use fmu_harness::host::{Fmu, Log};
 use fmu_harness::package::Package;
 use fmu_harness::scenes::Scenario;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use cpu_time::ThreadTime;
 use fmu_harness::scenes::Scenario;
 use slidercrank::integrator::methods::Verner7;
-use slidercrank::integrator::{Integrator, Problem, Settings};
+use slidercrank::integrator::{Integrator, Settings};
 use slidercrank::model::closed::Closed;
 use slidercrank::model::open::Open;
 use slidercrank::model::plant::Plant;

@@ -224,6 +224,12 @@ impl<'a> Runner<'a> {
 /// The reference of a real input.
 fn input_reference(variable: &Variable) -> Result<u32> {
     let legal = variable.causality() == "input" && variable.kind == Kind::Real;
-    ensure!(legal, "`{}` is not a real input: causality {}, type {:?}", variable.name, variable.causality(), variable.kind);
+    ensure!(
+        legal,
+        "`{}` is not a real input: causality {}, type {:?}",
+        variable.name,
+        variable.causality(),
+        variable.kind
+    );
     Ok(variable.reference)
 }

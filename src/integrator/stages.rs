@@ -84,9 +84,9 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     fn add(&self, y: &mut [f64; N], weights: &[f64; STAGES], count: usize) {
         for (i, y) in y.iter_mut().enumerate() {
             let mut sum = 0.0;
-            for j in 0..count {
-                if weights[j] != 0.0 {
-                    sum += weights[j] * self.k[j][i];
+            for (weight, k) in weights.iter().zip(&self.k).take(count) {
+                if *weight != 0.0 {
+                    sum += weight * k[i];
                 }
             }
             *y += self.h * sum;

@@ -79,5 +79,8 @@ fn a_refusal_is_one_clear_line() {
     assert!(run(&["--set", "k"]).contains("write it as name=value"));
     let table = workshop.directory.path().join("inputs.csv");
     fs::write(&table, "time,x\n0,0\n").expect("written");
-    assert!(run(&["--input", table.to_str().expect("UTF-8")]).contains("`x` is not a real input: causality output, type Real"));
+    assert!(
+        run(&["--input", table.to_str().expect("UTF-8")])
+            .contains("`x` is not a real input: causality output, type Real")
+    );
 }
