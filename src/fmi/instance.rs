@@ -115,6 +115,11 @@ impl Instance {
         }
     }
 
+    /// Stops the run after a failure that the importer did not cause; saved states can still be set.
+    pub fn fail(&mut self) {
+        self.state = State::Error;
+    }
+
     /// Gives the instance up after a fault of ours.
     pub fn give_up(&mut self) {
         self.state = State::Fatal;

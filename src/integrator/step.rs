@@ -236,7 +236,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             let made = self.attempt(problem, start, h);
             let finite = made.y.iter().all(|y| y.is_finite());
             let error = if finite {
-                controller::norm::<N, M>(&made, &start.y, problem.scales(), self.settings.tolerance)
+                controller::norm(&made, &start.y, problem.scales(), self.settings.tolerance)
             } else {
                 f64::INFINITY
             };

@@ -113,10 +113,9 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         if !SPEED {
             loads.couple[CRANK] = inputs.crank_torque;
         }
-        for joint in 0..3 {
+        for (joint, revolute) in self.revolute.iter().enumerate() {
             if Self::CLEAR[joint] && contacts[joint].closed {
-                let load = self.revolute[joint].load(&contacts[joint], &pose.play(joint));
-                loads.add_contact(joint, &load);
+                loads.add_contact(joint, &revolute.load(&contacts[joint], &pose.play(joint)));
             }
         }
         if !T {
@@ -144,10 +143,9 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     #[inline(always)]
     fn penetrations(&self, pose: &Pose) -> [(f64, f64); 3 + CORNERS] {
         let mut all = [(f64::NEG_INFINITY, 0.0); 3 + CORNERS];
-        for joint in 0..3 {
+        for (joint, revolute) in self.revolute.iter().enumerate() {
             if Self::CLEAR[joint] {
                 let play = pose.play(joint);
-                let revolute = &self.revolute[joint];
                 all[joint] = (revolute.penetration(&play), revolute.penetration_rate(&play));
             }
         }

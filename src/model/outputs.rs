@@ -89,7 +89,8 @@ impl Observer {
         let turning = &instant.pose.turning;
         let speed = turning.speed[CRANK];
         let ideal = self.ideal.motion(Rotation::new(turning.angle[CRANK]), speed);
-        if !(ideal.rod.cos > 0.0) {
+        let exists = ideal.rod.cos > 0.0; // not so where it is not a number
+        if !exists {
             return AccuracyOutputs::default();
         }
         let acceleration = ideal.x_ratio * instant.angle_acceleration[CRANK] + ideal.x_bias;

@@ -50,7 +50,8 @@ impl StartPose {
     pub fn of(scene: &Scene) -> Option<Self> {
         let sine = rod_sine(scene);
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
-        if !(cosine > 0.0) {
+        let closes = cosine > 0.0; // not so where it is not a number
+        if !closes {
             return None;
         }
         let (theta, omega) = (scene.crank.angle_start, scene.crank.speed_start);

@@ -29,9 +29,9 @@ pub trait Motion: Send {
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()>;
 }
 
-/// The plant `P` of `N` states under the method `M`.
-pub struct Run<const N: usize, M, P: Plant<N> + ?Sized> {
-    plant: Box<P>,
+/// A mechanism of `N` states under the method `M`.
+pub struct Run<const N: usize, M> {
+    plant: Box<dyn Plant<N>>,
     integrator: Integrator<N, Contacts, M>,
     settings: Settings,
     observer: Observer,
@@ -40,9 +40,9 @@ pub struct Run<const N: usize, M, P: Plant<N> + ?Sized> {
 /// [s] Half the interval over which an output's derivative is taken.
 const DIFFERENCE: f64 = 1e-8;
 
-impl<const N: usize, M: Method, P: Plant<N> + ?Sized> Run<N, M, P> {
+impl<const N: usize, M: Method> Run<N, M> {
     /// Starts `plant` at `time` from `pose`.
-    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<P>) -> Self {
+    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant<N>>) -> Self {
         let settings = Settings { tolerance: scene.solver.tolerance, fixed_step: scene.solver.step };
         let y = plant.start(pose);
         let contacts = plant.start_contacts(time, &y);
@@ -68,7 +68,7 @@ impl<const N: usize, M: Method, P: Plant<N> + ?Sized> Run<N, M, P> {
     }
 }
 
-impl<const N: usize, M: Method, P: Plant<N> + Send + ?Sized> Motion for Run<N, M, P> {
+impl<const N: usize, M: Method> Motion for Run<N, M> {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
         self.integrator.advance(self.plant.as_ref(), t)
     }
