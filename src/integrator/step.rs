@@ -186,7 +186,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
                 return Ok(());
             };
-            self.cross(problem, guard);
+            self.cross(problem, guard, 0.0);
         }
         let guard = (0..count).find(|&i| has_fallen(&self.guards[i])).unwrap_or_default();
         Err(IntegrationError::EventsAccumulate { time: self.memory.front.t, guard })
@@ -248,7 +248,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             rejected = true;
             self.memory.statistics.rejected += 1;
-            wanted = h * controller::shrinkage::<M>(error);
+            wanted = wanted.min(h) * controller::shrinkage::<M>(error);
         }
     }
 
@@ -302,17 +302,19 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             t = better;
         }
-        self.cross(problem, guard);
+        self.cross(problem, guard, close);
     }
 
-    /// Crosses the event of `guard` at the front, and of all guards that have fallen with it.
-    fn cross<P>(&mut self, problem: &P, guard: usize)
+    /// Crosses the event of `guard` at the front, and of all guards that have fallen with it: those
+    /// within `close` of zero.
+    fn cross<P>(&mut self, problem: &P, guard: usize, close: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
         let mut crossed: Crossed = [false; GUARDS];
         for (i, crossed) in crossed.iter_mut().enumerate().take(problem.guard_count()) {
-            *crossed = i == guard || has_fallen(&self.guards[i]);
+            let Guard { value, rate } = self.guards[i];
+            *crossed = i == guard || (value <= close && rate < 0.0);
             self.memory.crossings += u64::from(*crossed);
             self.memory.statistics.events += u64::from(*crossed);
         }
