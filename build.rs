@@ -15,18 +15,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let declaration = model_description::load()?;
     let starts: Vec<f64> = tables::starts(&declaration).collect();
-    let digest = guid::digest(&xml::write(
-        &declaration,
-        &xml::Package::anonymous(&declaration, &starts),
-    )?);
+    let digest = guid::digest(&xml::write(&declaration, &xml::Package::anonymous(&declaration, &starts))?);
     let guid = guid::guid(&digest, starts);
     let out_dir = env::var("OUT_DIR")?;
     let write = |name: &str, text: String| fs::write(Path::new(&out_dir).join(name), text);
     write("enumerations.rs", tables::enumerations(&declaration))?;
-    write(
-        "parameters.rs",
-        tables::parameters(&declaration, &digest, &guid),
-    )?;
+    write("parameters.rs", tables::parameters(&declaration, &digest, &guid))?;
     write("variables.rs", tables::variables(&declaration))?;
     Ok(())
 }

@@ -44,15 +44,8 @@ impl fmt::Display for RowError {
         write!(f, "modelDescription/variables.toml:{}: ", self.line)?;
         match &self.fault {
             Fault::Toml(text) => f.write_str(text),
-            Fault::Triple {
-                causality,
-                variability,
-                kind,
-            } => {
-                write!(
-                    f,
-                    "a variable cannot be {causality}, {variability} and {kind}"
-                )
+            Fault::Triple { causality, variability, kind } => {
+                write!(f, "a variable cannot be {causality}, {variability} and {kind}")
             }
             Fault::Missing(attribute) => write!(f, "`{attribute}` is missing"),
             Fault::Superfluous(attribute) => write!(f, "`{attribute}` has no meaning here"),

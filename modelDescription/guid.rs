@@ -14,13 +14,6 @@ pub fn guid(declaration: &[u8; 32], starts: impl IntoIterator<Item = f64>) -> St
     for start in starts {
         hasher.update(start.to_le_bytes());
     }
-    let digits: String = hasher
-        .finalize()
-        .iter()
-        .take(16)
-        .map(|byte| format!("{byte:02x}"))
-        .collect();
-    [0..8, 8..12, 12..16, 16..20, 20..32]
-        .map(|group| &digits[group])
-        .join("-")
+    let digits: String = hasher.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+    [0..8, 8..12, 12..16, 16..20, 20..32].map(|group| &digits[group]).join("-")
 }

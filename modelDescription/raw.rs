@@ -197,19 +197,12 @@ impl RawRow {
     pub fn expanded(&self) -> Vec<Self> {
         match self.letters[..] {
             [] => vec![self.filled("")],
-            _ => self
-                .letters
-                .iter()
-                .map(|letter| self.filled(letter))
-                .collect(),
+            _ => self.letters.iter().map(|letter| self.filled(letter)).collect(),
         }
     }
 
     fn filled(&self, letter: &str) -> Self {
-        let fill = |text: &String| {
-            text.replace("{J}", letter)
-                .replace("{j}", &letter.to_lowercase())
-        };
+        let fill = |text: &String| text.replace("{J}", letter).replace("{j}", &letter.to_lowercase());
         let mut row = self.clone();
         row.template = self.name.clone();
         row.name = fill(&self.name);

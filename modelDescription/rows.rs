@@ -148,11 +148,7 @@ fn link(drafts: &mut [Draft], groups: &BTreeMap<String, Vec<String>>) -> Result<
         Role::Output { .. } => None,
     };
     let knowns: Vec<Known> = drafts.iter().enumerate().filter_map(known).collect();
-    let inputs: Vec<Known> = knowns
-        .iter()
-        .filter(|(_, _, input)| *input)
-        .cloned()
-        .collect();
+    let inputs: Vec<Known> = knowns.iter().filter(|(_, _, input)| *input).cloned().collect();
     for (line, row, written) in drafts {
         let Role::Output { depends, at_start } = &mut row.role else {
             continue;
@@ -177,10 +173,7 @@ fn resolve<'a>(
 ) -> Result<Vec<usize>, Fault> {
     let mut found = vec![];
     for word in words {
-        for pattern in groups
-            .get(word)
-            .map_or(std::slice::from_ref(word), Vec::as_slice)
-        {
+        for pattern in groups.get(word).map_or(std::slice::from_ref(word), Vec::as_slice) {
             let before = found.len();
             let hits = knowns.iter().filter(|(_, name, _)| fits(pattern, name));
             found.extend(hits.map(|(row, ..)| *row));
@@ -198,10 +191,7 @@ fn resolve<'a>(
 fn refuse_duplicates(drafts: &[Draft]) -> Result<(), RowError> {
     let mut seen = HashSet::new();
     match drafts.iter().find(|(_, row, _)| !seen.insert(&row.name)) {
-        Some((line, row, _)) => Err(RowError {
-            line: *line,
-            fault: Fault::Duplicate(row.name.clone()),
-        }),
+        Some((line, row, _)) => Err(RowError { line: *line, fault: Fault::Duplicate(row.name.clone()) }),
         None => Ok(()),
     }
 }
@@ -209,17 +199,10 @@ fn refuse_duplicates(drafts: &[Draft]) -> Result<(), RowError> {
 /// Whether a name has the pattern's parts, `*` standing for any one part.
 fn fits(pattern: &str, name: &str) -> bool {
     pattern.split('.').count() == name.split('.').count()
-        && pattern
-            .split('.')
-            .zip(name.split('.'))
-            .all(|(wanted, part)| wanted == "*" || wanted == part)
+        && pattern.split('.').zip(name.split('.')).all(|(wanted, part)| wanted == "*" || wanted == part)
 }
 
 /// Line of a byte offset, from 1.
 fn line_of(text: &str, offset: usize) -> usize {
-    1 + text
-        .bytes()
-        .take(offset)
-        .filter(|byte| *byte == b'\n')
-        .count()
+    1 + text.bytes().take(offset).filter(|byte| *byte == b'\n').count()
 }

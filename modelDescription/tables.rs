@@ -8,28 +8,13 @@ pub fn enumerations(declaration: &Declaration) -> String {
     let mut out = String::new();
     for enumeration in &declaration.enumerations {
         let name = &enumeration.name;
-        line(
-            &mut out,
-            &format!(
-                "enumeration! {{ #[doc = {:?}] {name} {{",
-                sentence(&enumeration.description)
-            ),
-        );
+        line(&mut out, &format!("enumeration! {{ #[doc = {:?}] {name} {{", sentence(&enumeration.description)));
         for item in &enumeration.items {
-            let default = if item.value == default_of(declaration, enumeration) {
-                "#[default] "
-            } else {
-                ""
-            };
+            let default = if item.value == default_of(declaration, enumeration) { "#[default] " } else { "" };
             let doc = sentence(&item.description);
             line(
                 &mut out,
-                &format!(
-                    "    #[doc = {doc:?}] {default}{} = {} = {:?},",
-                    camel(&item.name),
-                    item.value,
-                    item.name
-                ),
+                &format!("    #[doc = {doc:?}] {default}{} = {} = {:?},", camel(&item.name), item.value, item.name),
             );
         }
         line(&mut out, "} }");
@@ -40,34 +25,10 @@ pub fn enumerations(declaration: &Declaration) -> String {
 /// The scene's parameters, with the digest and the guid that go with their start values.
 pub fn parameters(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> String {
     let mut out = String::new();
-    let rows = || {
-        declaration
-            .rows
-            .iter()
-            .filter_map(|row| start_of(row).map(|start| (row, start)))
-    };
-    line(
-        &mut out,
-        &format!(
-            "/// Number of parameters.\npub const PARAMETER_COUNT: usize = {};",
-            rows().count()
-        ),
-    );
-    line(
-        &mut out,
-        "/// Every parameter, in the order of the declaration.\npub static PARAMETERS: &[Parameter] = &[",
-    );
-    for (
-        Row {
-            name,
-            description,
-            field,
-            kind,
-            ..
-        },
-        start,
-    ) in rows()
-    {
+    let rows = || declaration.rows.iter().filter_map(|row| start_of(row).map(|start| (row, start)));
+    line(&mut out, &format!("/// Number of parameters.\npub const PARAMETER_COUNT: usize = {};", rows().count()));
+    line(&mut out, "/// Every parameter, in the order of the declaration.\npub static PARAMETERS: &[Parameter] = &[");
+    for (Row { name, description, field, kind, .. }, start) in rows() {
         let kind = match kind {
             Kind::Real { of, min, max, .. } => {
                 let unit = &declaration.types[*of].unit;
@@ -86,34 +47,16 @@ pub fn parameters(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> S
             }
             Kind::Integer { .. } | Kind::Boolean => unreachable_kind(),
         };
-        line(
-            &mut out,
-            &format!(
-                "    Parameter {{ name: {name:?}, description: {description:?}, kind: {kind} }},"
-            ),
-        );
+        line(&mut out, &format!("    Parameter {{ name: {name:?}, description: {description:?}, kind: {kind} }},"));
     }
     line(&mut out, "];");
     let Experiment { stop, step, .. } = declaration.experiment;
+    line(&mut out, &format!("/// [s] Stop time of a run that names none.\npub const DEFAULT_STOP: f64 = {stop:?};"));
+    line(&mut out, &format!("/// [s] Step of a run that names none.\npub const DEFAULT_STEP: f64 = {step:?};"));
+    line(&mut out, &format!("/// Digest of the declaration.\npub const DECLARATION: [u8; 32] = {digest:?};"));
     line(
         &mut out,
-        &format!(
-            "/// [s] Stop time of a run that names none.\npub const DEFAULT_STOP: f64 = {stop:?};"
-        ),
-    );
-    line(
-        &mut out,
-        &format!("/// [s] Step of a run that names none.\npub const DEFAULT_STEP: f64 = {step:?};"),
-    );
-    line(
-        &mut out,
-        &format!("/// Digest of the declaration.\npub const DECLARATION: [u8; 32] = {digest:?};"),
-    );
-    line(
-        &mut out,
-        &format!(
-            "/// The guid of a package with the declared start values.\npub const DEFAULT_GUID: &str = {guid:?};"
-        ),
+        &format!("/// The guid of a package with the declared start values.\npub const DEFAULT_GUID: &str = {guid:?};"),
     );
     out
 }
@@ -126,14 +69,7 @@ pub fn variables(declaration: &Declaration) -> String {
         "/// Every variable; the index is the value reference, of whatever type.\npub static VARIABLES: &[Variable] = &[",
     );
     let mut parameter = 0;
-    for Row {
-        name,
-        field,
-        kind,
-        role,
-        ..
-    } in &declaration.rows
-    {
+    for Row { name, field, kind, role, .. } in &declaration.rows {
         let access = match (role, kind) {
             (Role::Input { start }, _) => format!(
                 "Access::Input {{ start: {start:?}, get: |inputs| inputs.{field}, set: |inputs, value| inputs.{field} = value }}"
@@ -147,26 +83,17 @@ pub fn variables(declaration: &Declaration) -> String {
             (Role::Output { .. }, _) => format!("Access::IntegerOutput(|outputs| outputs.{field})"),
             (Role::Parameter { .. }, _) => {
                 parameter += 1;
-                format!(
-                    "Access::Parameter(&crate::scene::PARAMETERS[{}])",
-                    parameter - 1
-                )
+                format!("Access::Parameter(&crate::scene::PARAMETERS[{}])", parameter - 1)
             }
         };
-        line(
-            &mut out,
-            &format!("    Variable {{ name: {name:?}, access: {access} }},"),
-        );
+        line(&mut out, &format!("    Variable {{ name: {name:?}, access: {access} }},"));
     }
     line(&mut out, "];");
     line(&mut out, "log_categories! {");
     for category in &declaration.log {
         let doc = sentence(&category.description);
         let item = camel(category.name.trim_start_matches("log"));
-        line(
-            &mut out,
-            &format!("    #[doc = {doc:?}] {item} = {:?},", category.name),
-        );
+        line(&mut out, &format!("    #[doc = {doc:?}] {item} = {:?},", category.name));
     }
     line(&mut out, "}");
     out
@@ -202,10 +129,7 @@ fn unreachable_kind() -> String {
 /// `hunt_crossley` → `HuntCrossley`.
 fn camel(name: &str) -> String {
     let word = |word: &str| {
-        word.chars()
-            .enumerate()
-            .map(|(i, c)| if i == 0 { c.to_ascii_uppercase() } else { c })
-            .collect::<String>()
+        word.chars().enumerate().map(|(i, c)| if i == 0 { c.to_ascii_uppercase() } else { c }).collect::<String>()
     };
     name.split('_').map(word).collect()
 }

@@ -12,11 +12,8 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
     }
     let kind = kind(row, raw)?;
     let role = match (group.causality.as_str(), group.variability.as_str(), &kind) {
-        ("input", "continuous", Kind::Real { .. }) => Role::Input {
-            start: number(&row.start)?,
-        },
-        ("output", "continuous", Kind::Real { .. })
-        | ("output", "discrete", Kind::Integer { .. } | Kind::Boolean) => {
+        ("input", "continuous", Kind::Real { .. }) => Role::Input { start: number(&row.start)? },
+        ("output", "continuous", Kind::Real { .. }) | ("output", "discrete", Kind::Integer { .. } | Kind::Boolean) => {
             row.depends.as_ref().ok_or(Fault::Missing("depends"))?;
             match &row.at_start {
                 None => return Err(Fault::Missing("at_start")),
@@ -24,30 +21,20 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
                     return Err(Fault::Unknown(word.clone()));
                 }
                 Some(_) if row.start.is_some() => return Err(Fault::Superfluous("start")),
-                Some(_) => Role::Output {
-                    depends: vec![],
-                    at_start: None,
-                },
+                Some(_) => Role::Output { depends: vec![], at_start: None },
             }
         }
         ("parameter", "fixed", Kind::Real { min, max, .. }) => {
             min.ok_or(Fault::Missing("min"))?;
             max.ok_or(Fault::Missing("max"))?;
-            Role::Parameter {
-                start: number(&row.start)?,
-            }
+            Role::Parameter { start: number(&row.start)? }
         }
         ("parameter", "fixed", Kind::Enumeration { of }) => {
             let Some(RawStart::Item(name)) = &row.start else {
                 return Err(Fault::Missing("start"));
             };
-            let item = raw.enumeration[*of]
-                .items
-                .iter()
-                .find(|item| item.name == *name);
-            Role::Parameter {
-                start: f64::from(item.ok_or_else(|| Fault::Unknown(name.clone()))?.value),
-            }
+            let item = raw.enumeration[*of].items.iter().find(|item| item.name == *name);
+            Role::Parameter { start: f64::from(item.ok_or_else(|| Fault::Unknown(name.clone()))?.value) }
         }
         _ => {
             return Err(Fault::Triple {
@@ -76,60 +63,30 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
 /// The row's type, declared or built in.
 fn kind(row: &RawRow, raw: &Raw) -> Result<Kind, Fault> {
     let whole = |bound: Option<f64>| bound.map(|bound| bound as i32);
-    if let Some(of) = raw
-        .types
-        .iter()
-        .position(|declared| declared.name == row.of_type)
-    {
-        let RawRow {
-            min,
-            max,
-            nominal,
-            unbounded,
-            ..
-        } = *row;
-        return Ok(Kind::Real {
-            of,
-            min,
-            max,
-            nominal,
-            unbounded,
-        });
+    if let Some(of) = raw.types.iter().position(|declared| declared.name == row.of_type) {
+        let RawRow { min, max, nominal, unbounded, .. } = *row;
+        return Ok(Kind::Real { of, min, max, nominal, unbounded });
     }
     if row.nominal.is_some() || row.unbounded {
         return Err(Fault::Superfluous("nominal, unbounded"));
     }
     match row.of_type.as_str() {
-        "Integer" => Ok(Kind::Integer {
-            min: whole(row.min),
-            max: whole(row.max),
-        }),
+        "Integer" => Ok(Kind::Integer { min: whole(row.min), max: whole(row.max) }),
         _ if row.min.is_some() || row.max.is_some() => Err(Fault::Superfluous("min, max")),
         "Boolean" => Ok(Kind::Boolean),
         name => {
-            let of = raw
-                .enumeration
-                .iter()
-                .position(|declared| declared.name == name);
-            Ok(Kind::Enumeration {
-                of: of.ok_or_else(|| Fault::Unknown(name.into()))?,
-            })
+            let of = raw.enumeration.iter().position(|declared| declared.name == name);
+            Ok(Kind::Enumeration { of: of.ok_or_else(|| Fault::Unknown(name.into()))? })
         }
     }
 }
 
 /// Refuses numbers that contradict each other.
 fn in_order(kind: &Kind, role: &Role) -> Result<(), Fault> {
-    let Kind::Real {
-        min, max, nominal, ..
-    } = kind
-    else {
+    let Kind::Real { min, max, nominal, .. } = kind else {
         return Ok(());
     };
-    let (min, max) = (
-        min.unwrap_or(f64::NEG_INFINITY),
-        max.unwrap_or(f64::INFINITY),
-    );
+    let (min, max) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
     let start = match role {
         Role::Input { start } | Role::Parameter { start } => *start,
         Role::Output { .. } => min.max(0.0).min(max),

@@ -22,12 +22,7 @@ pub struct Package<'a> {
 impl<'a> Package<'a> {
     /// A package with no guid and the declared experiment: the text that a guid is made from.
     pub fn anonymous(declaration: &Declaration, starts: &'a [f64]) -> Self {
-        Self {
-            guid: "",
-            starts,
-            experiment: declaration.experiment,
-            written: None,
-        }
+        Self { guid: "", starts, experiment: declaration.experiment, written: None }
     }
 }
 
@@ -35,59 +30,37 @@ impl<'a> Package<'a> {
 pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    parent(
-        &mut xml,
-        "fmiModelDescription",
-        root(declaration, package),
-        |xml| {
-            leaf(xml, "CoSimulation", capabilities(declaration))?;
-            parent(xml, "UnitDefinitions", vec![], |xml| {
-                declaration
-                    .units
-                    .iter()
-                    .try_for_each(|unit| unit_definition(xml, unit))
-            })?;
-            parent(xml, "TypeDefinitions", vec![], |xml| {
-                type_definitions(xml, declaration)
-            })?;
-            parent(xml, "LogCategories", vec![], |xml| {
-                declaration.log.iter().try_for_each(|category| {
-                    let (name, description) = (category.name.clone(), category.description.clone());
-                    leaf(
-                        xml,
-                        "Category",
-                        vec![("name", name), ("description", description)],
-                    )
-                })
-            })?;
-            leaf(xml, "DefaultExperiment", experiment(&package.experiment))?;
-            parent(xml, "ModelVariables", vec![], |xml| {
-                let mut starts = package.starts.iter().copied();
-                declaration
-                    .rows
-                    .iter()
-                    .enumerate()
-                    .try_for_each(|(reference, row)| {
-                        let start = match row.role {
-                            Role::Input { start } => Some(start),
-                            Role::Output { .. } => None,
-                            Role::Parameter { start } => Some(starts.next().unwrap_or(start)),
-                        };
-                        variable(xml, declaration, reference, row, start)
-                    })
-            })?;
-            parent(xml, "ModelStructure", vec![], |xml| {
-                parent(xml, "Outputs", vec![], |xml| {
-                    unknowns(xml, declaration, |depends, _| Some(depends.to_vec()))
-                })?;
-                parent(xml, "InitialUnknowns", vec![], |xml| {
-                    unknowns(xml, declaration, |_, at_start| {
-                        at_start.map(<[usize]>::to_vec)
-                    })
-                })
+    parent(&mut xml, "fmiModelDescription", root(declaration, package), |xml| {
+        leaf(xml, "CoSimulation", capabilities(declaration))?;
+        parent(xml, "UnitDefinitions", vec![], |xml| {
+            declaration.units.iter().try_for_each(|unit| unit_definition(xml, unit))
+        })?;
+        parent(xml, "TypeDefinitions", vec![], |xml| type_definitions(xml, declaration))?;
+        parent(xml, "LogCategories", vec![], |xml| {
+            declaration.log.iter().try_for_each(|category| {
+                let (name, description) = (category.name.clone(), category.description.clone());
+                leaf(xml, "Category", vec![("name", name), ("description", description)])
             })
-        },
-    )?;
+        })?;
+        leaf(xml, "DefaultExperiment", experiment(&package.experiment))?;
+        parent(xml, "ModelVariables", vec![], |xml| {
+            let mut starts = package.starts.iter().copied();
+            declaration.rows.iter().enumerate().try_for_each(|(reference, row)| {
+                let start = match row.role {
+                    Role::Input { start } => Some(start),
+                    Role::Output { .. } => None,
+                    Role::Parameter { start } => Some(starts.next().unwrap_or(start)),
+                };
+                variable(xml, declaration, reference, row, start)
+            })
+        })?;
+        parent(xml, "ModelStructure", vec![], |xml| {
+            parent(xml, "Outputs", vec![], |xml| unknowns(xml, declaration, |depends, _| Some(depends.to_vec())))?;
+            parent(xml, "InitialUnknowns", vec![], |xml| {
+                unknowns(xml, declaration, |_, at_start| at_start.map(<[usize]>::to_vec))
+            })
+        })
+    })?;
     let mut bytes = xml.into_inner();
     bytes.push(b'\n');
     String::from_utf8(bytes).map_err(io::Error::other)
@@ -102,16 +75,9 @@ fn root(declaration: &Declaration, package: &Package) -> Attributes<'static> {
         ("description", model.description.clone()),
         ("version", env!("CARGO_PKG_VERSION").into()),
         ("license", model.license.clone()),
-        (
-            "generationTool",
-            format!("{} {}", model.generation_tool, env!("CARGO_PKG_VERSION")),
-        ),
+        ("generationTool", format!("{} {}", model.generation_tool, env!("CARGO_PKG_VERSION"))),
     ];
-    attributes.extend(
-        package
-            .written
-            .map(|seconds| ("generationDateAndTime", date(seconds))),
-    );
+    attributes.extend(package.written.map(|seconds| ("generationDateAndTime", date(seconds))));
     attributes.push(("variableNamingConvention", "structured".into()));
     attributes
 }
@@ -122,22 +88,12 @@ fn capabilities(declaration: &Declaration) -> Attributes<'_> {
         Flag::Order(order) => order.to_string(),
     };
     let mut attributes = vec![("modelIdentifier", declaration.model.identifier.clone())];
-    attributes.extend(
-        declaration
-            .capabilities
-            .iter()
-            .map(|(name, flag)| (name.as_str(), value(flag))),
-    );
+    attributes.extend(declaration.capabilities.iter().map(|(name, flag)| (name.as_str(), value(flag))));
     attributes
 }
 
 fn experiment(experiment: &Experiment) -> Attributes<'static> {
-    let Experiment {
-        start,
-        stop,
-        tolerance,
-        step,
-    } = *experiment;
+    let Experiment { start, stop, tolerance, step } = *experiment;
     let number = |value: f64| format!("{value:?}");
     vec![
         ("startTime", number(start)),
@@ -177,21 +133,11 @@ fn variable(
 
 /// The element that tells a variable's type. The unit stands here as well as in the declared type:
 /// some hosts look no further than the variable.
-fn type_and_range<'a>(
-    declaration: &'a Declaration,
-    kind: &Kind,
-    start: Option<f64>,
-) -> (&'a str, Attributes<'a>) {
+fn type_and_range<'a>(declaration: &'a Declaration, kind: &Kind, start: Option<f64>) -> (&'a str, Attributes<'a>) {
     let number = |value: f64| format!("{value:?}");
     let mut attributes: Attributes = vec![];
     let name = match kind {
-        Kind::Real {
-            of,
-            min,
-            max,
-            nominal,
-            unbounded,
-        } => {
+        Kind::Real { of, min, max, nominal, unbounded } => {
             let of = &declaration.types[*of];
             attributes.push(("declaredType", of.name.clone()));
             attributes.push(("unit", of.unit.clone()));
@@ -232,12 +178,7 @@ fn unknowns(
             continue;
         };
         let mut attributes = vec![("index", (row + 1).to_string())];
-        let indices = |rows: Vec<usize>| {
-            rows.iter()
-                .map(|row| (row + 1).to_string())
-                .collect::<Vec<_>>()
-                .join(" ")
-        };
+        let indices = |rows: Vec<usize>| rows.iter().map(|row| (row + 1).to_string()).collect::<Vec<_>>().join(" ");
         let chosen = choose(depends, at_start.as_deref());
         attributes.extend(chosen.map(|rows| ("dependencies", indices(rows))));
         leaf(xml, "Unknown", attributes)?;

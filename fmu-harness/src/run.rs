@@ -1,7 +1,7 @@
 //! One scene through an FMU, communication point by communication point.
 
 use crate::host::{Fmu, HostError, Kind, Log, LogLine, Selection, Setting, Slave, Stepping, Value, Variable};
-use crate::inputs::{Against, Curve};
+use crate::inputs::Input;
 use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
 use cpu_time::ThreadTime;
@@ -33,7 +33,7 @@ pub struct Experiment {
     /// Values to set before initialisation.
     pub settings: Vec<Setting>,
     /// Inputs while time runs.
-    pub inputs: Vec<Curve>,
+    pub inputs: Vec<Input>,
     /// [s] First communication point.
     pub start: f64,
     /// When to end.
@@ -131,7 +131,7 @@ impl Experiment {
 struct Runner<'a> {
     experiment: &'a Experiment,
     slave: Slave<'a, Stepping>,
-    /// References of the inputs, in the order of the curves.
+    /// References of the inputs, in the order of the experiment's.
     inputs: Vec<u32>,
     values: Vec<f64>,
     outputs: Selection,
@@ -144,13 +144,12 @@ impl<'a> Runner<'a> {
     /// Instantiates, sets, initialises, and records the first row.
     fn start(fmu: &'a Fmu, experiment: &'a Experiment, log: Arc<Log>) -> Result<Self> {
         let description = fmu.description();
-        let curves = &experiment.inputs;
-        let input = |curve: &Curve| input_reference(description.variable(curve.name())?);
-        let inputs = curves.iter().map(input).collect::<Result<Vec<u32>>>()?;
+        let reference = |input: &Input| input_reference(description.variable(&input.name)?);
+        let inputs = experiment.inputs.iter().map(reference).collect::<Result<Vec<u32>>>()?;
         let outputs: Vec<&Variable> =
             description.variables.iter().filter(|variable| variable.causality() == "output").collect();
         let angle = outputs.iter().position(|variable| variable.name == ANGLE);
-        let wants_angle = curves.iter().any(|curve| curve.against() == Against::CrankAngle);
+        let wants_angle = experiment.inputs.iter().any(Input::wants_angle);
         ensure!(angle.is_some() || !wants_angle, "an input depends on `{ANGLE}`, which this FMU does not give");
 
         let mut slave = fmu.instantiate(description.name(), log, false)?;
@@ -160,7 +159,8 @@ impl<'a> Runner<'a> {
         }
         let mut slave = slave.enter_initialization(experiment.tolerance, experiment.start, None)?;
         let first_angle = if wants_angle { slave.read_one(ANGLE)? } else { 0.0 };
-        let values: Vec<f64> = curves.iter().map(|curve| curve.value(experiment.start, first_angle)).collect();
+        let value = |input: &Input| input.profile.value(experiment.start, first_angle);
+        let values: Vec<f64> = experiment.inputs.iter().map(value).collect();
         if !values.is_empty() {
             slave.set_reals(&inputs, &values)?;
         }
@@ -185,8 +185,8 @@ impl<'a> Runner<'a> {
             return Ok(());
         }
         let angle = self.angle.map_or(0.0, |(column, _)| self.outputs.values()[column]);
-        let curves = self.experiment.inputs.iter();
-        self.values.iter_mut().zip(curves).for_each(|(value, curve)| *value = curve.value(time, angle));
+        let inputs = &self.experiment.inputs;
+        self.values.iter_mut().zip(inputs).for_each(|(value, input)| *value = input.profile.value(time, angle));
         self.slave.set_reals(&self.inputs, &self.values)
     }
 
@@ -224,6 +224,12 @@ impl<'a> Runner<'a> {
 /// The reference of a real input.
 fn input_reference(variable: &Variable) -> Result<u32> {
     let legal = variable.causality() == "input" && variable.kind == Kind::Real;
-    ensure!(legal, "`{}` is no real input but a {} {:?}", variable.name, variable.causality(), variable.kind);
+    ensure!(
+        legal,
+        "`{}` is not a real input: causality {}, type {:?}",
+        variable.name,
+        variable.causality(),
+        variable.kind
+    );
     Ok(variable.reference)
 }

@@ -1,9 +1,8 @@
 //! The shipped scenes, and any other scene file: a mechanism with what is done to it.
 
-use crate::inputs::Curve;
 use crate::package::build::workspace;
 use anyhow::{Context, Result, bail};
-use slidercrank::scene::Scene;
+use slidercrank::scene::read::{SceneFile, read};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -13,21 +12,19 @@ pub struct Scenario {
     pub name: String,
     /// As written.
     pub text: String,
-    /// The mechanism.
-    pub scene: Scene,
-    /// What is done to it while time runs.
-    pub inputs: Vec<Curve>,
+    /// As understood.
+    pub file: SceneFile,
 }
 
 impl Scenario {
     /// Reads the scene of this name, or the file at this path.
     pub fn find(name_or_file: &str) -> Result<Self> {
         let file = if name_or_file.ends_with(".toml") { name_or_file.into() } else { shipped(name_or_file)? };
-        let text = fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))?;
+        let shown = file.display().to_string();
+        let text = fs::read_to_string(&file).with_context(|| format!("cannot read {shown}"))?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let mut scene = Scene::default();
-        scene.drive.mode = slidercrank::scene::DriveMode::Speed;
-        Ok(Self { name, text, scene, inputs: vec![] })
+        let file = read(&text, &shown)?;
+        Ok(Self { name, text, file })
     }
 }
 
@@ -42,7 +39,7 @@ fn shipped(name: &str) -> Result<PathBuf> {
 }
 
 /// Names of the scenes in a directory, sorted.
-fn names(directory: &Path) -> Vec<String> {
+pub fn names(directory: &Path) -> Vec<String> {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
     let scene = |path: PathBuf| (path.extension()? == "toml").then(|| Some(path.file_stem()?.to_str()?.to_owned()))?;
     let mut names: Vec<String> = entries.filter_map(|entry| scene(entry.path())).collect();

@@ -1,7 +1,8 @@
-//! What a package says of itself beside its binary: `modelDescription.xml` of a scene.
+//! What a package says of itself beside its binary: `modelDescription.xml` and the documentation.
 
 use crate::model_description::rows::{Experiment, RowError};
-use crate::model_description::{self, xml};
+use crate::model_description::{self, page, xml};
+use crate::scene::check::LEAST_RESTITUTION;
 use crate::scene::{PARAMETERS, Scene, slot};
 use std::{fmt, io};
 
@@ -45,10 +46,7 @@ pub fn model_description(
     written: Option<u64>,
 ) -> Result<String, DescriptionError> {
     let declaration = model_description::load()?;
-    let starts: Vec<f64> = PARAMETERS
-        .iter()
-        .map(|parameter| parameter.value(scene))
-        .collect();
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
     let package = xml::Package {
         guid: &slot::guid(scene),
         starts: &starts,
@@ -56,6 +54,14 @@ pub fn model_description(
         written,
     };
     Ok(xml::write(&declaration, &package)?)
+}
+
+/// `documentation/index.html` of a package whose start values are the scene's; `title` tells which
+/// scene that is.
+pub fn documentation(scene: &Scene, title: &str) -> Result<String, DescriptionError> {
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
+    let subject = page::Subject { scene: title, starts: &starts, least_restitution: LEAST_RESTITUTION };
+    Ok(page::write(&model_description::load()?, &subject))
 }
 
 /// The declared experiment.

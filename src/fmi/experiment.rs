@@ -33,11 +33,7 @@ impl Experiment {
         if let Some(tolerance) = tolerance {
             positive("tolerance", tolerance)?;
         }
-        Ok(Self {
-            start,
-            stop,
-            tolerance,
-        })
+        Ok(Self { start, stop, tolerance })
     }
 
     /// [s] Where a step of `size` from the importer's `point` ends, for an instance at `reached`.
@@ -48,17 +44,12 @@ impl Experiment {
         finite("currentCommunicationPoint", point)?;
         positive("communicationStepSize", size)?;
         if (point - reached).abs() > slack(size, point, reached) {
-            return Err(TimeError::Elsewhere {
-                given: point,
-                reached,
-            });
+            return Err(TimeError::Elsewhere { given: point, reached });
         }
         let end = point + size;
         finite("the end of the step", end)?;
         match self.stop {
-            Some(stop) if end - stop > slack(size, end, stop) => {
-                Err(TimeError::PastStop { end, stop })
-            }
+            Some(stop) if end - stop > slack(size, end, stop) => Err(TimeError::PastStop { end, stop }),
             // A step below the rounding of time must not lead back.
             _ => Ok(end.max(reached)),
         }
@@ -71,31 +62,19 @@ fn slack(size: f64, a: f64, b: f64) -> f64 {
 }
 
 fn finite(name: &'static str, value: f64) -> Result<(), TimeError> {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(TimeError::NotFinite(name, value))
-    }
+    if value.is_finite() { Ok(()) } else { Err(TimeError::NotFinite(name, value)) }
 }
 
 fn positive(name: &'static str, value: f64) -> Result<(), TimeError> {
     finite(name, value)?;
-    if value > 0.0 {
-        Ok(())
-    } else {
-        Err(TimeError::NotPositive(name, value))
-    }
+    if value > 0.0 { Ok(()) } else { Err(TimeError::NotPositive(name, value)) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const FROM_TWO_TO_THREE: Experiment = Experiment {
-        start: 2.0,
-        stop: Some(3.0),
-        tolerance: None,
-    };
+    const FROM_TWO_TO_THREE: Experiment = Experiment { start: 2.0, stop: Some(3.0), tolerance: None };
 
     #[test]
     fn a_step_ends_at_the_importers_next_point() {
@@ -105,26 +84,13 @@ mod tests {
 
     #[test]
     fn the_last_step_may_overshoot_by_rounding_only() {
-        assert!(
-            FROM_TWO_TO_THREE
-                .step_end(2.9, 2.9, 3.0_f64.next_up() - 2.9)
-                .is_ok()
-        );
-        assert_eq!(
-            FROM_TWO_TO_THREE.step_end(2.9, 2.9, 0.2),
-            Err(TimeError::PastStop {
-                end: 2.9 + 0.2,
-                stop: 3.0
-            })
-        );
+        assert!(FROM_TWO_TO_THREE.step_end(2.9, 2.9, 3.0_f64.next_up() - 2.9).is_ok());
+        assert_eq!(FROM_TWO_TO_THREE.step_end(2.9, 2.9, 0.2), Err(TimeError::PastStop { end: 2.9 + 0.2, stop: 3.0 }));
     }
 
     #[test]
     fn a_step_below_rounding_does_not_move_time() {
         assert_eq!(FROM_TWO_TO_THREE.step_end(2.5, 2.5, 1e-30), Ok(2.5));
-        assert_eq!(
-            FROM_TWO_TO_THREE.step_end(2.5, 2.5_f64.next_down(), 1e-30),
-            Ok(2.5)
-        );
+        assert_eq!(FROM_TWO_TO_THREE.step_end(2.5, 2.5_f64.next_down(), 1e-30), Ok(2.5));
     }
 }

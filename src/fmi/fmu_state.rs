@@ -40,14 +40,7 @@ impl FmuState {
     pub fn to_bytes(&self) -> Result<Vec<u8>, FmuStateError> {
         let content = postcard::to_allocvec(self).map_err(|_| FmuStateError::Content)?;
         let length = u32::try_from(content.len()).map_err(|_| FmuStateError::Content)?;
-        let sealed = [
-            &MAGIC[..],
-            &VERSION.to_le_bytes(),
-            &DECLARATION,
-            &length.to_le_bytes(),
-            &content,
-        ]
-        .concat();
+        let sealed = [&MAGIC[..], &VERSION.to_le_bytes(), &DECLARATION, &length.to_le_bytes(), &content].concat();
         let checksum = crc32fast::hash(&sealed).to_le_bytes();
         Ok([&sealed[..], &checksum].concat())
     }
@@ -61,10 +54,7 @@ impl FmuState {
         }
         let found = reader.number()?;
         if found != VERSION {
-            return Err(FmuStateError::Version {
-                found,
-                known: VERSION,
-            });
+            return Err(FmuStateError::Version { found, known: VERSION });
         }
         let declaration = reader.take(DECLARATION.len())?;
         let length = reader.number()?;
@@ -72,10 +62,7 @@ impl FmuState {
         let sealed = bytes.len() - reader.rest.len();
         let checksum = reader.number()?;
         if reader.rest.iter().any(|&byte| byte != 0) {
-            return Err(FmuStateError::Length {
-                expected: sealed + 4,
-                given: bytes.len(),
-            });
+            return Err(FmuStateError::Length { expected: sealed + 4, given: bytes.len() });
         }
         if crc32fast::hash(&bytes[..sealed]) != checksum {
             return Err(FmuStateError::Checksum);
@@ -83,13 +70,8 @@ impl FmuState {
         if declaration != DECLARATION {
             return Err(FmuStateError::Declaration);
         }
-        let (state, rest) =
-            postcard::take_from_bytes::<Self>(content).map_err(|_| FmuStateError::Content)?;
-        if rest.is_empty() && state.makes_sense() {
-            Ok(state)
-        } else {
-            Err(FmuStateError::Content)
-        }
+        let (state, rest) = postcard::take_from_bytes::<Self>(content).map_err(|_| FmuStateError::Content)?;
+        if rest.is_empty() && state.makes_sense() { Ok(state) } else { Err(FmuStateError::Content) }
     }
 
     /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over.
@@ -106,10 +88,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn take(&mut self, length: usize) -> Result<&'a [u8], FmuStateError> {
-        let cut = FmuStateError::Length {
-            expected: length,
-            given: self.rest.len(),
-        };
+        let cut = FmuStateError::Length { expected: length, given: self.rest.len() };
         let (taken, rest) = self.rest.split_at_checked(length).ok_or(cut)?;
         self.rest = rest;
         Ok(taken)

@@ -37,12 +37,7 @@ impl Default for InputLines {
                 set(&mut in_force.values, start);
             }
         }
-        Self {
-            since: 0.0,
-            in_force,
-            wanted: None,
-            rates_set: Inputs::default(),
-        }
+        Self { since: 0.0, in_force, wanted: None, rates_set: Inputs::default() }
     }
 }
 
@@ -60,13 +55,7 @@ impl Lines {
     fn same_bits(&self, other: &Self) -> bool {
         let bits = |lines: &Self| {
             let Self { values, rates } = lines;
-            [
-                values.crank_torque,
-                values.slider_load,
-                rates.crank_torque,
-                rates.slider_load,
-            ]
-            .map(f64::to_bits)
+            [values.crank_torque, values.slider_load, rates.crank_torque, rates.slider_load].map(f64::to_bits)
         };
         bits(self) == bits(other)
     }
@@ -74,22 +63,12 @@ impl Lines {
 
 /// Value of one line; a constant stays the same to the bit.
 fn reached(value: f64, rate: f64, later: f64) -> f64 {
-    if rate == 0.0 {
-        value
-    } else {
-        value + rate * later
-    }
+    if rate == 0.0 { value } else { value + rate * later }
 }
 
 impl InputLines {
     /// Sets the value of an input at the communication point `time`.
-    pub fn set_value(
-        &mut self,
-        set: fn(&mut Inputs, f64),
-        get: fn(&Inputs) -> f64,
-        time: f64,
-        value: f64,
-    ) {
+    pub fn set_value(&mut self, set: fn(&mut Inputs, f64), get: fn(&Inputs) -> f64, time: f64, value: f64) {
         let mut lines = self.at(time);
         set(&mut lines.values, value);
         set(&mut lines.rates, get(&self.rates_set));
@@ -140,7 +119,6 @@ impl InputLines {
     }
 
     fn at(&self, time: f64) -> Lines {
-        self.wanted
-            .unwrap_or_else(|| self.in_force.shifted(time - self.since))
+        self.wanted.unwrap_or_else(|| self.in_force.shifted(time - self.since))
     }
 }

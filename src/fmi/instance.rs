@@ -61,17 +61,8 @@ pub struct Instance {
 impl Instance {
     /// A slave with the packaged start values.
     pub fn instantiate(request: &Request<'_>) -> Result<Self, Error> {
-        let Request {
-            name,
-            fmu_type,
-            guid,
-            resource_location,
-            host,
-            logging_on,
-        } = *request;
-        let name = name
-            .filter(|name| !name.is_empty())
-            .ok_or(InstantiateError::Name)?;
+        let Request { name, fmu_type, guid, resource_location, host, logging_on } = *request;
+        let name = name.filter(|name| !name.is_empty()).ok_or(InstantiateError::Name)?;
         if fmu_type != super::abi::types::FMI2_CO_SIMULATION {
             return Err(InstantiateError::Type(fmu_type).into());
         }
@@ -81,9 +72,7 @@ impl Instance {
             return Err(InstantiateError::Guid { expected, given }.into());
         }
         let logger = Logger::new(host, CString::from(name), logging_on);
-        let location = resource_location
-            .map(CStr::to_string_lossy)
-            .unwrap_or_default();
+        let location = resource_location.map(CStr::to_string_lossy).unwrap_or_default();
         if let Some(odd) = resource_location::oddity(&location) {
             logger.say(Status::Warning, Call::Instantiate, &odd);
         }
@@ -113,9 +102,7 @@ impl Instance {
 
     /// [s] The communication point reached.
     pub fn time(&self) -> f64 {
-        self.simulation
-            .as_ref()
-            .map_or(self.experiment.start, Simulation::time)
+        self.simulation.as_ref().map_or(self.experiment.start, Simulation::time)
     }
 
     /// Lets a call in, if it is allowed in this state.
@@ -128,42 +115,31 @@ impl Instance {
         }
     }
 
+    /// Stops the run after a failure that the importer did not cause; saved states can still be set.
+    pub fn fail(&mut self) {
+        self.state = State::Error;
+    }
+
     /// Gives the instance up after a fault of ours.
     pub fn give_up(&mut self) {
         self.state = State::Fatal;
     }
 
     /// `fmi2SetDebugLogging`
-    pub fn set_debug_logging(
-        &mut self,
-        logging_on: bool,
-        categories: &[&CStr],
-    ) -> Result<(), Error> {
+    pub fn set_debug_logging(&mut self, logging_on: bool, categories: &[&CStr]) -> Result<(), Error> {
         self.logger.enable(logging_on, categories)
     }
 
     /// `fmi2SetupExperiment`. A tolerance that the solver cannot meet is limited, with a warning.
-    pub fn setup_experiment(
-        &mut self,
-        tolerance: Option<f64>,
-        start: f64,
-        stop: Option<f64>,
-    ) -> Result<Status, Error> {
+    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Status, Error> {
         let wish = Experiment::new(tolerance, start, stop)?;
-        let granted = Experiment {
-            tolerance: tolerance.map(limited),
-            ..wish
-        };
+        let granted = Experiment { tolerance: tolerance.map(limited), ..wish };
         self.experiment = granted;
         if granted == wish {
             return Ok(Status::Ok);
         }
-        let limit = Limit {
-            asked: tolerance,
-            granted: granted.tolerance,
-        };
-        self.logger
-            .say(Status::Warning, Call::SetupExperiment, &limit);
+        let limit = Limit { asked: tolerance, granted: granted.tolerance };
+        self.logger.say(Status::Warning, Call::SetupExperiment, &limit);
         Ok(Status::Warning)
     }
 
@@ -254,9 +230,6 @@ struct Limit {
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [asked, granted] = [self.asked, self.granted].map(Option::unwrap_or_default);
-        write!(
-            f,
-            "tolerance {asked:?} is beyond the solver's range; {granted:?} is used"
-        )
+        write!(f, "tolerance {asked:?} is beyond the solver's range; {granted:?} is used")
     }
 }

@@ -85,10 +85,7 @@ impl Row {
             column += 1;
             at += 1;
         }
-        assert!(
-            column == State::ALL.len(),
-            "a row has one entry for each state"
-        );
+        assert!(column == State::ALL.len(), "a row has one entry for each state");
         Self(mask)
     }
 

@@ -40,16 +40,8 @@ pub struct Logger {
 impl Logger {
     /// A logger for the instance of this name, with all categories or none.
     pub fn new(host: HostLogger, instance_name: CString, logging_on: bool) -> Self {
-        let enabled = if logging_on {
-            Enabled::ALL
-        } else {
-            Enabled::NONE
-        };
-        Self {
-            host,
-            instance_name,
-            enabled,
-        }
+        let enabled = if logging_on { Enabled::ALL } else { Enabled::NONE };
+        Self { host, instance_name, enabled }
     }
 
     /// Enables the named categories alone, or all if none is named; or nothing at all.
@@ -75,8 +67,7 @@ impl Logger {
         match status.category() {
             Some(category) if self.enabled.has(category) => {
                 let category = CString::new(category.name()).unwrap_or_default();
-                self.host
-                    .log(&self.instance_name, status, &category, &line(call, message));
+                self.host.log(&self.instance_name, status, &category, &line(call, message));
             }
             _ => {}
         }
@@ -109,9 +100,6 @@ mod tests {
     #[test]
     fn a_line_has_no_format_and_no_control_characters() {
         let safe = line(Call::DoStep, &"50% of #r1#\nnext\0");
-        assert_eq!(
-            safe.as_c_str(),
-            c"fmi2DoStep: 50\\x25 of \\x23r1\\x23\\nnext\\u{0}"
-        );
+        assert_eq!(safe.as_c_str(), c"fmi2DoStep: 50\\x25 of \\x23r1\\x23\\nnext\\u{0}");
     }
 }

@@ -13,22 +13,14 @@ pub struct OddLocation {
 impl fmt::Display for OddLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { location, oddity } = self;
-        write!(
-            f,
-            "fmuResourceLocation '{location}' {oddity}; nothing is read from it"
-        )
+        write!(f, "fmuResourceLocation '{location}' {oddity}; nothing is read from it")
     }
 }
 
 /// What is odd about a location, if anything. `file:/x`, `file:///x`, `file:////x` and
 /// `file://localhost/x` are all in use, with spaces raw or as %20; and some importers pass none.
 pub fn oddity(location: &str) -> Option<OddLocation> {
-    let odd = |oddity| {
-        Some(OddLocation {
-            location: location.to_owned(),
-            oddity,
-        })
-    };
+    let odd = |oddity| Some(OddLocation { location: location.to_owned(), oddity });
     if location.is_empty() {
         return None;
     }
@@ -49,11 +41,7 @@ pub fn oddity(location: &str) -> Option<OddLocation> {
     if !path.starts_with('/') {
         return odd("has no absolute path");
     }
-    if path
-        .split('%')
-        .skip(1)
-        .any(|after| !starts_with_two_hex_digits(after))
-    {
+    if path.split('%').skip(1).any(|after| !starts_with_two_hex_digits(after)) {
         return odd("has a '%' without two hexadecimal digits");
     }
     None
@@ -86,16 +74,9 @@ mod tests {
 
     #[test]
     fn anything_else_is_odd() {
-        for location in [
-            "http://x/y",
-            "/x/resources",
-            "file:x",
-            "file://",
-            "file://elsewhere/x",
-            "file:///a%2",
-            "file:///%zz",
-            "é",
-        ] {
+        for location in
+            ["http://x/y", "/x/resources", "file:x", "file://", "file://elsewhere/x", "file:///a%2", "file:///%zz", "é"]
+        {
             assert!(oddity(location).is_some(), "{location}");
         }
     }

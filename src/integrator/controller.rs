@@ -22,16 +22,9 @@ const MEMORY: f64 = 0.04;
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// Root mean square of the error over the tolerance; at most 1 for a step to be accepted.
-pub fn norm<const N: usize, M: Method>(
-    attempt: &Attempt<N>,
-    y: &[f64; N],
-    scales: &[f64; N],
-    tolerance: f64,
-) -> f64 {
+pub fn norm<const N: usize>(attempt: &Attempt<N>, y: &[f64; N], scales: &[f64; N], tolerance: f64) -> f64 {
     let weight = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
-    let square = |error: &[f64; N]| {
-        (0..N).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / N.max(1) as f64
-    };
+    let square = |error: &[f64; N]| (0..N).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / N.max(1) as f64;
     let fine = square(&attempt.error);
     match &attempt.coarse_error {
         None => fine.sqrt(),

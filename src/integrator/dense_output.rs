@@ -76,20 +76,14 @@ impl<const N: usize> Step<'_, N> {
 
     /// Looks at the acceleration half-way and, where the quintic misses it by too much for the
     /// tolerance, makes the correction.
-    pub fn correction<P: Problem<N> + ?Sized>(
-        &self,
-        problem: &P,
-        modes: &P::Modes,
-        tolerance: f64,
-    ) -> Correction<N> {
+    pub fn correction<P: Problem<N> + ?Sized>(&self, problem: &P, modes: &P::Modes, tolerance: f64) -> Correction<N> {
         let p = N / 2;
         let half = self.defect(problem, modes, 0.5, &None);
         let scales = problem.scales();
         // Largest error of a quintic with this defect half-way: position d/24, velocity d/(10·h).
         let good = (0..p).all(|i| {
             let d = half[i].abs();
-            d / 24.0 <= SLACK * tolerance * scales[i]
-                && d / (10.0 * self.h) <= SLACK * tolerance * scales[p + i]
+            d / 24.0 <= SLACK * tolerance * scales[i] && d / (10.0 * self.h) <= SLACK * tolerance * scales[p + i]
         });
         if good {
             return None;

@@ -52,10 +52,9 @@ impl IntegrationError {
 impl fmt::Display for IntegrationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::StepUnderflow { step, component, .. } => write!(
-                f,
-                "a step of {step:.1e} s no longer moves time; component {component} sets the error"
-            ),
+            Self::StepUnderflow { step, component, .. } => {
+                write!(f, "a step of {step:.1e} s no longer moves time; component {component} sets the error")
+            }
             Self::NotFinite { component, .. } => {
                 write!(f, "the rate of component {component} is not finite")
             }

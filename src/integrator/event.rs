@@ -58,6 +58,5 @@ fn fall(before: Guard, after: Guard, h: f64, inside: impl Fn(f64) -> Guard) -> O
     }
     let bottom = root::falling(0.0, 1.0, -before.rate, -after.rate, RESOLUTION, |s| -inside(s).rate);
     let lowest = value(bottom);
-    (lowest < 0.0)
-        .then(|| root::falling(0.0, bottom, before.value, lowest, RESOLUTION, value))
+    (lowest < 0.0).then(|| root::falling(0.0, bottom, before.value, lowest, RESOLUTION, value))
 }

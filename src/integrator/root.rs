@@ -32,8 +32,7 @@ pub fn falling(a: f64, b: f64, fa: f64, fb: f64, resolution: f64, f: impl Fn(f64
         let interpolates = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
         share = if interpolates {
             f_new / (f_other - f_new) * f_old / (f_other - f_old)
-                + (old - new) / (other - new) * f_new / (f_old - f_new) * f_other
-                    / (f_old - f_other)
+                + (old - new) / (other - new) * f_new / (f_old - f_new) * f_other / (f_old - f_other)
         } else {
             0.5
         };

@@ -16,6 +16,7 @@ pub struct Attempt<const N: usize> {
 }
 
 /// Attempts a step of `h` from `y` at `t`, whose rates are `rates`.
+#[inline(never)] // one copy for steps, landings and rewinds
 pub fn attempt<const N: usize, M: Method, P: Problem<N> + ?Sized>(
     problem: &P,
     modes: &P::Modes,
@@ -83,9 +84,9 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     fn add(&self, y: &mut [f64; N], weights: &[f64; STAGES], count: usize) {
         for (i, y) in y.iter_mut().enumerate() {
             let mut sum = 0.0;
-            for j in 0..count {
-                if weights[j] != 0.0 {
-                    sum += weights[j] * self.k[j][i];
+            for (weight, k) in weights.iter().zip(&self.k).take(count) {
+                if *weight != 0.0 {
+                    sum += weight * k[i];
                 }
             }
             *y += self.h * sum;

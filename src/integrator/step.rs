@@ -131,9 +131,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let h = end.t - start.t;
         let step = Step { t: start.t, h, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates };
         let tolerance = self.settings.tolerance;
-        let correction = self
-            .correction
-            .get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));
+        let correction = self.correction.get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));
         (step.state((t - start.t) / h, correction), start.modes)
     }
 
@@ -188,7 +186,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
                 return Ok(());
             };
-            self.cross(problem, guard);
+            self.cross(problem, guard, 0.0);
         }
         let guard = (0..count).find(|&i| has_fallen(&self.guards[i])).unwrap_or_default();
         Err(IntegrationError::EventsAccumulate { time: self.memory.front.t, guard })
@@ -220,11 +218,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// Attempts until the error is tolerable.
-    fn accepted<P>(
-        &mut self,
-        problem: &P,
-        start: &Front<N, D>,
-    ) -> Result<(f64, Attempt<N>), IntegrationError>
+    fn accepted<P>(&mut self, problem: &P, start: &Front<N, D>) -> Result<(f64, Attempt<N>), IntegrationError>
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
@@ -242,7 +236,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             let made = self.attempt(problem, start, h);
             let finite = made.y.iter().all(|y| y.is_finite());
             let error = if finite {
-                controller::norm::<N, M>(&made, &start.y, problem.scales(), self.settings.tolerance)
+                controller::norm(&made, &start.y, problem.scales(), self.settings.tolerance)
             } else {
                 f64::INFINITY
             };
@@ -254,7 +248,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             rejected = true;
             self.memory.statistics.rejected += 1;
-            wanted = h * controller::shrinkage::<M>(error);
+            wanted = wanted.min(h) * controller::shrinkage::<M>(error);
         }
     }
 
@@ -308,17 +302,19 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             t = better;
         }
-        self.cross(problem, guard);
+        self.cross(problem, guard, close);
     }
 
-    /// Crosses the event of `guard` at the front, and of all guards that have fallen with it.
-    fn cross<P>(&mut self, problem: &P, guard: usize)
+    /// Crosses the event of `guard` at the front, and of all guards that have fallen with it: those
+    /// within `close` of zero.
+    fn cross<P>(&mut self, problem: &P, guard: usize, close: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
         let mut crossed: Crossed = [false; GUARDS];
         for (i, crossed) in crossed.iter_mut().enumerate().take(problem.guard_count()) {
-            *crossed = i == guard || has_fallen(&self.guards[i]);
+            let Guard { value, rate } = self.guards[i];
+            *crossed = i == guard || (value <= close && rate < 0.0);
             self.memory.crossings += u64::from(*crossed);
             self.memory.statistics.events += u64::from(*crossed);
         }
@@ -338,8 +334,7 @@ fn has_fallen(guard: &Guard) -> bool {
 
 /// A first step over which the rates move the state by a hundredth of its scales.
 fn first_step<const N: usize, P: Problem<N> + ?Sized>(problem: &P, front: &Front<N, P::Modes>) -> f64 {
-    let fastest = (front.rates.iter().zip(problem.scales()))
-        .map(|(rate, scale)| (rate / scale).abs())
-        .fold(0.0, f64::max);
+    let fastest =
+        (front.rates.iter().zip(problem.scales())).map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
     (0.01 / fastest).min(FIRST_STEP).min(problem.longest_step())
 }

@@ -83,9 +83,7 @@ impl Tableau {
             Some(weights) => sum(weights),
             None => 0.0,
         };
-        is_small(sum(&self.b) - 1.0, 1e-14)
-            && is_small(sum(&self.error), 1e-14)
-            && is_small(coarse, 1e-14)
+        is_small(sum(&self.b) - 1.0, 1e-14) && is_small(sum(&self.error), 1e-14) && is_small(coarse, 1e-14)
     }
 }
 

@@ -60,8 +60,7 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
     fn loads(&self, t: f64, speed: &[f64; 3], pin_speed: f64) -> Loads {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
-        let mut loads =
-            Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
+        let mut loads = Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
         if !SPEED {
             loads.couple[CRANK] = inputs.crank_torque;
         }
@@ -87,8 +86,7 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
         let crank_com = perp(crank.apply(first.com));
         let rod_com = motion.rod.apply(second.com);
         let rod_jacobian = perp(crank_arm) + ratio * perp(rod_com);
-        let rod_bias = -speed * speed * crank_arm + motion.rod_bias * perp(rod_com)
-            - rod_speed * rod_speed * rod_com;
+        let rod_bias = -speed * speed * crank_arm + motion.rod_bias * perp(rod_com) - rod_speed * rod_speed * rod_com;
         let inertia = first.inertia
             + first.mass * crank_com.norm_squared()
             + second.inertia * ratio * ratio
@@ -178,8 +176,7 @@ impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
         let rod_speed = motion.rod_ratio * speed;
         let speeds = [speed, rod_speed, 0.0];
         let loads = self.loads(t, &speeds, motion.x_ratio * speed);
-        let acceleration =
-            if SPEED { 0.0 } else { self.acceleration(crank, speed, &motion, &loads) };
+        let acceleration = if SPEED { 0.0 } else { self.acceleration(crank, speed, &motion, &loads) };
         let rod_acceleration = motion.rod_ratio * acceleration + motion.rod_bias;
         let crank_arm = crank.axis(self.bodies[CRANK].length);
         let at = |crank_pin: Vec2, pin: Vec2| JointCentres {

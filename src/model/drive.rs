@@ -30,8 +30,7 @@ impl InputSignal {
     /// It only goes on as `other` would from its own communication point, to the bit.
     pub fn continues(&self, other: &Self) -> bool {
         let bits = |value: &Inputs, rate: &Inputs| {
-            [value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load]
-                .map(f64::to_bits)
+            [value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load].map(f64::to_bits)
         };
         bits(&self.value, &self.rate) == bits(&other.at(self.at), &other.rate)
     }

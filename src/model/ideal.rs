@@ -34,11 +34,7 @@ pub struct IdealMotion {
 impl IdealMechanism {
     /// Of a scene.
     pub fn new(scene: &Scene) -> Self {
-        Self {
-            crank: scene.crank.length,
-            rod: scene.rod.length,
-            height: scene.guide.offset - scene.slider.centre.y,
-        }
+        Self { crank: scene.crank.length, rod: scene.rod.length, height: scene.guide.offset - scene.slider.centre.y }
     }
 
     /// At the crank's rotation and speed [rad/s]. Not finite where the mechanism cannot be.
@@ -51,16 +47,14 @@ impl IdealMechanism {
         let per_reach = 1.0 / (l * cos);
         let rod_ratio = -r * crank.cos * per_reach;
         let rod_speed = rod_ratio * speed;
-        let rod_bias =
-            (r * crank.sin * speed * speed + l * sin * rod_speed * rod_speed) * per_reach;
+        let rod_bias = (r * crank.sin * speed * speed + l * sin * rod_speed * rod_speed) * per_reach;
         IdealMotion {
             rod: Rotation { cos, sin },
             rod_ratio,
             rod_bias,
             x: r * crank.cos + l * cos,
             x_ratio: -r * crank.sin - l * sin * rod_ratio,
-            x_bias: -r * crank.cos * speed * speed
-                - l * (cos * rod_speed * rod_speed + sin * rod_bias),
+            x_bias: -r * crank.cos * speed * speed - l * (cos * rod_speed * rod_speed + sin * rod_bias),
         }
     }
 }

@@ -156,12 +156,7 @@ pub fn walk<V: Turn>(
 }
 
 /// The roots of an open mechanism whose joint centres are known: the way back from [`walk`].
-pub fn roots<V: Turn>(
-    topology: Topology,
-    chains: &ChainInertia,
-    centres: &JointCentres,
-    turn: V,
-) -> Roots {
+pub fn roots<V: Turn>(topology: Topology, chains: &ChainInertia, centres: &JointCentres, turn: V) -> Roots {
     let Topology { b, c, t, .. } = topology;
     let arm = |k: usize| turn.arm(k, chains.anchor[k]);
     let mut roots = Roots { crank: centres.crank, rod: centres.big_end, slider: centres.pin };

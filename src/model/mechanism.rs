@@ -52,12 +52,14 @@ impl Topology {
 
     /// The chain with the crank floats.
     pub const fn crank_floats(self) -> bool {
-        !self.a && !(self.b && self.c && self.t)
+        let on_rail = self.b && self.c && self.t;
+        !(self.a || on_rail)
     }
 
     /// The rod floats, alone or with the slider.
     pub const fn rod_floats(self) -> bool {
-        !self.b && !(self.c && self.t)
+        let on_rail = self.c && self.t;
+        !(self.b || on_rail)
     }
 
     /// The slider floats alone.

@@ -3,6 +3,7 @@
 //! Which joints are ideal and which drive there is are constants of the type, so that each of the
 //! thirty topologies is compiled on its own and holds no trace of the others.
 
+use super::contact::ContactMode;
 use super::coordinates::Layout;
 use super::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers, viscous_couples, viscous_guide};
 use super::dynamics::{Accelerations, Loads, accelerate};
@@ -15,7 +16,6 @@ use super::plant::Plant;
 use super::scales;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning};
-use super::contact::ContactMode;
 use crate::integrator::{Crossed, GUARDS, Guard, Problem, Reset};
 use crate::scene::Scene;
 
@@ -24,8 +24,7 @@ const FIRST_SHARE: f64 = 0.03;
 
 /// An open mechanism with its constants and its inputs.
 #[derive(Clone, Debug)]
-pub struct Open<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize>
-{
+pub struct Open<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> {
     bodies: Bodies,
     chains: ChainInertia,
     gravity: f64,
@@ -102,8 +101,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         }
         let place = walk(Self::TOPOLOGY, &self.bodies, &self.chains, &start, Place(&turning));
         let moving = Self::LAYOUT.roots(rates);
-        let velocity =
-            walk(Self::TOPOLOGY, &self.bodies, &self.chains, &moving, Velocity(&turning));
+        let velocity = walk(Self::TOPOLOGY, &self.bodies, &self.chains, &moving, Velocity(&turning));
         Pose { turning, place, velocity }
     }
 
@@ -111,15 +109,13 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     fn loads(&self, contacts: &Contacts, t: f64, pose: &Pose) -> Loads {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
-        let mut loads =
-            Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
+        let mut loads = Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
         if !SPEED {
             loads.couple[CRANK] = inputs.crank_torque;
         }
-        for joint in 0..3 {
+        for (joint, revolute) in self.revolute.iter().enumerate() {
             if Self::CLEAR[joint] && contacts[joint].closed {
-                let load = self.revolute[joint].load(&contacts[joint], &pose.play(joint));
-                loads.add_contact(joint, &load);
+                loads.add_contact(joint, &revolute.load(&contacts[joint], &pose.play(joint)));
             }
         }
         if !T {
@@ -147,18 +143,16 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     #[inline(always)]
     fn penetrations(&self, pose: &Pose) -> [(f64, f64); 3 + CORNERS] {
         let mut all = [(f64::NEG_INFINITY, 0.0); 3 + CORNERS];
-        for joint in 0..3 {
+        for (joint, revolute) in self.revolute.iter().enumerate() {
             if Self::CLEAR[joint] {
                 let play = pose.play(joint);
-                let revolute = &self.revolute[joint];
                 all[joint] = (revolute.penetration(&play), revolute.penetration_rate(&play));
             }
         }
         if !T {
             let slider = pose.slider();
             for k in 0..CORNERS {
-                all[3 + k] =
-                    (self.guide.penetration(k, &slider), self.guide.penetration_rate(k, &slider));
+                all[3 + k] = (self.guide.penetration(k, &slider), self.guide.penetration_rate(k, &slider));
             }
         }
         all
@@ -180,8 +174,8 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 }
 
-impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize>
-    Problem<N> for Open<A, B, C, T, SPEED, N>
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Problem<N>
+    for Open<A, B, C, T, SPEED, N>
 {
     type Modes = Contacts;
 
@@ -247,8 +241,8 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 }
 
-impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize>
-    Plant<N> for Open<A, B, C, T, SPEED, N>
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Plant<N>
+    for Open<A, B, C, T, SPEED, N>
 {
     fn start(&self, pose: &StartPose) -> [f64; N] {
         let turning = turning(pose.angle, pose.speed);

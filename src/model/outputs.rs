@@ -1,13 +1,13 @@
 //! Outputs of one instant.
 
 use super::ideal::IdealMechanism;
+use super::joint::guide::CORNERS;
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::{Rotation, Vec2};
 use super::reactions::{Reactions, reactions};
 use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
-use super::joint::guide::CORNERS;
 use super::state::{Contacts, Instant};
 use crate::scene::Scene;
 
@@ -73,13 +73,7 @@ impl Observer {
         }
     }
 
-    fn guide(
-        &self,
-        ideal: bool,
-        r: &Reactions,
-        contacts: &Contacts,
-        penetration: &[f64; 3 + CORNERS],
-    ) -> GuideOutputs {
+    fn guide(&self, ideal: bool, r: &Reactions, contacts: &Contacts, penetration: &[f64; 3 + CORNERS]) -> GuideOutputs {
         let deepest = penetration[3..].iter().copied().fold(f64::NEG_INFINITY, f64::max);
         GuideOutputs {
             force: r.t.into(),
@@ -95,7 +89,8 @@ impl Observer {
         let turning = &instant.pose.turning;
         let speed = turning.speed[CRANK];
         let ideal = self.ideal.motion(Rotation::new(turning.angle[CRANK]), speed);
-        if !(ideal.rod.cos > 0.0) {
+        let exists = ideal.rod.cos > 0.0; // not so where it is not a number
+        if !exists {
             return AccuracyOutputs::default();
         }
         let acceleration = ideal.x_ratio * instant.angle_acceleration[CRANK] + ideal.x_bias;

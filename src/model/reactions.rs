@@ -40,32 +40,16 @@ impl Demand {
     fn new(body: &Body, rotation: Rotation, speed: f64, alpha: f64, point: Vec2, gravity: f64) -> Self {
         let com = rotation.apply(body.com);
         let acceleration = point + alpha * perp(com) - speed * speed * com;
-        Self {
-            force: body.mass * (acceleration + Vec2::new(0.0, gravity)),
-            com,
-            moment: body.inertia * alpha,
-        }
+        Self { force: body.mass * (acceleration + Vec2::new(0.0, gravity)), com, moment: body.inertia * alpha }
     }
 }
 
 /// The joint forces at `instant`.
-pub fn reactions(
-    topology: Topology,
-    bodies: &Bodies,
-    gravity: f64,
-    instant: &Instant,
-) -> Reactions {
+pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &Instant) -> Reactions {
     let Instant { pose, acceleration, angle_acceleration, loads } = instant;
     let turning = &pose.turning;
     let demand = |k: usize, point: Vec2| {
-        Demand::new(
-            &bodies[k],
-            turning.rotation[k],
-            turning.speed[k],
-            angle_acceleration[k],
-            point,
-            gravity,
-        )
+        Demand::new(&bodies[k], turning.rotation[k], turning.speed[k], angle_acceleration[k], point, gravity)
     };
     let of_crank = demand(CRANK, acceleration.crank);
     let of_rod = demand(ROD, acceleration.big_end);
@@ -123,8 +107,7 @@ pub fn reactions(
         r.moment = of_slider.moment + cross(of_slider.com, forces) - loads.couple[SLIDER];
     }
     let to_pin = pose.place.crank_pin - pose.place.crank;
-    r.torque = of_crank.moment + cross(of_crank.com, r.a) + cross(to_pin - of_crank.com, r.b)
-        - loads.couple[CRANK];
+    r.torque = of_crank.moment + cross(of_crank.com, r.a) + cross(to_pin - of_crank.com, r.b) - loads.couple[CRANK];
     r
 }
 

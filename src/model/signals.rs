@@ -145,10 +145,7 @@ impl Outputs {
                 speed: combine(a.crank.speed, b.crank.speed),
                 acceleration: combine(a.crank.acceleration, b.crank.acceleration),
             },
-            rod: RodOutputs {
-                angle: combine(a.rod.angle, b.rod.angle),
-                speed: combine(a.rod.speed, b.rod.speed),
-            },
+            rod: RodOutputs { angle: combine(a.rod.angle, b.rod.angle), speed: combine(a.rod.speed, b.rod.speed) },
             joint_a: revolute(&a.joint_a, &b.joint_a),
             joint_b: revolute(&a.joint_b, &b.joint_b),
             joint_c: revolute(&a.joint_c, &b.joint_c),

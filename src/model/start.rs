@@ -21,8 +21,7 @@ pub struct StartPose {
 
 /// sin of the rod's angle at the start; the loop closes if it lies within (−1, 1).
 pub fn rod_sine(scene: &Scene) -> f64 {
-    let crank_pin = eccentricity(&scene.joint.a)
-        + Rotation::new(scene.crank.angle_start).axis(scene.crank.length);
+    let crank_pin = eccentricity(&scene.joint.a) + Rotation::new(scene.crank.angle_start).axis(scene.crank.length);
     let big_end = crank_pin - eccentricity(&scene.joint.b);
     let small_end_y = pin_height(scene) - eccentricity(&scene.joint.c).y;
     (small_end_y - big_end.y) / scene.rod.length
@@ -51,7 +50,8 @@ impl StartPose {
     pub fn of(scene: &Scene) -> Option<Self> {
         let sine = rod_sine(scene);
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
-        if !(cosine > 0.0) {
+        let closes = cosine > 0.0; // not so where it is not a number
+        if !closes {
             return None;
         }
         let (theta, omega) = (scene.crank.angle_start, scene.crank.speed_start);

@@ -1,7 +1,7 @@
 //! A mechanism at one instant, the same for every topology: what outputs are made from.
 
-use super::dynamics::Loads;
 use super::contact::ContactMode;
+use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
 use super::kinematics::{JointCentres, Turning};
@@ -31,12 +31,7 @@ impl Pose {
     pub fn play(&self, joint: usize) -> Play {
         let (p, v, speed) = (&self.place, &self.velocity, &self.turning.speed);
         match joint {
-            0 => Play {
-                eccentricity: p.crank,
-                rate: v.crank,
-                journal_speed: speed[CRANK],
-                bearing_speed: 0.0,
-            },
+            0 => Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: 0.0 },
             1 => Play {
                 eccentricity: p.crank_pin - p.big_end,
                 rate: v.crank_pin - v.big_end,
@@ -82,5 +77,3 @@ pub struct Instant {
 pub fn turning(angle: [f64; 3], speed: [f64; 3]) -> Turning {
     Turning { angle, speed, rotation: angle.map(Rotation::new) }
 }
-
-

@@ -27,11 +27,7 @@ impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Range(refusal) => refusal.fmt(f),
-            Self::Conflict {
-                name,
-                value,
-                allowed,
-            } => {
+            Self::Conflict { name, value, allowed } => {
                 write!(f, "{name} = {value:?} is not allowed: {allowed}")
             }
         }
@@ -54,9 +50,7 @@ impl Scene {
     /// Whether the parameters go together; the first that does not, otherwise. What an ideal joint
     /// does not use is held to its own range only.
     pub fn check(&self) -> Result<(), SceneError> {
-        PARAMETERS
-            .iter()
-            .try_for_each(|parameter| self.check_range(parameter))?;
+        PARAMETERS.iter().try_for_each(|parameter| self.check_range(parameter))?;
         let joints = &self.joint;
         for (letter, joint) in [("A", &joints.a), ("B", &joints.b), ("C", &joints.c)] {
             if joint.model == JointModel::Ideal {
@@ -64,30 +58,14 @@ impl Scene {
             }
             let radius = joint.radius;
             let below_radius = || format!("below joint.{letter}.radius = {radius:?} m");
-            rule(
-                joint.clearance < radius,
-                letter,
-                "clearance",
-                joint.clearance,
-                below_radius,
-            )?;
+            rule(joint.clearance < radius, letter, "clearance", joint.clearance, below_radius)?;
             let Point { x, y } = joint.eccentricity_start;
-            rule(
-                x.hypot(y) < radius,
-                letter,
-                "eccentricity_start.x",
-                x,
-                || {
-                    format!(
-                        "with .y = {y:?} m, less than joint.{letter}.radius = {radius:?} m away"
-                    )
-                },
-            )?;
+            rule(x.hypot(y) < radius, letter, "eccentricity_start.x", x, || {
+                format!("with .y = {y:?} m, less than joint.{letter}.radius = {radius:?} m away")
+            })?;
             let width = joint.contact.width;
             let has_width = joint.elasticity != Elasticity::Liu || width > 0.0;
-            rule(has_width, letter, "width", width, || {
-                "above 0 m for elasticity liu".into()
-            })?;
+            rule(has_width, letter, "width", width, || "above 0 m for elasticity liu".into())?;
             check_contact(letter, &joint.contact)?;
         }
         if joints.t.model == JointModel::Clearance {
@@ -99,9 +77,7 @@ impl Scene {
     fn check_range(&self, parameter: &Parameter) -> Result<(), SceneError> {
         // On a copy: writing is what knows the range.
         let mut copy = Self::clone(self);
-        parameter
-            .write(&mut copy, parameter.value(self))
-            .map_err(SceneError::Range)
+        parameter.write(&mut copy, parameter.value(self)).map_err(SceneError::Range)
     }
 
     /// The rod must reach the slider's height at the start.
@@ -111,8 +87,7 @@ impl Scene {
             JointModel::Clearance => joint.eccentricity_start.y,
         };
         let joints = &self.joint;
-        let big_end =
-            start(&joints.a) + self.crank.length * self.crank.angle_start.sin() - start(&joints.b);
+        let big_end = start(&joints.a) + self.crank.length * self.crank.angle_start.sin() - start(&joints.b);
         let offset = match joints.t.model {
             JointModel::Ideal => 0.0,
             JointModel::Clearance => joints.t.offset_start,
@@ -125,50 +100,28 @@ impl Scene {
             return Ok(());
         }
         let allowed = format!("above {rise:?} m, for the rod to reach the slider at the start");
-        Err(SceneError::Conflict {
-            name: "rod.length".into(),
-            value: length,
-            allowed,
-        })
+        Err(SceneError::Conflict { name: "rod.length".into(), value: length, allowed })
     }
 }
 
 fn check_contact(letter: &str, contact: &Contact) -> Result<(), SceneError> {
     let (law, restitution) = (contact.law, contact.restitution);
-    let grows = matches!(
-        law,
-        DampingLaw::Gonthier | DampingLaw::ZhangSharf | DampingLaw::Flores | DampingLaw::HuGuo
-    );
+    let grows = matches!(law, DampingLaw::Gonthier | DampingLaw::ZhangSharf | DampingLaw::Flores | DampingLaw::HuGuo);
     let bounded = !grows || restitution >= LEAST_RESTITUTION;
-    rule(bounded, letter, "restitution", restitution, || {
-        format!("{LEAST_RESTITUTION} to 1 for law {}", law.name())
-    })?;
+    rule(bounded, letter, "restitution", restitution, || format!("{LEAST_RESTITUTION} to 1 for law {}", law.name()))?;
     let friction = &contact.friction;
     let rises = friction.law != FrictionLaw::Ambrosio || friction.v0 < friction.v1;
     rule(rises, letter, "friction.v0", friction.v0, || {
-        format!(
-            "below joint.{letter}.friction.v1 = {:?} m/s for law ambrosio",
-            friction.v1
-        )
+        format!("below joint.{letter}.friction.v1 = {:?} m/s for law ambrosio", friction.v1)
     })
 }
 
-fn rule(
-    holds: bool,
-    letter: &str,
-    what: &str,
-    value: f64,
-    allowed: impl FnOnce() -> String,
-) -> Result<(), SceneError> {
+fn rule(holds: bool, letter: &str, what: &str, value: f64, allowed: impl FnOnce() -> String) -> Result<(), SceneError> {
     if holds {
         return Ok(());
     }
     let name = format!("joint.{letter}.{what}");
-    Err(SceneError::Conflict {
-        name,
-        value,
-        allowed: allowed(),
-    })
+    Err(SceneError::Conflict { name, value, allowed: allowed() })
 }
 
 #[cfg(test)]
@@ -178,10 +131,7 @@ mod tests {
     fn refused(edit: impl FnOnce(&mut Scene)) -> String {
         let mut scene = Scene::default();
         edit(&mut scene);
-        scene
-            .check()
-            .expect_err("a scene that contradicts itself")
-            .to_string()
+        scene.check().expect_err("a scene that contradicts itself").to_string()
     }
 
     #[test]
@@ -206,37 +156,25 @@ mod tests {
             clearance(scene);
             scene.joint.c.clearance = 0.01;
         });
-        assert_eq!(
-            error,
-            "joint.C.clearance = 0.01 is not allowed: below joint.C.radius = 0.01 m"
-        );
+        assert_eq!(error, "joint.C.clearance = 0.01 is not allowed: below joint.C.radius = 0.01 m");
         let error = refused(|scene| {
             clearance(scene);
             scene.joint.c.contact.law = DampingLaw::HuGuo;
             scene.joint.c.contact.restitution = 0.01;
         });
-        assert_eq!(
-            error,
-            "joint.C.restitution = 0.01 is not allowed: 0.02 to 1 for law hu_guo"
-        );
+        assert_eq!(error, "joint.C.restitution = 0.01 is not allowed: 0.02 to 1 for law hu_guo");
         let error = refused(|scene| {
             clearance(scene);
             scene.joint.c.contact.friction.law = FrictionLaw::Ambrosio;
             scene.joint.c.contact.friction.v0 = 0.02;
         });
-        assert!(
-            error.starts_with("joint.C.friction.v0 = 0.02 is not allowed"),
-            "{error}"
-        );
+        assert!(error.starts_with("joint.C.friction.v0 = 0.02 is not allowed"), "{error}");
         let error = refused(|scene| {
             clearance(scene);
             scene.joint.c.elasticity = Elasticity::Liu;
             scene.joint.c.contact.width = 0.0;
         });
-        assert!(
-            error.starts_with("joint.C.width = 0.0 is not allowed"),
-            "{error}"
-        );
+        assert!(error.starts_with("joint.C.width = 0.0 is not allowed"), "{error}");
     }
 
     #[test]
@@ -250,10 +188,7 @@ mod tests {
     #[test]
     fn a_rod_that_does_not_reach_is_refused_and_eccentricities_count() {
         let error = refused(|scene| scene.guide.offset = 0.12);
-        assert!(
-            error.starts_with("rod.length = 0.12 is not allowed: above 0.12 m"),
-            "{error}"
-        );
+        assert!(error.starts_with("rod.length = 0.12 is not allowed: above 0.12 m"), "{error}");
         let mut scene = Scene::default();
         scene.guide.offset = 0.12;
         scene.joint.a.model = JointModel::Clearance;

@@ -3,10 +3,15 @@
 pub mod check;
 pub mod enumerations;
 pub mod parameter;
+pub mod problem;
 pub mod profile;
+pub mod read;
+mod read_profile;
+mod read_value;
 pub mod run;
 pub mod slot;
 pub mod units;
+pub mod write;
 
 pub use check::SceneError;
 pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method};

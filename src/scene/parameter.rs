@@ -59,11 +59,7 @@ pub struct Refusal {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} = {} is not allowed: {}",
-            self.name, self.found, self.allowed
-        )
+        write!(f, "{} = {} is not allowed: {}", self.name, self.found, self.allowed)
     }
 }
 
@@ -94,36 +90,24 @@ impl Parameter {
     /// Writes a legal value into a scene, and leaves the scene alone otherwise.
     pub fn write(&self, scene: &mut Scene, value: f64) -> Result<(), Refusal> {
         let written = match self.kind {
-            Kind::Real { min, max, set, .. } => {
-                (min..=max).contains(&value).then(|| set(scene, value))
-            }
+            Kind::Real { min, max, set, .. } => (min..=max).contains(&value).then(|| set(scene, value)),
             // A fraction is no item; the cast saturates, and i32::MAX is none either.
             Kind::Enumeration { set, .. } if value.fract() == 0.0 => set(scene, value as i32),
             Kind::Enumeration { .. } => None,
         };
-        written.ok_or_else(|| Refusal {
-            name: self.name,
-            found: value,
-            allowed: self.allowed(),
-        })
+        written.ok_or_else(|| Refusal { name: self.name, found: value, allowed: self.allowed() })
     }
 
     /// The legal values in words: `1e-9 to 0.1 m`, `1 (ideal) or 2 (clearance)`.
     pub fn allowed(&self) -> String {
         match self.kind {
             Kind::Real { unit, min, max, .. } => {
-                let unit = if unit == "1" {
-                    String::new()
-                } else {
-                    format!(" {unit}")
-                };
+                let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
                 format!("{min:?} to {max:?}{unit}")
             }
-            Kind::Enumeration { items, .. } => items
-                .iter()
-                .map(|(name, value)| format!("{value} ({name})"))
-                .collect::<Vec<_>>()
-                .join(", "),
+            Kind::Enumeration { items, .. } => {
+                items.iter().map(|(name, value)| format!("{value} ({name})")).collect::<Vec<_>>().join(", ")
+            }
         }
     }
 }

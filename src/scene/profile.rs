@@ -80,14 +80,8 @@ impl Profile {
     pub fn rate(&self, time: f64, crank_angle: f64, crank_speed: f64) -> f64 {
         let abscissa_rate = match self {
             Self::Constant(_) => return 0.0,
-            Self::Points {
-                against: Against::Time,
-                ..
-            } => 1.0,
-            Self::Points {
-                against: Against::CrankAngle,
-                ..
-            } => crank_speed,
+            Self::Points { against: Against::Time, .. } => 1.0,
+            Self::Points { against: Against::CrankAngle, .. } => crank_speed,
         };
         let (_, [from, to]) = self.segment(time, crank_angle);
         slope(from, to) * abscissa_rate
@@ -118,11 +112,7 @@ impl Profile {
 }
 
 fn slope(from: [f64; 2], to: [f64; 2]) -> f64 {
-    if from[0] < to[0] {
-        (to[1] - from[1]) / (to[0] - from[0])
-    } else {
-        0.0
-    }
+    if from[0] < to[0] { (to[1] - from[1]) / (to[0] - from[0]) } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -130,10 +120,7 @@ mod tests {
     use super::*;
 
     fn over(against: Against) -> Profile {
-        Profile::Points {
-            against,
-            points: vec![[1.0, 10.0], [3.0, 30.0], [4.0, 0.0]],
-        }
+        Profile::Points { against, points: vec![[1.0, 10.0], [3.0, 30.0], [4.0, 0.0]] }
     }
 
     #[test]
@@ -151,8 +138,7 @@ mod tests {
         for turns in [-2.0, 0.0, 5.0] {
             let value = |angle: f64| profile.value(0.0, angle + turns * TAU);
             // Rounding of the wrapped angle, at most a few ulp of 2π·5, times the steepest slope.
-            let near =
-                |found: f64, wanted: f64| (found - wanted).abs() < 30.0 * 32.0 * f64::EPSILON;
+            let near = |found: f64, wanted: f64| (found - wanted).abs() < 30.0 * 32.0 * f64::EPSILON;
             assert!(near(value(2.0), 20.0));
             assert!(near(value(3.5), 15.0));
             // From 0 at 4 rad to 10 at 2π + 1 rad.

@@ -24,10 +24,7 @@ pub enum End {
 
 impl Default for Run {
     fn default() -> Self {
-        Self {
-            end: End::Time(DEFAULT_STOP),
-            step: DEFAULT_STEP,
-        }
+        Self { end: End::Time(DEFAULT_STOP), step: DEFAULT_STEP }
     }
 }
 

@@ -58,10 +58,7 @@ impl fmt::Display for SlotError {
                 write!(f, "the library holds {count} blocks for a scene, not one")
             }
             Self::Version(version) => {
-                write!(
-                    f,
-                    "the library's scene is of version {version}, not {VERSION}"
-                )
+                write!(f, "the library's scene is of version {version}, not {VERSION}")
             }
             Self::Length(length) => {
                 write!(f, "the library's scene has {length} bytes, not {PAYLOAD}")
@@ -88,9 +85,7 @@ pub fn read() -> Result<(Scene, String), SlotError> {
 /// Writes a scene and its guid into the bytes of a built library.
 pub fn write(library: &mut [u8], scene: &Scene) -> Result<(), SlotError> {
     let start = locate(library)?;
-    let block = library
-        .get_mut(start..start + BLOCK)
-        .ok_or(SlotError::Missing)?;
+    let block = library.get_mut(start..start + BLOCK).ok_or(SlotError::Missing)?;
     let version = word(block, MAGIC);
     if version != VERSION {
         return Err(SlotError::Version(version));
@@ -108,10 +103,7 @@ fn locate(library: &[u8]) -> Result<usize, SlotError> {
     let mut magic = black_box(MAGIC_REVERSED);
     magic.reverse();
     let windows = library.windows(MAGIC).enumerate();
-    let found: Vec<usize> = windows
-        .filter(|(_, bytes)| *bytes == magic)
-        .map(|(offset, _)| offset)
-        .collect();
+    let found: Vec<usize> = windows.filter(|(_, bytes)| *bytes == magic).map(|(offset, _)| offset).collect();
     match found[..] {
         [] => Err(SlotError::Missing),
         [offset] => Ok(offset),
@@ -121,11 +113,7 @@ fn locate(library: &[u8]) -> Result<usize, SlotError> {
 
 /// What a block says.
 fn parse(block: &[u8; BLOCK]) -> Result<(Scene, String), SlotError> {
-    let (version, length, checksum) = (
-        word(block, MAGIC),
-        word(block, MAGIC + 4),
-        word(block, MAGIC + 8),
-    );
+    let (version, length, checksum) = (word(block, MAGIC), word(block, MAGIC + 4), word(block, MAGIC + 8));
     if version != VERSION {
         return Err(SlotError::Version(version));
     }
@@ -144,9 +132,7 @@ fn parse(block: &[u8; BLOCK]) -> Result<(Scene, String), SlotError> {
     let guid = std::str::from_utf8(guid).map_err(|_| SlotError::Checksum)?;
     let (numbers, _) = numbers.as_chunks::<8>();
     for (parameter, number) in PARAMETERS.iter().zip(numbers) {
-        parameter
-            .write(&mut scene, f64::from_le_bytes(*number))
-            .map_err(SlotError::Value)?;
+        parameter.write(&mut scene, f64::from_le_bytes(*number)).map_err(SlotError::Value)?;
     }
     Ok((scene, guid.to_owned()))
 }
@@ -171,11 +157,7 @@ mod tests {
 
     fn reread(library: &[u8]) -> Result<(Scene, String), SlotError> {
         let start = locate(library)?;
-        parse(
-            library[start..start + BLOCK]
-                .try_into()
-                .expect("a whole block"),
-        )
+        parse(library[start..start + BLOCK].try_into().expect("a whole block"))
     }
 
     #[test]
@@ -204,10 +186,7 @@ mod tests {
     fn damage_and_doubles_are_refused() {
         let scene = Scene::default();
         assert_eq!(write(&mut [0; 4096], &scene), Err(SlotError::Missing));
-        assert_eq!(
-            write(&mut [library(), library()].concat(), &scene),
-            Err(SlotError::Repeated(2))
-        );
+        assert_eq!(write(&mut [library(), library()].concat(), &scene), Err(SlotError::Repeated(2)));
         let mut cut = library();
         cut.truncate(800);
         assert_eq!(write(&mut cut, &scene), Err(SlotError::Missing));

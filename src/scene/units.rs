@@ -76,9 +76,7 @@ impl fmt::Display for UnitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoNumber => f.write_str("no number before the unit"),
-            Self::NoUnit => {
-                f.write_str("no unit; a number in SI units stands without quotation marks")
-            }
+            Self::NoUnit => f.write_str("no unit; a number in SI units stands without quotation marks"),
             Self::Unknown(symbol) => write!(f, "unknown unit `{symbol}`"),
             Self::Dimension(unit) => write!(f, "`{unit}` measures something else"),
         }
@@ -114,16 +112,9 @@ pub fn alternatives(unit: &str) -> Vec<&str> {
 /// The longest finite number that a text begins with, and the rest.
 fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
-    let ends = (1..=text.len())
-        .rev()
-        .filter(|end| text.is_char_boundary(*end));
-    ends.filter_map(|end| {
-        Some((
-            text[..end].trim_end().parse().ok()?,
-            text[end..].trim_start(),
-        ))
-    })
-    .find(|(number, _): &(f64, _)| number.is_finite())
+    let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
+    ends.filter_map(|end| Some((text[..end].trim_end().parse().ok()?, text[end..].trim_start())))
+        .find(|(number, _): &(f64, _)| number.is_finite())
 }
 
 /// Dimension and ratio to SI of a unit.
@@ -133,27 +124,18 @@ fn parse(unit: &str) -> Result<(Dimension, f64, f64), UnitError> {
     let mut rest = unit;
     loop {
         let (symbol, after) = rest.split_at(rest.find(|c| !in_symbol(c)).unwrap_or(rest.len()));
-        let (symbol, after) = if after.len() == rest.len() && rest.starts_with('1') {
-            rest.split_at(1)
-        } else {
-            (symbol, after)
-        };
+        let (symbol, after) =
+            if after.len() == rest.len() && rest.starts_with('1') { rest.split_at(1) } else { (symbol, after) };
         let (doubled, after) = exponent(after);
         let (_, of, up, down) = SYMBOLS
             .iter()
             .find(|(known, ..)| *known == symbol)
-            .ok_or_else(|| {
-                UnitError::Unknown(if symbol.is_empty() { unit } else { symbol }.into())
-            })?;
+            .ok_or_else(|| UnitError::Unknown(if symbol.is_empty() { unit } else { symbol }.into()))?;
         for (total, exponent) in dimension.iter_mut().zip(of) {
             *total += sign * exponent * doubled / 2;
         }
         let (up, down) = (power(*up, doubled), power(*down, doubled));
-        (times, over) = if sign > 0 {
-            (times * up, over * down)
-        } else {
-            (times * down, over * up)
-        };
+        (times, over) = if sign > 0 { (times * up, over * down) } else { (times * down, over * up) };
         let Some(joint) = after.chars().next() else {
             return Ok((dimension, times, over));
         };
@@ -228,25 +210,15 @@ mod tests {
         assert_eq!(quantity("50 furlong", "m"), unknown("furlong"));
         assert_eq!(quantity("50 mm7", "m"), unknown("mm7"));
         assert_eq!(quantity("50 mm.", "m"), unknown("mm."));
-        assert_eq!(
-            quantity("50 mm", "rad"),
-            Err(UnitError::Dimension("mm".into()))
-        );
-        assert_eq!(
-            quantity("50 1/s", "rad/s"),
-            Err(UnitError::Dimension("1/s".into()))
-        );
+        assert_eq!(quantity("50 mm", "rad"), Err(UnitError::Dimension("mm".into())));
+        assert_eq!(quantity("50 1/s", "rad/s"), Err(UnitError::Dimension("1/s".into())));
     }
 
     #[test]
     fn display_units_of_the_declaration_mean_the_same_here() {
         let declaration = crate::model_description::load().expect("the declaration");
         for unit in &declaration.units {
-            assert!(
-                quantity(&format!("1 {}", unit.name), &unit.name) == Ok(1.0),
-                "{}",
-                unit.name
-            );
+            assert!(quantity(&format!("1 {}", unit.name), &unit.name) == Ok(1.0), "{}", unit.name);
             for display in &unit.display {
                 let shown = format!("{:?} {}", display.factor, display.name);
                 let si = quantity(&shown, &unit.name).expect("a known unit");

@@ -57,9 +57,7 @@ impl Simulation {
     /// `Scene` if the start position does not close the loop.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
         let pose = StartPose::of(scene).ok_or_else(|| {
-            SimulationError::Scene(
-                "crank.angle_start: the rod is too short to close the loop at the start".into(),
-            )
+            SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
         })?;
         let signal = InputSignal { at: time, value: inputs, rate: Inputs::default() };
         Ok(Self { motion: assemble::start(scene, time, &pose, signal), time })

@@ -1,9 +1,7 @@
 //! One mechanism under one method.
 
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{
-    Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics,
-};
+use crate::integrator::{Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -31,9 +29,9 @@ pub trait Motion: Send {
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()>;
 }
 
-/// The plant `P` of `N` states under the method `M`.
-pub struct Run<const N: usize, M, P: Plant<N> + ?Sized> {
-    plant: Box<P>,
+/// A mechanism of `N` states under the method `M`.
+pub struct Run<const N: usize, M> {
+    plant: Box<dyn Plant<N>>,
     integrator: Integrator<N, Contacts, M>,
     settings: Settings,
     observer: Observer,
@@ -42,11 +40,10 @@ pub struct Run<const N: usize, M, P: Plant<N> + ?Sized> {
 /// [s] Half the interval over which an output's derivative is taken.
 const DIFFERENCE: f64 = 1e-8;
 
-impl<const N: usize, M: Method, P: Plant<N> + ?Sized> Run<N, M, P> {
+impl<const N: usize, M: Method> Run<N, M> {
     /// Starts `plant` at `time` from `pose`.
-    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<P>) -> Self {
-        let settings =
-            Settings { tolerance: scene.solver.tolerance, fixed_step: scene.solver.step };
+    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant<N>>) -> Self {
+        let settings = Settings { tolerance: scene.solver.tolerance, fixed_step: scene.solver.step };
         let y = plant.start(pose);
         let contacts = plant.start_contacts(time, &y);
         let integrator = Integrator::start(plant.as_ref(), settings, time, y, contacts);
@@ -71,7 +68,7 @@ impl<const N: usize, M: Method, P: Plant<N> + ?Sized> Run<N, M, P> {
     }
 }
 
-impl<const N: usize, M: Method, P: Plant<N> + Send + ?Sized> Motion for Run<N, M, P> {
+impl<const N: usize, M: Method> Motion for Run<N, M> {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
         self.integrator.advance(self.plant.as_ref(), t)
     }
@@ -123,19 +120,14 @@ impl<const N: usize, M: Method, P: Plant<N> + Send + ?Sized> Motion for Run<N, M
     fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs {
         // Outputs are affine in the inputs: any difference is the derivative.
         let one = self.observe_under(t, seed);
-        let other = self.observe_under(
-            t,
-            Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load },
-        );
+        let other = self.observe_under(t, Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
         one.combined(&other, |one, other| 0.5 * (one - other))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let Memory { start, end, front, step, last_error, crossings, statistics } =
-            self.integrator.memory();
+        let Memory { start, end, front, step, last_error, crossings, statistics } = self.integrator.memory();
         let InputSignal { at, value, rate } = self.plant.signal();
-        let inputs =
-            [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
+        let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
         snapshot.reals.extend(inputs);
         snapshot.reals.extend([self.plant.start_time(), *step, *last_error]);
         for Front { t, y, rates, modes } in [start, end, front] {

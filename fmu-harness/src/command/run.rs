@@ -1,24 +1,24 @@
 //! `run`: a scene, or any FMU, through time; figures and numbers of it.
 
 use super::{out_directory, package, shown};
-use crate::host::{Fmu, LogLine, Setting};
-use crate::inputs::{Curve, curves};
+use crate::host::{Archive, Fmu, LogLine, Setting};
+use crate::inputs;
 use crate::report::figure::{self, Pair};
 use crate::report::summary;
 use crate::run::{ANGLE, Experiment, Recording, Until, run};
 use crate::scenes::Scenario;
 use crate::trajectory::Trajectory;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::scene::read::{SceneFile, read};
+use slidercrank::scene::run::End;
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Crank turns unless told otherwise.
-const TURNS: f64 = 20.0;
-/// Communication points a crank turn: 10 µs at 5000 rpm.
-const POINTS_PER_TURN: f64 = 1200.0;
+/// Where the FMU is told how fast its crank starts.
+const SPEED: &str = "crank.speed_start";
 /// A crank that needs so many times longer than at its start speed is taken for stuck.
 const PATIENCE: f64 = 20.0;
 const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
@@ -29,16 +29,16 @@ pub struct Run {
     /// Scene: the name of a shipped one, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
     scene: String,
-    /// An FMU to run in place of a scene
+    /// An FMU to run in place of a scene; one of ours brings its scene's inputs and length along
     #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     fmu: Option<PathBuf>,
-    /// Crank turns [default: 20]
+    /// Crank turns [default: the scene's]
     #[arg(long, value_name = "NUMBER", conflicts_with = "stop")]
     turns: Option<f64>,
     /// Stop time in seconds, in place of turns
     #[arg(long, value_name = "SECONDS")]
     stop: Option<f64>,
-    /// Communication step in seconds [default: 1200 to a crank turn, or what the FMU suggests]
+    /// Communication step in seconds [default: the scene's, or what the FMU suggests]
     #[arg(long, value_name = "SECONDS")]
     step: Option<f64>,
     /// Relative tolerance, in place of the FMU's own
@@ -55,11 +55,11 @@ pub struct Run {
     output: Option<PathBuf>,
 }
 
-/// What to run: a file, the name of its results, and its inputs while time runs.
+/// What to run: an FMU, the name of its results, and its scene if it has one.
 struct Subject {
     name: String,
     fmu: Fmu,
-    inputs: Vec<Curve>,
+    scene: Option<SceneFile>,
 }
 
 impl Run {
@@ -87,53 +87,52 @@ impl Run {
 
     /// The FMU that was asked for, or the scene as one.
     fn subject(&self, out: &Path) -> Result<Subject> {
-        let mut subject = match &self.fmu {
+        match &self.fmu {
             Some(file) => {
                 let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                Subject { name, fmu: Fmu::open(file)?, inputs: vec![] }
+                let scene =
+                    Archive::open(file)?.text("documentation/scene.toml").and_then(|text| read(&text, &name).ok());
+                Ok(Subject { name, fmu: Fmu::open(file)?, scene })
             }
             None => {
                 let scenario = Scenario::find(&self.scene)?;
                 let file = out.join(format!("{}.fmu", scenario.name));
                 package::write(&scenario, &file)?;
-                Subject { name: scenario.name, fmu: Fmu::open(&file)?, inputs: scenario.inputs }
+                Ok(Subject { name: scenario.name, fmu: Fmu::open(&file)?, scene: Some(scenario.file) })
             }
-        };
-        if let Some(file) = &self.input {
-            subject.inputs = curves(&Trajectory::read_csv(file)?)?;
         }
-        Ok(subject)
     }
 
-    /// What was asked for, else turns of a crank, else what the FMU suggests.
+    /// What was asked for, else what the scene says, else what the FMU suggests.
     fn experiment(&self, subject: &Subject) -> Result<Experiment> {
-        let description = subject.fmu.description();
-        let suggested = |name: &str| description.experiment.number(name);
+        let Subject { fmu, scene, .. } = subject;
+        let suggested = |name: &str| fmu.description().experiment.number(name);
         let start = suggested("startTime").unwrap_or(0.0);
-        let turn = self.start_speed(&subject.fmu).map(|speed| TAU / speed);
-        let until = match (self.stop, self.turns, turn) {
-            (Some(stop), ..) => Until::Time(stop),
-            (None, turns, Some(turn)) => {
-                let turns = turns.unwrap_or(TURNS);
-                Until::Turns { turns, latest: start + PATIENCE * turns * turn }
-            }
-            (None, Some(turns), None) => {
-                let hint = format!("`{ANGLE}` starts at no speed that tells how long {turns} turns last");
-                Until::Turns { turns, latest: suggested("stopTime").context(hint)? }
-            }
-            (None, None, None) => Until::Time(suggested("stopTime").unwrap_or(start + 1.0)),
+        let end = match (self.stop, self.turns, scene) {
+            (Some(stop), ..) => End::Time(stop),
+            (None, Some(turns), _) => End::Turns(turns),
+            (None, None, Some(scene)) => scene.run.end,
+            (None, None, None) => End::Time(suggested("stopTime").unwrap_or(start + 1.0)),
         };
-        let (Until::Time(end) | Until::Turns { latest: end, .. }) = until;
-        ensure!(end > start, "the stop time {end} s is not after the start time {start} s");
-        let step = self.step.or_else(|| turn.map(|turn| turn / POINTS_PER_TURN)).or_else(|| suggested("stepSize"));
-        let step = step.unwrap_or((end - start) / 1000.0);
-        let (settings, inputs) = (self.set.clone(), subject.inputs.clone());
-        Ok(Experiment { settings, inputs, start, until, step, tolerance: self.tolerance })
+        let until = match (end, self.start_speed(fmu)) {
+            (End::Time(stop), _) => Until::Time(stop),
+            (End::Turns(turns), Some(speed)) => Until::Turns { turns, latest: start + PATIENCE * turns * TAU / speed },
+            (End::Turns(_), None) => bail!("`{SPEED}` does not tell how long a turn lasts; give a --stop time"),
+        };
+        let (Until::Time(latest) | Until::Turns { latest, .. }) = until;
+        ensure!(latest > start, "the end, {latest} s, is not after the start, {start} s");
+        let step = self.step.or(scene.as_ref().map(|scene| scene.run.step)).or_else(|| suggested("stepSize"));
+        let step = step.unwrap_or((latest - start) / 1000.0);
+        let inputs = match (&self.input, scene) {
+            (Some(file), _) => inputs::of_table(&Trajectory::read_csv(file)?)?,
+            (None, Some(scene)) => inputs::of_scene(&scene.inputs),
+            (None, None) => vec![],
+        };
+        Ok(Experiment { settings: self.set.clone(), inputs, start, until, step, tolerance: self.tolerance })
     }
 
     /// [rad/s] Speed of the crank at the start, if the FMU has a crank and it turns.
     fn start_speed(&self, fmu: &Fmu) -> Option<f64> {
-        const SPEED: &str = "crank.speed_start";
         let set =
             self.set.iter().rev().find(|setting| setting.name == SPEED).and_then(|setting| setting.value.parse().ok());
         let declared = || fmu.description().variable(SPEED).ok()?.of_kind.number("start");
@@ -174,6 +173,7 @@ fn draw(pair: &Pair, out: &Path) -> Result<Vec<PathBuf>> {
         ("slider", Some(figure::slider_motion(pair)?)),
         ("forces", Some(figure::joint_forces(pair)?)),
         ("journal", figure::journal_paths(pair)?),
+        ("guide", figure::guide_play(pair)?),
     ];
     let mut files = Vec::new();
     for (what, sheet) in sheets {

@@ -68,6 +68,13 @@ impl Archive {
         platforms
     }
 
+    /// The text of an entry, where there is one and it is a text.
+    pub fn text(&mut self, name: &str) -> Option<String> {
+        let mut text = String::new();
+        self.zip.by_name(name).ok()?.read_to_string(&mut text).ok()?;
+        Some(text)
+    }
+
     /// The text of modelDescription.xml.
     pub fn description(&mut self) -> Result<String, HostError> {
         let Ok(mut entry) = self.zip.by_name("modelDescription.xml") else {

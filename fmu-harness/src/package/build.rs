@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use std::env;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -63,14 +63,14 @@ fn remapped(workspace: &Path) -> OsString {
     flags
 }
 
-/// Whether cargo-zigbuild and zig can be called, and the machine is one that they are wanted on.
+/// Whether cargo-zigbuild and zig, itself or as a Python package, can be called on a machine that they are wanted on.
 fn zig_is_here() -> bool {
-    let answers = |program: &str, argument: &str| {
-        let mut command = Command::new(OsStr::new(program));
-        command.arg(argument).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let answers = |program: &str, arguments: &[&str]| {
+        let mut command = Command::new(program);
+        command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
         command.status().is_ok_and(|status| status.success())
     };
     cfg!(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))
-        && answers("cargo-zigbuild", "--version")
-        && answers("zig", "version")
+        && answers("cargo-zigbuild", &["--version"])
+        && (answers("zig", &["version"]) || answers("python3", &["-m", "ziglang", "version"]))
 }

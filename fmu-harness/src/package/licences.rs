@@ -28,12 +28,25 @@ pub fn third_party() -> Result<String> {
     for Package { name, version, licence, .. } in &linked {
         text.push_str(&format!("{name} {version}, licensed under {licence}.\n"));
     }
-    for package in &linked {
-        for (file, words) in &package.texts {
-            text.push_str(&format!("\n{RULE}\n{} {}: {file}\n\n{}\n", package.name, package.version, words.trim_end()));
-        }
+    for (words, owners) in texts(&linked) {
+        text.push_str(&format!("\n{RULE}\n{}\n\n{words}\n", owners.join(", ")));
     }
     Ok(text)
+}
+
+/// Every licence text once, with those that it came with, in the order of the first of them.
+fn texts(packages: &[Package]) -> Vec<(&str, Vec<String>)> {
+    let mut texts: Vec<(&str, Vec<String>)> = Vec::new();
+    for package in packages {
+        for (file, words) in &package.texts {
+            let owner = format!("{} ({file})", package.name);
+            match texts.iter_mut().find(|(known, _)| *known == words.trim_end()) {
+                Some((_, owners)) => owners.push(owner),
+                None => texts.push((words.trim_end(), vec![owner])),
+            }
+        }
+    }
+    texts
 }
 
 /// A linked crate.

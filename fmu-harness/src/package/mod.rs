@@ -8,8 +8,13 @@ mod licences;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result, bail};
 use archive::Part;
-use slidercrank::model_description::{self, rows::Declaration, xml};
-use slidercrank::scene::{parameter::PARAMETERS, slot};
+use slidercrank::model_description::raw::Experiment;
+use slidercrank::model_description::rows::Declaration;
+use slidercrank::model_description::{self, page, xml};
+use slidercrank::scene::check::LEAST_RESTITUTION;
+use slidercrank::scene::parameter::PARAMETERS;
+use slidercrank::scene::read::SceneFile;
+use slidercrank::scene::slot;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
 use std::path::Path;
@@ -45,27 +50,37 @@ impl Package {
 
 /// Everything that goes into the archive, in its order.
 fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
+    let scene = &scenario.file.scene;
     let declaration = model_description::load().context("the declaration of the variables")?;
-    slot::write(&mut library, &scenario.scene)?;
+    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
+    slot::write(&mut library, scene)?;
     let identifier = &declaration.model.identifier;
     Ok(vec![
-        Part::new("modelDescription.xml", description(&declaration, scenario)?),
+        Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
         Part::new("model.png", PICTURE),
         Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
-        Part::new("documentation/index.html", "<!DOCTYPE html>"),
+        Part::new("documentation/index.html", page(&declaration, scenario, &starts)),
         Part::new("documentation/scene.toml", scenario.text.as_str()),
         Part::new("documentation/licenses/license.txt", licences::own()),
         Part::new("documentation/licenses/third-party.txt", licences::third_party()?),
     ])
 }
 
-/// modelDescription.xml of the scenario.
-fn description(declaration: &Declaration, scenario: &Scenario) -> Result<String> {
-    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(&scenario.scene)).collect();
-    let guid = slot::guid(&scenario.scene);
-    let mut package = xml::Package::anonymous(declaration, &starts);
-    package.guid = &guid;
+/// modelDescription.xml: the scene's values are the start values, its run the default experiment.
+fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> Result<String> {
+    let SceneFile { scene, run, .. } = &scenario.file;
+    let (stop, step, tolerance) = (run.stop(scene), run.step, scene.solver.tolerance);
+    let experiment = Experiment { start: 0.0, stop, tolerance, step };
+    let guid = slot::guid(scene);
+    let package = xml::Package { guid: &guid, starts, experiment, written: None };
     Ok(xml::write(declaration, &package)?)
+}
+
+/// documentation/index.html.
+fn page(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> String {
+    let SceneFile { name, description, .. } = &scenario.file;
+    let scene = format!("{name}: {description}");
+    page::write(declaration, &page::Subject { scene: &scene, starts, least_restitution: LEAST_RESTITUTION })
 }
 
 /// FMI 2.0 names three platforms that there are machines of.

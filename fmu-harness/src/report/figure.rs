@@ -9,7 +9,10 @@ use std::f64::consts::TAU;
 /// Turns shown: the last ones, when what the start was like is forgotten.
 const TURNS_SHOWN: f64 = 2.0;
 /// Turns of journal path shown.
-const PATH_TURNS: f64 = 5.0;
+const PATH_TURNS: f64 = 3.0;
+
+/// Value of `joint.J.model` of a joint with clearance.
+const CLEARANCE: f64 = 2.0;
 
 /// A run and its ideal counterpart.
 pub struct Pair<'a> {
@@ -42,7 +45,7 @@ pub fn joint_forces(pair: &Pair) -> Result<Sheet> {
 /// Path of every journal that has clearance, inside its clearance circle; `None` without such a joint.
 pub fn journal_paths(pair: &Pair) -> Result<Option<Sheet>> {
     let joints = ["A", "B", "C"];
-    let has_clearance = |joint: &&str| pair.actual.parameter(&format!("joint.{joint}.model")) == Some(2.0);
+    let has_clearance = |joint: &&str| pair.actual.parameter(&format!("joint.{joint}.model")) == Some(CLEARANCE);
     let panels: Vec<Panel> =
         joints.into_iter().filter(has_clearance).map(|joint| path(pair, joint)).collect::<Result<_>>()?;
     if panels.is_empty() {
@@ -52,6 +55,18 @@ pub fn journal_paths(pair: &Pair) -> Result<Option<Sheet>> {
     let legend = vec![(Role::Limit, "clearance circle".into()), (Role::Actual, "journal".into())];
     let columns = panels.len();
     Ok(Some(Sheet { title, legend, columns, panels, panel_size: square_panel(540) }))
+}
+
+/// Height and tilt of the slider in a guide that has clearance; `None` in an ideal one.
+pub fn guide_play(pair: &Pair) -> Result<Option<Sheet>> {
+    if pair.actual.parameter("joint.T.model") != Some(CLEARANCE) {
+        return Ok(None);
+    }
+    let panels =
+        [("slider.y", "m", "pin across the guide"), ("slider.angle", "rad", "tilt")].map(|(variable, unit, name)| {
+            pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into()))
+        });
+    Ok(Some(pair.sheet("slider in its guide", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))?))
 }
 
 fn path(pair: &Pair, joint: &str) -> Result<Panel> {

@@ -45,7 +45,7 @@ pub fn mechanism(pair: &Pair) -> Result<String> {
 fn peak(table: &mut Table, name: &str, unit: &str, columns: [Result<Vec<f64>>; 2]) -> Result<()> {
     let [actual, ideal] = columns.map(|column| column.map(|column| largest(&column)));
     let (actual, ideal) = (actual?, ideal?);
-    let shown = Shown::of(unit, ideal);
+    let shown = Shown::of(unit, actual.max(ideal));
     let ratio = if ideal > 0.0 { format!("{:.2}", actual / ideal) } else { "–".into() };
     table.row([name.into(), shown.print(actual), shown.print(ideal), ratio]);
     Ok(())
@@ -72,15 +72,16 @@ pub fn outputs(description: &Description, recording: &Recording) -> Result<Strin
 fn cost(table: &mut Table, cost: &Cost, points: usize) {
     table.row(["simulated".into(), Shown::of("s", cost.simulated).print(cost.simulated)]);
     table.row(["communication points".into(), grouped(points as f64)]);
-    for (name, spent) in [
-        ("fmi2DoStep a simulated second", cost.stepping),
-        ("wall time of it all", cost.wall),
-        ("CPU time of it all", cost.cpu),
-    ] {
-        let spent = spent.as_secs_f64() / cost.simulated;
-        table.row([name.into(), Shown::of("s", spent).print(spent)]);
+    let spent = [
+        ("fmi2DoStep per simulated second", cost.stepping),
+        ("with inputs and outputs", cost.wall),
+        ("the same, CPU time", cost.cpu),
+    ];
+    for (name, spent) in spent {
+        let share = spent.as_secs_f64() / cost.simulated;
+        let times = format!("{} times real time", significant(1.0 / share));
+        table.row([name.into(), Shown::of("s", share).print(share), times]);
     }
-    table.row(["times real time".into(), significant(cost.simulated / cost.wall.as_secs_f64())]);
 }
 
 fn largest(column: &[f64]) -> f64 {

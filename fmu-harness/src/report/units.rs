@@ -20,6 +20,7 @@ impl Shown {
             "m/s2" => ("m/s²", true, false),
             "rad/s" => ("rad/s", false, false),
             "rad/s2" => ("rad/s²", false, false),
+            "rad" => ("rad", false, true),
             "s" => ("s", false, true),
             "1" => ("", false, false),
             other => (other, false, false),

@@ -78,10 +78,7 @@ pub unsafe fn slice_mut<'a, T: AnyBits>(
 ///
 /// # Safety
 /// A usable pointer points to one entry that nobody else uses during `'a`.
-pub unsafe fn place<'a, T: AnyBits>(
-    argument: &'static str,
-    pointer: *mut T,
-) -> Result<&'a mut T, ArgumentError> {
+pub unsafe fn place<'a, T: AnyBits>(argument: &'static str, pointer: *mut T) -> Result<&'a mut T, ArgumentError> {
     check(argument, pointer, 1)?;
     // SAFETY: non-null and aligned; the caller vouches for the entry.
     Ok(unsafe { &mut *pointer })
@@ -91,10 +88,7 @@ pub unsafe fn place<'a, T: AnyBits>(
 ///
 /// # Safety
 /// A usable pointer points to a valid `T` that nobody writes during `'a`.
-pub unsafe fn structure<'a, T>(
-    argument: &'static str,
-    pointer: *const T,
-) -> Result<&'a T, ArgumentError> {
+pub unsafe fn structure<'a, T>(argument: &'static str, pointer: *const T) -> Result<&'a T, ArgumentError> {
     check(argument, pointer, 1)?;
     // SAFETY: non-null and aligned; the caller vouches for the rest.
     Ok(unsafe { &*pointer })

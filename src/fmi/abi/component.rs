@@ -19,10 +19,7 @@ pub struct Lent<'a> {
 
 /// Gives an instance to the importer.
 pub fn give(instance: Instance) -> fmi2Component {
-    let component = Component {
-        busy: AtomicBool::new(false),
-        instance: UnsafeCell::new(instance),
-    };
+    let component = Component { busy: AtomicBool::new(false), instance: UnsafeCell::new(instance) };
     Box::into_raw(Box::new(component)).cast()
 }
 
@@ -38,7 +35,7 @@ pub unsafe fn lend<'a>(component: fmi2Component) -> Option<Lent<'a>> {
     // SAFETY: non-null and aligned; the importer vouches that it is a live component of ours.
     let component = unsafe { &*pointer };
     let was_busy = component.busy.swap(true, Ordering::Acquire);
-    (!was_busy).then_some(Lent { component })
+    if was_busy { None } else { Some(Lent { component }) }
 }
 
 /// Takes an instance back from the importer, unless the component is NULL, none of ours or busy.

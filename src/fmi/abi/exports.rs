@@ -66,8 +66,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
 }
 
 fn instantiate(request: &Request<'_>) -> fmi2Component {
-    let outcome =
-        guarded(|| Instance::instantiate(request)).unwrap_or_else(|fault| Err(Error::Panic(fault)));
+    let outcome = guarded(|| Instance::instantiate(request)).unwrap_or_else(|fault| Err(Error::Panic(fault)));
     match outcome {
         Ok(instance) => give(instance),
         Err(error) => {
@@ -102,10 +101,8 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
             let pointers = slice("categories", categories, n_categories)?;
             pointers.iter().map(|&pointer| text(pointer)).collect()
         };
-        instance.set_debug_logging(
-            logging_on != FMI2_FALSE,
-            &names.ok_or(ArgumentError::Null("an entry of categories"))?,
-        )
+        instance
+            .set_debug_logging(logging_on != FMI2_FALSE, &names.ok_or(ArgumentError::Null("an entry of categories"))?)
     };
     // SAFETY: the importer vouches for `c`.
     unsafe { call(c, Call::SetDebugLogging, set) }
@@ -124,37 +121,21 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     let tolerance = (tolerance_defined != FMI2_FALSE).then_some(tolerance);
     let stop_time = (stop_time_defined != FMI2_FALSE).then_some(stop_time);
     // SAFETY: the importer vouches for `c`.
-    unsafe {
-        call(c, Call::SetupExperiment, |instance| {
-            instance.setup_experiment(tolerance, start_time, stop_time)
-        })
-    }
+    unsafe { call(c, Call::SetupExperiment, |instance| instance.setup_experiment(tolerance, start_time, stop_time)) }
 }
 
 /// From now on outputs follow start values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> Status {
     // SAFETY: the importer vouches for `c`.
-    unsafe {
-        call(
-            c,
-            Call::EnterInitializationMode,
-            Instance::enter_initialization_mode,
-        )
-    }
+    unsafe { call(c, Call::EnterInitializationMode, Instance::enter_initialization_mode) }
 }
 
 /// Fixes the parameters; the first step can follow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> Status {
     // SAFETY: the importer vouches for `c`.
-    unsafe {
-        call(
-            c,
-            Call::ExitInitializationMode,
-            Instance::exit_initialization_mode,
-        )
-    }
+    unsafe { call(c, Call::ExitInitializationMode, Instance::exit_initialization_mode) }
 }
 
 /// Ends the run; values can still be read.

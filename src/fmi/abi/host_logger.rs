@@ -13,10 +13,7 @@ pub struct HostLogger {
 
 impl HostLogger {
     /// A logger that says nothing.
-    pub const SILENT: Self = Self {
-        logger: None,
-        environment: std::ptr::null_mut(),
-    };
+    pub const SILENT: Self = Self { logger: None, environment: std::ptr::null_mut() };
 
     /// The logger among the importer's callbacks.
     ///
@@ -24,10 +21,7 @@ impl HostLogger {
     /// The logger must be NULL or a function of the standard's signature that may be called with
     /// this environment for as long as this value is used.
     pub unsafe fn new(callbacks: &fmi2CallbackFunctions) -> Self {
-        Self {
-            logger: callbacks.logger,
-            environment: callbacks.component_environment,
-        }
+        Self { logger: callbacks.logger, environment: callbacks.component_environment }
     }
 
     /// Hands one line to the importer.

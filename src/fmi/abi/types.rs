@@ -45,13 +45,11 @@ pub type fmi2CallbackLogger = unsafe extern "C" fn(
     ...
 );
 /// The importer's `calloc`, which we leave alone.
-pub type fmi2CallbackAllocateMemory =
-    unsafe extern "C" fn(count: usize, size: usize) -> *mut c_void;
+pub type fmi2CallbackAllocateMemory = unsafe extern "C" fn(count: usize, size: usize) -> *mut c_void;
 /// The importer's `free`, which we leave alone.
 pub type fmi2CallbackFreeMemory = unsafe extern "C" fn(memory: *mut c_void);
 /// Called at the end of an asynchronous step, of which we have none.
-pub type fmi2StepFinished =
-    unsafe extern "C" fn(environment: fmi2ComponentEnvironment, status: c_int);
+pub type fmi2StepFinished = unsafe extern "C" fn(environment: fmi2ComponentEnvironment, status: c_int);
 
 /// What the importer lends us. Every function may be NULL.
 #[repr(C)]

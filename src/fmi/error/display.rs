@@ -9,9 +9,7 @@ impl fmt::Display for Error {
             Self::Argument(error) => error.fmt(f),
             Self::Variable(error) => error.fmt(f),
             Self::CallOrder(state) => write!(f, "not allowed in state '{state}'"),
-            Self::ModelExchange => {
-                f.write_str("of model exchange, and this FMU is for co-simulation")
-            }
+            Self::ModelExchange => f.write_str("of model exchange, and this FMU is for co-simulation"),
             Self::Instantiate(error) => error.fmt(f),
             Self::Time(error) => error.fmt(f),
             Self::Category(name) => write!(f, "log category '{name}' is not declared"),
@@ -45,30 +43,15 @@ impl fmt::Display for VariableError {
         match self {
             Self::Unknown(reference) => write!(f, "no variable has value reference {reference}"),
             Self::Type { name, is, asked } => write!(f, "{name} is of type {is}, not {asked}"),
-            Self::Moment {
-                name,
-                write,
-                causality,
-                state,
-            } => {
+            Self::Moment { name, write, causality, state } => {
                 let verb = if *write { "set" } else { "read" };
-                write!(
-                    f,
-                    "{name} ({causality}) cannot be {verb} in state '{state}'"
-                )
+                write!(f, "{name} ({causality}) cannot be {verb} in state '{state}'")
             }
             Self::NotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
-            Self::Refused(Refusal {
-                name,
-                found,
-                allowed,
-            }) => {
+            Self::Refused(Refusal { name, found, allowed }) => {
                 write!(f, "{name} = {found:?} is out of range; allowed: {allowed}")
             }
-            Self::Order(name, order) => write!(
-                f,
-                "derivative of order {order} of {name}: only order 1 is known"
-            ),
+            Self::Order(name, order) => write!(f, "derivative of order {order} of {name}: only order 1 is known"),
             Self::Kind(name, needed) => write!(f, "{name} is not {needed}"),
         }
     }
@@ -77,25 +60,13 @@ impl fmt::Display for VariableError {
 impl fmt::Display for InstantiateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Type(kind) => write!(
-                f,
-                "fmuType {kind}: only fmi2CoSimulation (1) can be instantiated"
-            ),
+            Self::Type(kind) => write!(f, "fmuType {kind}: only fmi2CoSimulation (1) can be instantiated"),
             Self::Name => write!(f, "instanceName is NULL or empty"),
             Self::Slot(error) => error.fmt(f),
-            Self::Guid {
-                expected,
-                given: Some(given),
-            } => {
-                write!(
-                    f,
-                    "fmuGUID '{given}' does not match this library's '{expected}'"
-                )
+            Self::Guid { expected, given: Some(given) } => {
+                write!(f, "fmuGUID '{given}' does not match this library's '{expected}'")
             }
-            Self::Guid {
-                expected,
-                given: None,
-            } => {
+            Self::Guid { expected, given: None } => {
                 write!(f, "fmuGUID is NULL; this library's is '{expected}'")
             }
         }
@@ -111,16 +82,10 @@ impl fmt::Display for TimeError {
                 write!(f, "stopTime {stop:?} s lies before startTime {start:?} s")
             }
             Self::Elsewhere { given, reached } => {
-                write!(
-                    f,
-                    "currentCommunicationPoint {given:?} s is not the point reached, {reached:?} s"
-                )
+                write!(f, "currentCommunicationPoint {given:?} s is not the point reached, {reached:?} s")
             }
             Self::PastStop { end, stop } => {
-                write!(
-                    f,
-                    "the step ends at {end:?} s, after the stopTime {stop:?} s"
-                )
+                write!(f, "the step ends at {end:?} s, after the stopTime {stop:?} s")
             }
         }
     }
@@ -135,17 +100,11 @@ impl fmt::Display for FmuStateError {
                 "the FMUstate is not a live one of this instance; between instances, states travel serialized"
             ),
             Self::Buffer { given, needed } => {
-                write!(
-                    f,
-                    "the buffer has {given} bytes, the serialized state needs {needed}"
-                )
+                write!(f, "the buffer has {given} bytes, the serialized state needs {needed}")
             }
             Self::NotOurs => write!(f, "these bytes are not a state of this FMU"),
             Self::Version { found, known } => {
-                write!(
-                    f,
-                    "the state has format version {found}; this FMU reads version {known}"
-                )
+                write!(f, "the state has format version {found}; this FMU reads version {known}")
             }
             Self::Declaration => f.write_str("the state is of an FMU with other variables"),
             Self::Length { expected, given } => {

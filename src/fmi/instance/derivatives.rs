@@ -10,11 +10,7 @@ use crate::model::signals::{Inputs, Outputs};
 const FIRST: i32 = 1;
 
 fn first(variable: &Variable, order: i32) -> Result<(), VariableError> {
-    if order == FIRST {
-        Ok(())
-    } else {
-        Err(VariableError::Order(variable.name, order))
-    }
+    if order == FIRST { Ok(()) } else { Err(VariableError::Order(variable.name, order)) }
 }
 
 /// How a real output is read.
@@ -40,12 +36,7 @@ fn real_input(variable: &Variable) -> Result<Reach, VariableError> {
 
 impl Instance {
     /// `fmi2SetRealInputDerivatives`
-    pub fn set_input_derivatives(
-        &mut self,
-        references: &[u32],
-        orders: &[i32],
-        values: &[f64],
-    ) -> Result<(), Error> {
+    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Error> {
         let (mut inputs, time) = (self.inputs, self.time());
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let variable = variable(reference)?;

@@ -10,11 +10,7 @@ impl Instance {
     /// `fmi2GetFMUstate`: saves under `handle`, or under a new one if that is 0.
     pub fn get_fmu_state(&mut self, handle: usize) -> Result<usize, Error> {
         // While parameters can still change, the simulation is no more than a reading of the scene.
-        let running = if Touch::SetParameter.allowed(self.state) {
-            None
-        } else {
-            self.simulation.as_ref()
-        };
+        let running = if Touch::SetParameter.allowed(self.state) { None } else { self.simulation.as_ref() };
         let state = FmuState {
             state: self.state,
             scene: self.scene.clone(),
@@ -60,9 +56,7 @@ impl Instance {
     pub fn serialize(&self, handle: usize, buffer: &mut [u8]) -> Result<(), Error> {
         let bytes = self.saved.get(handle)?.to_bytes()?;
         let (given, needed) = (buffer.len(), bytes.len());
-        let (front, rest) = buffer
-            .split_at_mut_checked(needed)
-            .ok_or(FmuStateError::Buffer { given, needed })?;
+        let (front, rest) = buffer.split_at_mut_checked(needed).ok_or(FmuStateError::Buffer { given, needed })?;
         front.copy_from_slice(&bytes);
         rest.fill(0);
         Ok(())

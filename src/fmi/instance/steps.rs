@@ -13,11 +13,11 @@ impl Instance {
         let outcome = self.live()?.advance_to(end);
         self.inputs.move_on();
         self.outputs = None;
-        self.state = match &outcome {
-            Ok(()) => State::StepComplete,
-            Err(SimulationError::Integration { .. }) => State::StepFailed,
-            Err(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => State::Error,
-        };
+        match &outcome {
+            Ok(()) => {}
+            Err(SimulationError::Integration { .. }) => self.state = State::StepFailed,
+            Err(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => self.fail(),
+        }
         let outcome = outcome.map_err(Error::from);
         self.last_step = outcome.as_ref().err().map_or(Status::Ok, Error::status);
         outcome

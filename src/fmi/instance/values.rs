@@ -21,14 +21,8 @@ impl Type {
             Access::Input { .. } | Access::RealOutput(_) => Self::Real,
             Access::IntegerOutput(_) => Self::Integer,
             Access::BooleanOutput(_) => Self::Boolean,
-            Access::Parameter(Parameter {
-                kind: Kind::Real { .. },
-                ..
-            }) => Self::Real,
-            Access::Parameter(Parameter {
-                kind: Kind::Enumeration { .. },
-                ..
-            }) => Self::Enumeration,
+            Access::Parameter(Parameter { kind: Kind::Real { .. }, .. }) => Self::Real,
+            Access::Parameter(Parameter { kind: Kind::Enumeration { .. }, .. }) => Self::Enumeration,
         }
     }
 
@@ -44,9 +38,7 @@ impl Type {
 
 /// The variable of this value reference.
 pub(super) fn variable(reference: u32) -> Result<&'static Variable, VariableError> {
-    let found = usize::try_from(reference)
-        .ok()
-        .and_then(|index| VARIABLES.get(index));
+    let found = usize::try_from(reference).ok().and_then(|index| VARIABLES.get(index));
     found.ok_or(VariableError::Unknown(reference))
 }
 
@@ -57,11 +49,7 @@ fn typed(reference: u32, asked: Type) -> Result<&'static Variable, VariableError
     match (Type::of(variable), asked) {
         (Type::Enumeration, Type::Integer) => Ok(variable),
         (is, asked) if is == asked => Ok(variable),
-        (is, asked) => Err(VariableError::Type {
-            name: variable.name,
-            is: is.name(),
-            asked: asked.name(),
-        }),
+        (is, asked) => Err(VariableError::Type { name: variable.name, is: is.name(), asked: asked.name() }),
     }
 }
 
@@ -77,22 +65,13 @@ fn check(variable: &Variable, state: State, write: bool) -> Result<(), VariableE
     if (if write { set } else { get }).allowed(state) {
         Ok(())
     } else {
-        Err(VariableError::Moment {
-            name: variable.name,
-            write,
-            causality,
-            state,
-        })
+        Err(VariableError::Moment { name: variable.name, write, causality, state })
     }
 }
 
 /// Refuses NaN and infinity.
 pub(super) fn finite(variable: &Variable, value: f64) -> Result<f64, VariableError> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(VariableError::NotFinite(variable.name, value))
-    }
+    if value.is_finite() { Ok(value) } else { Err(VariableError::NotFinite(variable.name, value)) }
 }
 
 impl Instance {
@@ -123,9 +102,7 @@ impl Instance {
 
     /// `fmi2SetBoolean`
     pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
-        self.set(Type::Boolean, references, values, |value| {
-            f64::from(u8::from(value != 0))
-        })
+        self.set(Type::Boolean, references, values, |value| f64::from(u8::from(value != 0)))
     }
 
     /// `fmi2GetString`, `fmi2SetString`: no variable is a string.
@@ -135,24 +112,13 @@ impl Instance {
             [first, ..] => {
                 let variable = variable(*first)?;
                 let is = Type::of(variable).name();
-                Err(VariableError::Type {
-                    name: variable.name,
-                    is,
-                    asked: "String",
-                }
-                .into())
+                Err(VariableError::Type { name: variable.name, is, asked: "String" }.into())
             }
         }
     }
 
     /// Reads variables of one type. Every value fits an `f64`: reals, 32-bit integers, Booleans.
-    fn get<T>(
-        &mut self,
-        asked: Type,
-        references: &[u32],
-        values: &mut [T],
-        out: fn(f64) -> T,
-    ) -> Result<(), Error> {
+    fn get<T>(&mut self, asked: Type, references: &[u32], values: &mut [T], out: fn(f64) -> T) -> Result<(), Error> {
         for (&reference, value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;
             check(variable, self.state, false)?;
@@ -168,13 +134,7 @@ impl Instance {
     }
 
     /// Writes variables of one type: into drafts first, which count once every value is legal.
-    fn set<T: Copy>(
-        &mut self,
-        asked: Type,
-        references: &[u32],
-        values: &[T],
-        into: fn(T) -> f64,
-    ) -> Result<(), Error> {
+    fn set<T: Copy>(&mut self, asked: Type, references: &[u32], values: &[T], into: fn(T) -> f64) -> Result<(), Error> {
         let (mut scene, mut inputs, time) = (self.scene.clone(), self.inputs, self.time());
         for (&reference, &value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;

@@ -30,9 +30,7 @@ pub fn factor(law: DampingLaw, e: f64) -> f64 {
         // Q. Zhiying, L. Qishao, J. Mech. Strength 28 (2006)
         DampingLaw::ZhiyingQishao => 0.75 * (1.0 - e * e) * math::exp(2.0 * (1.0 - e)),
         // A. S. Carvalho, J. M. Martins, Mech. Mach. Theory 139 (2019) 174
-        DampingLaw::CarvalhoMartins => {
-            1.5 * (1.0 - e) * (11.0 - e) / (1.0 + 9.0 * e)
-        }
+        DampingLaw::CarvalhoMartins => 1.5 * (1.0 - e) * (11.0 - e) / (1.0 + 9.0 * e),
     }
 }
 

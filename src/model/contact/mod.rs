@@ -93,11 +93,7 @@ pub fn force<E: Elastic, D: Damped, F: Friction>(
     if normal <= 0.0 {
         return (0.0, 0.0);
     }
-    let tangential = if F::PRESENT {
-        normal * F::ratio(&parameters.friction, sliding())
-    } else {
-        0.0
-    };
+    let tangential = if F::PRESENT { normal * F::ratio(&parameters.friction, sliding()) } else { 0.0 };
     (normal, tangential)
 }
 

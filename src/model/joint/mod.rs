@@ -3,9 +3,7 @@
 pub mod guide;
 pub mod revolute;
 
-use super::contact::{
-    ContactParameters, Damped, Elastic, HertzThreeHalves, Hysteresis, Liu, Power, Undamped, damping,
-};
+use super::contact::{ContactParameters, Damped, Elastic, HertzThreeHalves, Hysteresis, Liu, Power, Undamped, damping};
 use super::friction::{Ambrosio, Friction, FrictionParameters, Frictionless, Stribeck, Tanh};
 use crate::scene::{Contact, DampingLaw, Elasticity, FrictionLaw};
 
@@ -46,8 +44,7 @@ fn with_friction<K: KernelFamily, E: Elastic, D: Damped>(contact: &Contact) -> K
 /// σ_b + σ_j [1/Pa], σ = (1 − ν²)/E.
 pub fn compliance(contact: &Contact) -> f64 {
     let sigma = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;
-    sigma(contact.young.bearing, contact.poisson.bearing)
-        + sigma(contact.young.journal, contact.poisson.journal)
+    sigma(contact.young.bearing, contact.poisson.bearing) + sigma(contact.young.journal, contact.poisson.journal)
 }
 
 /// Numbers of a contact whose stiffness is `stiffness` and, for the conformal law, whose clearance

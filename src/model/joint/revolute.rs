@@ -69,9 +69,7 @@ fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64,
     let t = perp(n);
     let rate = play.rate.dot(&n);
     let to_contact = joint.radius - epsilon;
-    let sliding = || {
-        play.rate.dot(&t) + to_contact * play.journal_speed - joint.radius * play.bearing_speed
-    };
+    let sliding = || play.rate.dot(&t) + to_contact * play.journal_speed - joint.radius * play.bearing_speed;
     let (normal, tangential) = force::<E, D, F>(&joint.contact, per_approach, depth, rate, sliding);
     if F::PRESENT {
         Load {
@@ -103,12 +101,7 @@ impl Revolute {
         if joint.elasticity == Elasticity::Liu {
             contact.exponent = 1.5; // of small penetrations; the law itself has none
         }
-        Self {
-            radius: bearing,
-            clearance,
-            contact,
-            kernel: choose::<Family>(joint.elasticity, &joint.contact),
-        }
+        Self { radius: bearing, clearance, contact, kernel: choose::<Family>(joint.elasticity, &joint.contact) }
     }
 
     /// [m] δ, negative when open.

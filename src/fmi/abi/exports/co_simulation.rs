@@ -19,11 +19,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     _no_set_fmu_state_prior_to_current_point: fmi2Boolean,
 ) -> Status {
     // SAFETY: the importer vouches for `c`.
-    unsafe {
-        call(c, Call::DoStep, |instance| {
-            instance.do_step(current_communication_point, communication_step_size)
-        })
-    }
+    unsafe { call(c, Call::DoStep, |instance| instance.do_step(current_communication_point, communication_step_size)) }
 }
 
 /// No step is ever under way, so none can be canceled: the lifecycle refuses this in every state.
@@ -56,11 +52,7 @@ unsafe fn query<T: AnyBits>(
 
 /// Status of the last step.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut i32,
-) -> Status {
+pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut i32) -> Status {
     let ask = |instance: &Instance, kind| instance.step_status(kind).map(|status| status as i32);
     // SAFETY: passed on.
     unsafe { query(c, Call::GetStatus, s, value, ask) }
@@ -68,37 +60,21 @@ pub unsafe extern "C" fn fmi2GetStatus(
 
 /// The time that the last step reached.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut fmi2Real,
-) -> Status {
+pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> Status {
     // SAFETY: passed on.
     unsafe { query(c, Call::GetRealStatus, s, value, Instance::real_status) }
 }
 
 /// The standard has no integer status.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetIntegerStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut fmi2Integer,
-) -> Status {
+pub unsafe extern "C" fn fmi2GetIntegerStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Integer) -> Status {
     // SAFETY: passed on.
-    unsafe {
-        query(c, Call::GetIntegerStatus, s, value, |instance, kind| {
-            instance.no_status(kind)
-        })
-    }
+    unsafe { query(c, Call::GetIntegerStatus, s, value, |instance, kind| instance.no_status(kind)) }
 }
 
 /// Whether the instance wants the simulation to end.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBooleanStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut fmi2Boolean,
-) -> Status {
+pub unsafe extern "C" fn fmi2GetBooleanStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Boolean) -> Status {
     let ask = |instance: &Instance, kind| instance.boolean_status(kind).map(fmi2Boolean::from);
     // SAFETY: passed on.
     unsafe { query(c, Call::GetBooleanStatus, s, value, ask) }
@@ -106,15 +82,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
 
 /// The standard's only string status is about a step under way, and none ever is.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStringStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut fmi2String,
-) -> Status {
+pub unsafe extern "C" fn fmi2GetStringStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> Status {
     // SAFETY: passed on.
-    unsafe {
-        query(c, Call::GetStringStatus, s, value, |instance, kind| {
-            instance.no_status(kind)
-        })
-    }
+    unsafe { query(c, Call::GetStringStatus, s, value, |instance, kind| instance.no_status(kind)) }
 }

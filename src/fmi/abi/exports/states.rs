@@ -26,11 +26,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUst
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> Status {
     // SAFETY: the importer vouches for `c`; the state is looked up, not followed.
-    unsafe {
-        call(c, Call::SetFMUstate, |instance| {
-            instance.set_fmu_state(state.addr())
-        })
-    }
+    unsafe { call(c, Call::SetFMUstate, |instance| instance.set_fmu_state(state.addr())) }
 }
 
 /// Forgets a state and sets it to NULL; NULL, and NULL for the place, are allowed.
@@ -52,11 +48,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, state: *mut fmi2FMUs
 
 /// Number of bytes that the state takes.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    c: fmi2Component,
-    state: fmi2FMUstate,
-    size: *mut usize,
-) -> Status {
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: fmi2Component, state: fmi2FMUstate, size: *mut usize) -> Status {
     let tell = |instance: &mut Instance| {
         // SAFETY: the importer vouches for the place.
         let size = unsafe { place("size", size)? };
@@ -94,12 +86,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 ) -> Status {
     let read = |instance: &mut Instance| {
         // SAFETY: the importer vouches for `size` bytes and for the place.
-        let (bytes, state) = unsafe {
-            (
-                slice("serializedState", bytes.cast::<u8>(), size)?,
-                place("FMUstate", state)?,
-            )
-        };
+        let (bytes, state) =
+            unsafe { (slice("serializedState", bytes.cast::<u8>(), size)?, place("FMUstate", state)?) };
         *state = without_provenance_mut(instance.deserialize(bytes, state.addr())?);
         Ok(())
     };

@@ -17,9 +17,8 @@ pub unsafe extern "C" fn fmi2GetReal(
     value: *mut fmi2Real,
 ) -> Status {
     // SAFETY: the importer vouches for `nvr` entries of both arrays.
-    let get = |instance: &mut Instance| unsafe {
-        instance.get_real(slice("vr", vr, nvr)?, slice_mut("value", value, nvr)?)
-    };
+    let get =
+        |instance: &mut Instance| unsafe { instance.get_real(slice("vr", vr, nvr)?, slice_mut("value", value, nvr)?) };
     // SAFETY: the importer vouches for `c`.
     unsafe { call(c, Call::GetReal, get) }
 }
@@ -33,9 +32,8 @@ pub unsafe extern "C" fn fmi2SetReal(
     value: *const fmi2Real,
 ) -> Status {
     // SAFETY: the importer vouches for `nvr` entries of both arrays.
-    let set = |instance: &mut Instance| unsafe {
-        instance.set_real(slice("vr", vr, nvr)?, slice("value", value, nvr)?)
-    };
+    let set =
+        |instance: &mut Instance| unsafe { instance.set_real(slice("vr", vr, nvr)?, slice("value", value, nvr)?) };
     // SAFETY: the importer vouches for `c`.
     unsafe { call(c, Call::SetReal, set) }
 }
@@ -65,9 +63,8 @@ pub unsafe extern "C" fn fmi2SetInteger(
     value: *const fmi2Integer,
 ) -> Status {
     // SAFETY: the importer vouches for `nvr` entries of both arrays.
-    let set = |instance: &mut Instance| unsafe {
-        instance.set_integer(slice("vr", vr, nvr)?, slice("value", value, nvr)?)
-    };
+    let set =
+        |instance: &mut Instance| unsafe { instance.set_integer(slice("vr", vr, nvr)?, slice("value", value, nvr)?) };
     // SAFETY: the importer vouches for `c`.
     unsafe { call(c, Call::SetInteger, set) }
 }
@@ -97,9 +94,8 @@ pub unsafe extern "C" fn fmi2SetBoolean(
     value: *const fmi2Boolean,
 ) -> Status {
     // SAFETY: the importer vouches for `nvr` entries of both arrays.
-    let set = |instance: &mut Instance| unsafe {
-        instance.set_boolean(slice("vr", vr, nvr)?, slice("value", value, nvr)?)
-    };
+    let set =
+        |instance: &mut Instance| unsafe { instance.set_boolean(slice("vr", vr, nvr)?, slice("value", value, nvr)?) };
     // SAFETY: the importer vouches for `c`.
     unsafe { call(c, Call::SetBoolean, set) }
 }
@@ -167,11 +163,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> Status {
     // SAFETY: the importer vouches for `nvr` entries of the three arrays.
     let set = |instance: &mut Instance| unsafe {
-        instance.set_input_derivatives(
-            slice("vr", vr, nvr)?,
-            slice("order", order, nvr)?,
-            slice("value", value, nvr)?,
-        )
+        instance.set_input_derivatives(slice("vr", vr, nvr)?, slice("order", order, nvr)?, slice("value", value, nvr)?)
     };
     // SAFETY: the importer vouches for `c`.
     unsafe { call(c, Call::SetRealInputDerivatives, set) }

@@ -1,0 +1,126 @@
+//! The packaged FMU: its bytes are reproducible, its archive keeps FMI's rules, and a host can open and run it.
+
+use fmu_harness::host::{Archive, Description, Fmu, PLATFORM};
+use fmu_harness::inspect::declared;
+use fmu_harness::package::Package;
+use fmu_harness::run::{Experiment, Until, run};
+use fmu_harness::scenes::Scenario;
+use std::path::PathBuf;
+use std::sync::OnceLock;
+use tempfile::TempDir;
+
+fn scenario() -> Scenario {
+    Scenario::find("wornpin").expect("a shipped scene")
+}
+
+/// Packaged once for all tests.
+fn package() -> &'static [u8] {
+    static PACKAGE: OnceLock<Vec<u8>> = OnceLock::new();
+    PACKAGE.get_or_init(|| Package::make(&scenario()).expect("a package").bytes)
+}
+
+fn saved() -> (TempDir, PathBuf) {
+    let directory = TempDir::new().expect("a directory");
+    let file = directory.path().join("wornpin.fmu");
+    std::fs::write(&file, package()).expect("written");
+    (directory, file)
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes_and_another_gives_others() {
+    assert!(Package::make(&scenario()).expect("a package").bytes == package());
+    let ideal = Scenario::find("ideal").expect("a shipped scene");
+    assert!(Package::make(&ideal).expect("a package").bytes != package());
+}
+
+/// FMI 2.0.5 §2.3, read from the archive's raw headers: PKWARE's APPNOTE 4.3.12, central directory.
+#[test]
+fn the_archive_keeps_the_rules() {
+    let bytes = package();
+    let number = |at: usize, length: usize| (0..length).rev().fold(0, |n, i| n << 8 | usize::from(bytes[at + i]));
+    let end = bytes.len() - 22;
+    assert_eq!(&bytes[end..end + 4], b"PK\x05\x06", "no comment behind the directory");
+    let (count, mut at) = (number(end + 10, 2), number(end + 16, 4));
+    for _ in 0..count {
+        assert_eq!(&bytes[at..at + 4], b"PK\x01\x02");
+        let name = std::str::from_utf8(&bytes[at + 46..at + 46 + number(at + 28, 2)]).expect("UTF-8");
+        let (flags, method) = (number(at + 8, 2), number(at + 10, 2));
+        assert!(method == 0 || method == 8, "{name}: method {method}");
+        assert!(flags & 1 << 3 == 0 || method == 8, "{name}: bit 3 without deflate");
+        assert_eq!(flags & 1, 0, "{name}: encrypted");
+        assert!(!name.contains('\\') && !name.starts_with('/') && !name.contains(".."), "{name}");
+        let mode = number(at + 38, 4) >> 16;
+        assert_eq!(mode, 0o100_644, "{name}: a plain file, readable");
+        let (time, date) = (number(at + 12, 2), number(at + 14, 2));
+        assert_eq!((time, date), (0, 1 << 5 | 1), "{name}: dated 1980-01-01");
+        at += 46 + number(at + 28, 2) + number(at + 30, 2) + number(at + 32, 2);
+    }
+    assert_eq!(at, end, "the directory ends where the end record begins");
+}
+
+#[test]
+fn everything_is_in_the_archive_and_the_description_is_first() {
+    let (_directory, file) = saved();
+    let archive = Archive::open(&file).expect("an archive");
+    let names = archive.names();
+    let binary = format!("binaries/{PLATFORM}/SliderCrank{}", std::env::consts::DLL_SUFFIX);
+    let wanted = [
+        "modelDescription.xml",
+        "model.png",
+        &binary,
+        "documentation/index.html",
+        "documentation/scene.toml",
+        "documentation/licenses/license.txt",
+        "documentation/licenses/third-party.txt",
+    ];
+    assert_eq!(names, wanted);
+}
+
+#[test]
+fn no_byte_tells_where_it_was_built() {
+    let (directory, file) = saved();
+    Archive::open(&file).expect("an archive").unpack(directory.path()).expect("unpacked");
+    let workspace = fmu_harness::package::build::workspace();
+    let home = std::env::home_dir().expect("a home").join(".cargo");
+    for entry in Archive::open(&file).expect("an archive").names() {
+        let bytes = std::fs::read(directory.path().join(&entry)).expect("read");
+        for place in [&workspace, &home] {
+            let place = place.to_string_lossy().into_owned().into_bytes();
+            assert!(!bytes.windows(place.len()).any(|window| window == place), "{entry} names {place:?}");
+        }
+    }
+}
+
+#[test]
+fn the_packaged_file_runs_and_its_start_values_are_the_scene() {
+    let (_directory, file) = saved();
+    let fmu = Fmu::open(&file).expect("an FMU");
+    let until = Until::Turns { turns: 0.1, latest: 1.0 };
+    let experiment = Experiment { settings: vec![], inputs: vec![], start: 0.0, until, step: 1e-5, tolerance: None };
+    let recording =
+        run(&fmu, &experiment, |line| assert!(line.message.is_empty(), "{}", line.message), |_| {}).expect("a run");
+    assert_eq!(recording.parameter("joint.C.model"), Some(2.0));
+    for variable in fmu.description().variables.iter().filter(|variable| variable.causality() == "parameter") {
+        let declared = variable.of_kind.get("start").expect("a start value");
+        let declared = declared.parse().unwrap_or(f64::from(u8::from(declared == "true")));
+        assert_eq!(recording.parameter(&variable.name), Some(declared), "{}", variable.name);
+    }
+    let angle = recording.column("crank.angle").expect("an angle").last().copied();
+    assert!(angle.is_some_and(|angle| (0.1..0.101).contains(&(angle / std::f64::consts::TAU))));
+}
+
+#[test]
+fn inspection_tells_names_units_and_capabilities() {
+    let (_directory, file) = saved();
+    let mut archive = Archive::open(&file).expect("an archive");
+    let description = Description::parse(&archive.description().expect("text")).expect("a description");
+    let text = declared(&description, &archive.platforms(), &archive.names());
+    let line =
+        |start: &str| text.lines().map(str::trim).find(|line| line.starts_with(start)).unwrap_or_default().to_owned();
+    assert_eq!(line("model:"), "model: SliderCrank");
+    assert!(line("binaries:").contains(PLATFORM));
+    assert!(line("canGetAndSetFMUstate").ends_with("true"));
+    let clearance: Vec<String> = line("joint.C.clearance ").split_whitespace().map(str::to_owned).collect();
+    assert_eq!(clearance[2..6], ["parameter", "fixed", "Real", "0.0005"]);
+    assert!(line("joint.C.model").contains("clearance"), "an enumeration's start by its name");
+}

@@ -1,0 +1,43 @@
+//! One value of a scene file: a number in SI units, or a text with a unit.
+
+use super::problem::Fault;
+use super::units::{alternatives, quantity};
+use toml::Spanned;
+use toml::de::DeValue;
+
+/// A value with its place in the file.
+pub(super) type Value<'i> = Spanned<DeValue<'i>>;
+
+/// A number in SI units, from a number or from a text with a unit.
+pub(super) fn number(text: &str, key: &str, value: &Value, unit: &str) -> Result<f64, Fault> {
+    let wrong = || Fault::Type {
+        key: key.to_owned(),
+        found: source(text, value),
+        wanted: match unit {
+            "1" => "a number".to_owned(),
+            _ => format!("a number in {unit} or a text with a unit"),
+        },
+    };
+    let number: f64 = match value.get_ref() {
+        DeValue::Float(float) => float.as_str().parse().map_err(|_| wrong())?,
+        DeValue::Integer(integer) => {
+            i64::from_str_radix(integer.as_str(), integer.radix()).map(|integer| integer as f64).map_err(|_| wrong())?
+        }
+        DeValue::String(quoted) => quantity(quoted, unit).map_err(|why| Fault::Unit {
+            key: key.to_owned(),
+            found: source(text, value),
+            why,
+            units: alternatives(unit).join(", "),
+        })?,
+        _ => return Err(wrong()),
+    };
+    number.is_finite().then_some(number).ok_or_else(wrong)
+}
+
+/// A value as it stands in the file, cut at its first line.
+pub(super) fn source(text: &str, value: &Value) -> String {
+    let whole = text.get(value.span()).unwrap_or_default();
+    let mut lines = whole.lines();
+    let first = lines.next().unwrap_or_default().to_owned();
+    if lines.next().is_some() { first + " ..." } else { first }
+}

@@ -1,0 +1,47 @@
+//! Scene → scene file, complete and in SI units: for keeping a scene that a program made.
+
+use super::parameter::{Kind, PARAMETERS};
+use super::profile::Profile;
+use super::read::SceneFile;
+use super::run::End;
+use std::fmt::Write;
+
+/// The text that `read` turns back into the same scene, to the bit.
+pub fn write(file: &SceneFile) -> String {
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let mut out = String::new();
+    line(&mut out, "name", &quoted(&file.name));
+    line(&mut out, "description", &quoted(&file.description));
+    match file.run.end {
+        End::Turns(turns) => line(&mut out, "run.turns", &format!("{turns:?}")),
+        End::Time(time) => line(&mut out, "run.stop", &format!("{time:?}")),
+    }
+    line(&mut out, "run.step", &format!("{:?}", file.run.step));
+    line(&mut out, "crank.torque", &profile(&file.inputs.crank_torque));
+    line(&mut out, "slider.load", &profile(&file.inputs.slider_load));
+    for parameter in PARAMETERS {
+        let value = match parameter.kind {
+            Kind::Real { get, .. } => format!("{:?}", get(&file.scene)),
+            Kind::Enumeration { items, get, .. } => {
+                let item = items.iter().find(|(_, value)| *value == get(&file.scene));
+                quoted(item.map_or("", |(name, _)| *name))
+            }
+        };
+        line(&mut out, parameter.name, &value);
+    }
+    out
+}
+
+fn profile(profile: &Profile) -> String {
+    match profile {
+        Profile::Constant(value) => format!("{value:?}"),
+        Profile::Points { against, points } => {
+            format!("{{ against = {:?}, points = {points:?} }}", against.name())
+        }
+    }
+}
+
+fn line(out: &mut String, key: &str, value: &str) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(out, "{key} = {value}");
+}

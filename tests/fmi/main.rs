@@ -1,0 +1,16 @@
+//! The FMI face as an importer sees it: through the C functions.
+#![allow(unsafe_code, reason = "the tests call the C functions")]
+#![allow(clippy::panic, reason = "a test that cannot go on")]
+
+mod host;
+
+mod derivatives;
+mod hostile;
+mod instantiate;
+mod library;
+mod lifecycle;
+mod logging;
+mod states;
+mod steps;
+mod threads;
+mod values;

@@ -1,0 +1,174 @@
+//! Communication points, stop time, and steps that fail.
+
+use crate::host::Slave;
+use slidercrank::fmi::Status;
+
+/// The next number above.
+fn up(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() + 1)
+}
+
+/// Initialized without stop or with one.
+fn from_to(start: f64, stop: Option<f64>) -> Slave {
+    let slave = Slave::new();
+    let setup = slave.setup_raw(0, 0.0, start, i32::from(stop.is_some()), stop.unwrap_or(0.0));
+    assert_eq!(setup, Status::Ok);
+    assert_eq!(slave.set("crank.speed_start", 100.0), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    slave
+}
+
+#[test]
+fn a_step_that_does_not_go_forward_is_refused_and_changes_nothing() {
+    let slave = from_to(0.0, None);
+    for size in [0.0, -0.0, -1e-3, f64::NEG_INFINITY] {
+        assert_eq!(slave.step(0.0, size), Status::Error);
+        assert!(slave.log.only().text.contains("communicationStepSize"));
+    }
+    assert_eq!(slave.step(0.0, 1e-3), Status::Ok);
+}
+
+#[test]
+fn communication_points_may_differ_by_rounding() {
+    let slave = from_to(0.0, None);
+    let (h, n) = (1.0 / 60.0, 600);
+    let mut sum = 0.0;
+    for i in 0..n {
+        // One importer multiplies, the other adds up; this one does both by turns.
+        let point = if i % 2 == 0 { f64::from(i) * h } else { sum };
+        assert_eq!(slave.step(point, h), Status::Ok, "{:?}", slave.log.take());
+        sum += h;
+    }
+    assert!((slave.last_time() - 10.0).abs() < 1e-9);
+    assert_eq!(slave.step(up(up(slave.last_time())), up(h)), Status::Ok);
+}
+
+#[test]
+fn time_is_the_importers() {
+    let slave = from_to(0.0, None);
+    let h = 0.009_999_999_999_999_3;
+    let point = slave.steps(0.0, h, 1000);
+    assert_eq!(slave.last_time().to_bits(), point.to_bits());
+}
+
+#[test]
+fn another_communication_point_is_refused_and_changes_nothing() {
+    let slave = from_to(1.0, None);
+    let point = slave.steps(1.0, 1e-3, 3);
+    let before = slave.picture();
+    for elsewhere in [1.0, point - 1e-3, point + 1e-3, point + 1e-6, -point, 0.0] {
+        assert_eq!(slave.step(elsewhere, 1e-3), Status::Error);
+        let text = slave.log.only().text;
+        assert!(text.contains("currentCommunicationPoint") && text.contains(&format!("{point:?}")), "{text}");
+    }
+    assert_eq!(slave.picture(), before);
+    slave.steps(point, 1e-3, 1);
+}
+
+#[test]
+fn a_defined_stop_time_bounds_the_last_step_up_to_rounding() {
+    let slave = from_to(0.0, Some(1.0));
+    let point = slave.steps(0.0, 0.1, 9);
+    assert_eq!(slave.step(point, 0.2), Status::Error);
+    assert!(slave.log.only().text.contains("stopTime"));
+    assert_eq!(slave.step(point, up(0.1)), Status::Ok);
+    assert_eq!(slave.step(slave.last_time(), 1e-3), Status::Error);
+    assert!(slave.log.only().text.contains("stopTime"));
+    assert_eq!(slave.terminate(), Status::Ok);
+}
+
+#[test]
+fn an_undefined_stop_time_means_nothing() {
+    let slave = Slave::new();
+    assert_eq!(slave.setup_raw(0, 0.0, 0.0, 0, 1.0), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    slave.steps(0.0, 0.5, 10);
+}
+
+#[test]
+fn a_stop_before_the_start_and_a_tolerance_of_nothing_are_refused() {
+    let slave = Slave::new();
+    assert_eq!(slave.setup_raw(0, 0.0, 2.0, 1, 1.0), Status::Error);
+    assert!(slave.log.only().text.contains("stopTime"));
+    for tolerance in [0.0, -1e-6] {
+        assert_eq!(slave.setup_raw(1, tolerance, 0.0, 0, 0.0), Status::Error);
+        assert!(slave.log.only().text.contains("tolerance"));
+    }
+    assert_eq!(slave.setup_raw(1, 1e-30, 0.0, 0, 0.0), Status::Warning);
+    let line = slave.log.only();
+    assert_eq!((line.status, line.category.as_str()), (1, "logStatusWarning"));
+    assert!(line.text.contains("1e-30"), "{line:?}");
+}
+
+#[test]
+fn the_experiments_tolerance_comes_before_the_scenes() {
+    let evaluations = |own: f64, experiment: Option<f64>| {
+        let slave = Slave::new();
+        let defined = i32::from(experiment.is_some());
+        assert_eq!(slave.setup_raw(defined, experiment.unwrap_or(1e-2), 0.0, 0, 0.0), Status::Ok);
+        slave.wear();
+        assert_eq!(slave.set("solver.tolerance", own), Status::Ok);
+        assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+        slave.steps(0.0, 0.01, 1);
+        (slave.get_integer("solver.evaluations"), slave.picture())
+    };
+    assert_eq!(evaluations(1e-4, Some(1e-9)), evaluations(1e-9, None));
+    assert!(evaluations(1e-4, None).0 < evaluations(1e-9, None).0);
+}
+
+#[test]
+fn a_step_below_the_rounding_of_time_is_a_step() {
+    let slave = from_to(1000.0, None);
+    assert_eq!(slave.step(1000.0, 1e-20), Status::Ok);
+    assert_eq!(slave.last_time(), 1000.0);
+    slave.steps(1000.0, 1e-3, 2);
+}
+
+#[test]
+fn a_failed_step_is_told_undone_and_redone() {
+    let slave = Slave::running();
+    let point = slave.steps(0.0, 1e-3, 5);
+    let saved = slave.save();
+    let before = slave.picture();
+    // More than a floating-point number can hold once it is divided by a mass.
+    assert_eq!(slave.set("slider.load", 1e308), Status::Ok);
+    assert_eq!(slave.step(point, 1e-3), Status::Discard);
+    let line = slave.log.only();
+    assert_eq!((line.status, line.category.as_str()), (2, "logStatusDiscard"));
+    assert!(slave.last_time() >= point && slave.last_time() < point + 1e-3);
+    let (mut status, mut terminated) = (-1, -1);
+    // SAFETY: live component, one place each.
+    unsafe {
+        assert_eq!((slave.api.GetStatus)(slave.c, 0, &mut status), Status::Ok);
+        assert_eq!((slave.api.GetBooleanStatus)(slave.c, 3, &mut terminated), Status::Ok);
+    }
+    assert_eq!((status, terminated), (2, 0));
+    assert_eq!(slave.step(point, 1e-3), Status::Error);
+    slave.log.take();
+    assert!(slave.try_get("crank.angle").is_ok());
+    assert_eq!(slave.set_state(saved), Status::Ok);
+    assert_eq!(slave.picture(), before);
+    slave.steps(point, 1e-3, 5);
+    let reference = Slave::running();
+    reference.steps(0.0, 1e-3, 10);
+    assert_eq!(slave.picture(), reference.picture());
+}
+
+#[test]
+fn a_failed_step_can_be_followed_by_a_reset() {
+    let slave = Slave::running();
+    assert_eq!(slave.set("slider.load", 1e308), Status::Ok);
+    assert_eq!(slave.step(0.0, 1e-3), Status::Discard);
+    assert_eq!(slave.reset(), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    slave.steps(0.0, 1e-3, 2);
+}
+
+#[test]
+fn how_an_interval_is_split_does_not_matter_to_the_bit() {
+    let (fine, coarse) = (Slave::running(), Slave::running());
+    // Powers of two, so that both importers' points are the same numbers.
+    fine.steps(0.0, 1.0 / 16384.0, 256);
+    coarse.steps(0.0, 1.0 / 256.0, 4);
+    assert_eq!(fine.picture(), coarse.picture());
+}

@@ -1,0 +1,163 @@
+//! The model description against the standard's rules, those above all that the usual validators
+//! let pass. Each rule is shown to catch its fault: a check that never fires proves nothing.
+
+mod rules;
+
+use rules::problems;
+use slidercrank::fmi::description::{declared_experiment, documentation, model_description};
+use slidercrank::fmi::variables::{Access, LogCategory, VARIABLES};
+use slidercrank::model_description::rows::read;
+use slidercrank::scene::{PARAMETERS, Scene, slot};
+use std::{env, fs};
+
+const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/modelDescription.xml");
+const ROWS: &str = include_str!("../../modelDescription/variables.toml");
+
+fn made() -> String {
+    model_description(&Scene::default(), None, None).expect("the declared description")
+}
+
+#[test]
+fn the_committed_copy_is_fresh() {
+    if env::var_os("BLESS").is_some() {
+        fs::write(COMMITTED, made()).expect("modelDescription.xml written");
+    }
+    let committed = fs::read_to_string(COMMITTED).unwrap_or_default();
+    assert!(committed == made(), "modelDescription.xml is stale: run the tests once with BLESS=1");
+}
+
+#[test]
+fn the_description_breaks_no_rule() {
+    assert_eq!(problems(&made()), Vec::<String>::new());
+    let mut scene = Scene::default();
+    for parameter in PARAMETERS {
+        // Edges of the ranges are legal start values too.
+        if let slidercrank::scene::parameter::Kind::Real { max, .. } = parameter.kind {
+            parameter.write(&mut scene, max).expect("the greatest legal value");
+        }
+    }
+    let dated = model_description(&scene, None, Some(1_767_225_599)).expect("a description");
+    assert_eq!(problems(&dated), Vec::<String>::new());
+    assert!(dated.contains("generationDateAndTime=\"2025-12-31T23:59:59Z\""));
+}
+
+/// What stands in the description, what replaces it, and a word of the complaint.
+const SEEDS: [(&str, &str, &str); 22] = [
+    ("unit=\"N.m\" nominal", "unit=\"N.mm\" nominal", "unit"),
+    ("<Unit name=\"rad\">", "<Unit name=\"m\">", "twice"),
+    ("displayUnit=\"mm\" nominal", "displayUnit=\"inch\" nominal", "displayUnit"),
+    (
+        "<Real quantity=\"Angle\" unit=\"rad\" displayUnit=\"deg\"/>",
+        "<Real quantity=\"Angle\" unit=\"rad\" displayUnit=\"gon\"/>",
+        "displayUnit",
+    ),
+    ("<InitialUnknowns>", "<InitialUnknowns><Unknown index=\"1\"/>", "InitialUnknowns"),
+    ("valueReference=\"7\"", "valueReference=\"6\"", "valueReference"),
+    ("min=\"0.0001\" max=\"100.0\" start=\"0.05\"", "min=\"0.06\" max=\"100.0\" start=\"0.05\"", "start"),
+    ("name=\"slider.y\"", "name=\"slider.x\"", "twice"),
+    ("name=\"slider.y\"", "name=\"slider.2y\"", "structured"),
+    ("dependencies=\"1 2\"", "dependencies=\"1 2000\"", "dependencies"),
+    ("dependencies=\"1 2\"", "dependencies=\"2 1\"", "dependencies"),
+    ("dependencies=\"1 2\"", "dependencies=\"1 5\"", "dependencies"),
+    ("variableNaming", "generationDateAndTime=\"2026-01-01T00:00:00+00:00\" variableNaming", "date"),
+    ("declaredType=\"Torque\"", "declaredType=\"Torc\"", "declaredType"),
+    ("<Outputs>\n      <Unknown index=\"3\" dependencies=\"\"/>", "<Outputs>", "Outputs"),
+    ("nominal=\"100.0\" start=\"0.0\"", "nominal=\"100.0\"", "start"),
+    (
+        "variability=\"continuous\" initial=\"calculated\"",
+        "variability=\"tunable\" initial=\"calculated\"",
+        "variability",
+    ),
+    (" start=\"0.05\"", "", "start"),
+    ("modelIdentifier=\"SliderCrank\"", "modelIdentifier=\"Slider-Crank\"", "modelIdentifier"),
+    ("stopTime=\"1.0\"", "stopTime=\"-1.0\"", "stopTime"),
+    ("<SimpleType name=\"Force\"", "<SimpleType name=\"gravity\"", "declaredType"),
+    ("<Category name=\"logAll\"", "<Category name=\"logStatusError\"", "twice"),
+];
+
+#[test]
+fn each_seeded_fault_is_caught() {
+    let xml = made();
+    for (from, to, word) in SEEDS {
+        assert!(xml.contains(from), "{from} is not in the description");
+        let found = problems(&xml.replacen(from, to, 1));
+        assert!(found.iter().any(|problem| problem.contains(word)), "{to}: {found:?}");
+    }
+}
+
+#[test]
+fn value_references_and_tables_are_those_of_the_description() {
+    let xml = made();
+    let document = roxmltree::Document::parse(&xml).expect("well-formed XML");
+    let scalars: Vec<_> = document.descendants().filter(|node| node.has_tag_name("ScalarVariable")).collect();
+    assert_eq!(scalars.len(), VARIABLES.len());
+    for (index, (scalar, variable)) in scalars.iter().zip(VARIABLES).enumerate() {
+        assert_eq!(scalar.attribute("valueReference"), Some(index.to_string().as_str()));
+        assert_eq!(scalar.attribute("name"), Some(variable.name));
+        let causality = match &variable.access {
+            Access::Input { .. } => "input",
+            Access::Parameter(parameter) => {
+                assert_eq!(parameter.name, variable.name);
+                "parameter"
+            }
+            _ => "output",
+        };
+        assert_eq!(scalar.attribute("causality"), Some(causality));
+    }
+    let categories: Vec<_> = document.descendants().filter(|node| node.has_tag_name("Category")).collect();
+    let names: Vec<_> = categories.iter().filter_map(|node| node.attribute("name")).collect();
+    assert_eq!(names, LogCategory::ALL.iter().map(|category| category.name()).collect::<Vec<_>>());
+}
+
+#[test]
+fn start_values_and_guid_follow_the_scene() {
+    let mut scene = Scene::default();
+    scene.crank.length = 0.0625;
+    let mut experiment = declared_experiment().expect("the declared experiment");
+    experiment.stop = 0.24;
+    let xml = model_description(&scene, Some(experiment), None).expect("a description");
+    assert!(xml.contains("start=\"0.0625\""));
+    assert!(xml.contains("stopTime=\"0.24\""));
+    assert!(xml.contains(&slot::guid(&scene)));
+    assert!(!made().contains(&slot::guid(&scene)));
+    assert!(made().contains(&slot::guid(&Scene::default())));
+}
+
+#[test]
+fn the_page_names_every_variable_and_leaves_no_place_unfilled() {
+    let page = documentation(&Scene::default(), "declared defaults").expect("the page");
+    assert!(!page.contains("{{") && !page.contains("{J}"));
+    for variable in VARIABLES {
+        let template = ["A", "B", "C", "T"]
+            .iter()
+            .fold(variable.name.to_owned(), |name, letter| name.replace(&format!("joint.{letter}."), "joint.J."));
+        let named = [variable.name, &template].iter().any(|name| page.contains(&format!("<code>{name}</code>")));
+        assert!(named, "{}", variable.name);
+    }
+}
+
+/// What stands in the declaration, what replaces it, and the complaint.
+const WRONG_ROWS: [(&str, &str, &str); 9] = [
+    ("causality = \"input\"", "causality = \"local\"", "cannot be local, continuous and Torque"),
+    ("type = \"Boolean\", field", "type = \"Torque\", field", "cannot be output, discrete and Torque"),
+    ("start = 0.05, min = 1e-4", "start = 0.05, min = 0.1", "not min <= start <= max and nominal > 0"),
+    ("start = 0.05, min = 1e-4", "min = 1e-4", "`start` is missing"),
+    ("start = 0.05, min = 1e-4, ", "start = 0.05, ", "`min` is missing"),
+    ("name = \"slider.v\"", "name = \"slider.x\"", "`slider.x` is declared twice"),
+    ("name = \"slider.v\"", "name = \"slider v\"", "`slider v` is not a structured name"),
+    ("at_start = [\"crank.angle_start\"]", "at_start = [\"crank.angel\"]", "`crank.angel` is not declared"),
+    ("start = \"verner7\"", "start = \"verner9\"", "`verner9` is not declared"),
+];
+
+#[test]
+fn a_wrong_row_is_refused_with_its_line() {
+    for (from, to, complaint) in WRONG_ROWS {
+        let (before, _) = ROWS.split_once(from).expect("a part of the declaration");
+        let error = read(&ROWS.replacen(from, to, 1)).err().expect("a wrong row").to_string();
+        assert!(error.ends_with(complaint), "{error}");
+        let line = before.matches('\n').count() + 1;
+        // A group's causality is found wrong at the group's first row, three lines on.
+        let lines = [line, line + 3].map(|line| format!("variables.toml:{line}: "));
+        assert!(lines.iter().any(|line| error.contains(line)), "{error}");
+    }
+}

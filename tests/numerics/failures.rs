@@ -1,0 +1,117 @@
+//! When the integrator gives up: the right error, at the right time, with the state intact.
+
+use super::free::Free;
+use slidercrank::integrator::methods::{Dopri5, Rk4, Verner7};
+use slidercrank::integrator::{Crossed, GUARDS, Guard, IntegrationError, Integrator, Problem, Reset, Settings};
+
+const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3 };
+
+#[test]
+fn rates_that_are_not_a_number_at_the_start_are_named() {
+    let problem =
+        Free { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a.copy_from_slice(&[1.0, f64::NAN]) };
+    let start = [1.0, 2.0, 3.0, 4.0];
+    let mut integrator = Integrator::<4, (), Verner7>::start(&problem, SETTINGS, 5.0, start, ());
+    let error = integrator.advance(&problem, 6.0);
+    assert_eq!(error, Err(IntegrationError::NotFinite { time: 5.0, component: 3 }));
+    assert_eq!(integrator.state_at(&problem, 5.0).0, start);
+}
+
+#[test]
+fn a_wall_of_nans_is_approached_and_the_step_runs_out() {
+    let wall = 0.5;
+    let problem = Free {
+        accelerations: move |t: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = if t < wall { 2.0 } else { f64::NAN },
+    };
+    let mut integrator = Integrator::<2, (), Verner7>::start(&problem, SETTINGS, 0.0, [0.0, 0.0], ());
+    let error = integrator.advance(&problem, 1.0).expect_err("there is no way on");
+    let IntegrationError::StepUnderflow { time, step, .. } = error else {
+        unreachable!("{error}");
+    };
+    assert!(time < wall && wall - time <= 4.0 * f64::EPSILON && step < f64::EPSILON, "{error:?}");
+    // q = t²: what was reached before the wall stays exact and can still be asked for.
+    let ([q, v], ()) = integrator.state_at(&problem, time);
+    let bound = 1e3 * f64::EPSILON;
+    assert!((q - time * time).abs() < bound && (v - 2.0 * time).abs() < bound, "{q}, {v} at {time}");
+    // And it gives up again where it gave up before.
+    assert_eq!(integrator.advance(&problem, 1.0).map_err(|error| error.time()), Err(time));
+}
+
+#[test]
+fn a_state_that_blows_up_stops_where_it_does() {
+    // v̇ = v²: v = 1/(1 − t).
+    let problem = Free { accelerations: |_: f64, _: &[f64], v: &[f64], a: &mut [f64]| a[0] = v[0] * v[0] };
+    let mut integrator = Integrator::<2, (), Dopri5>::start(&problem, SETTINGS, 0.0, [0.0, 1.0], ());
+    let error = integrator.advance(&problem, 2.0).expect_err("there is nothing beyond");
+    assert!((error.time() - 1.0).abs() < 1e-7, "{error:?}");
+    let front = integrator.memory().front;
+    assert_eq!(front.t, error.time());
+    assert!(front.y.iter().all(|y| y.is_finite()), "{front:?}");
+}
+
+#[test]
+fn a_fixed_step_into_a_wall_underflows_too() {
+    let problem = Free {
+        accelerations: |t: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = if t < 0.5 { 2.0 } else { f64::NAN },
+    };
+    let mut integrator = Integrator::<2, (), Rk4>::start(&problem, SETTINGS, 0.0, [0.0, 0.0], ());
+    let error = integrator.advance(&problem, 1.0).expect_err("there is no way on");
+    assert!(matches!(error, IntegrationError::StepUnderflow { time, .. } if (time - 0.5).abs() < 1e-12), "{error:?}");
+}
+
+/// A fall onto a floor that no event clears: the guard is still below zero after each.
+struct Stuck;
+
+impl Problem<2> for Stuck {
+    type Modes = ();
+
+    fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
+        *rates = [y[1], -2.0];
+    }
+
+    fn scales(&self) -> &[f64; 2] {
+        &[1.0, 1.0]
+    }
+
+    fn longest_step(&self) -> f64 {
+        1.0
+    }
+
+    fn guard_count(&self) -> usize {
+        2
+    }
+
+    fn guards(&self, (): &(), _: f64, y: &[f64; 2], guards: &mut [Guard; GUARDS]) {
+        guards[0] = Guard { value: 1.0, rate: 0.0 };
+        guards[1] = Guard { value: y[0], rate: y[1] };
+    }
+
+    fn guard_scale(&self) -> f64 {
+        1.0
+    }
+
+    fn cross(&self, (): &(), _: f64, _: &[f64; 2], _: &Crossed) -> Reset<()> {
+        Reset { modes: (), step: None }
+    }
+}
+
+#[test]
+fn events_without_end_are_refused_where_they_happen() {
+    let mut integrator = Integrator::<2, (), Verner7>::start(&Stuck, SETTINGS, 0.0, [1.0, 0.0], ());
+    let error = integrator.advance(&Stuck, 3.0).expect_err("the floor is never passed");
+    assert!(matches!(error, IntegrationError::EventsAccumulate { guard: 1, .. }), "{error:?}");
+    assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
+    // There, q = 1 − t².
+    let t = error.time();
+    let ([q, v], ()) = integrator.state_at(&Stuck, t);
+    assert!((q - (1.0 - t * t)).abs() < 1e-13 && (v + 2.0 * t).abs() < 1e-13, "{q}, {v} at {t}");
+}
+
+#[test]
+fn errors_say_what_where_and_how_much() {
+    let error = IntegrationError::StepUnderflow { time: 0.1234, step: 3.1e-18, component: 2 };
+    assert_eq!(error.to_string(), "a step of 3.1e-18 s no longer moves time; component 2 sets the error");
+    assert_eq!(error.time(), 0.1234);
+    let error = IntegrationError::EventsAccumulate { time: 2.0, guard: 4 };
+    assert_eq!(error.to_string(), "events accumulate; the last was of guard 4");
+}

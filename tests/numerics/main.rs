@@ -1,0 +1,9 @@
+//! The integrator on problems with known answers.
+
+mod dense_output;
+mod events;
+mod failures;
+mod free;
+mod order;
+mod polynomials;
+mod step_control;

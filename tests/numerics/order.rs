@@ -1,0 +1,89 @@
+//! The order of each method and of its error estimate, by a fit on measured errors.
+
+use super::free::{Free, distance, kepler, orbit, power};
+use slidercrank::integrator::Method;
+use slidercrank::integrator::Problem;
+use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
+use slidercrank::integrator::stages::{Attempt, attempt};
+
+const ECCENTRICITY: f64 = 0.2;
+/// No round part of an orbit, over which errors might cancel.
+const END: f64 = 4.0;
+
+fn step<M: Method>(t: f64, y: &[f64; 4], h: f64) -> Attempt<4> {
+    let problem = Free { accelerations: kepler };
+    let mut rates = [0.0; 4];
+    problem.rates(&(), t, y, &mut rates);
+    attempt::<4, M, _>(&problem, &(), t, y, &rates, h)
+}
+
+/// Error at the end of this many equal steps.
+fn orbit_error<M: Method>(steps: u32) -> f64 {
+    let h = END / f64::from(steps);
+    let mut y = orbit(ECCENTRICITY, 0.0);
+    for i in 0..steps {
+        y = step::<M>(f64::from(i) * h, &y, h).y;
+    }
+    distance(&y, &orbit(ECCENTRICITY, END))
+}
+
+/// Within ±0.1 the measured order is the tableau's.
+fn has_its_order<M: Method>(steps: &[u32]) {
+    let points: Vec<_> = steps.iter().map(|&n| (f64::from(n).recip(), orbit_error::<M>(n))).collect();
+    let order = power(&points);
+    let wanted = f64::from(M::TABLEAU.order);
+    println!("{}: order {order:.3}, errors {:.1e} to {:.1e}", M::NAME, points[0].1, points[points.len() - 1].1);
+    assert!((order - wanted).abs() < 0.1, "{}: order {order}", M::NAME);
+}
+
+#[test]
+fn the_error_of_an_orbit_falls_with_the_order() {
+    has_its_order::<Rk4>(&[400, 560, 800, 1120]);
+    has_its_order::<Dopri5>(&[150, 200, 280, 400]);
+    has_its_order::<Verner7>(&[60, 75, 95, 120]);
+    has_its_order::<Dop853>(&[40, 48, 58, 70]);
+}
+
+/// Root of the summed squares.
+fn size(error: &[f64; 4]) -> f64 {
+    error.iter().map(|e| e * e).sum::<f64>().sqrt()
+}
+
+/// The estimate as the controller weighs it: the coarse one keeps the fine one up.
+fn estimate<M: Method>(h: f64) -> f64 {
+    let made = step::<M>(0.7, &orbit(ECCENTRICITY, 0.7), h);
+    let fine = size(&made.error);
+    match made.coarse_error {
+        None => fine,
+        Some(coarse) => fine * fine / (fine * fine + 0.01 * size(&coarse).powi(2)).sqrt(),
+    }
+}
+
+#[test]
+fn the_error_estimate_falls_with_the_power_that_the_controller_reckons_with() {
+    fn falls<M: Method>(steps: [f64; 4]) {
+        let points = steps.map(|h| (h, estimate::<M>(h)));
+        let found = power(&points);
+        println!("{}: estimate falls with h^{found:.3}", M::NAME);
+        assert!((found - M::TABLEAU.error_power).abs() < 0.1, "{}: power {found}", M::NAME);
+    }
+    falls::<Dopri5>([0.01, 0.012, 0.015, 0.02]);
+    falls::<Verner7>([0.02, 0.024, 0.03, 0.04]);
+    falls::<Dop853>([0.02, 0.024, 0.03, 0.04]);
+}
+
+#[test]
+fn the_estimate_is_at_least_as_large_as_the_error_of_the_step() {
+    fn covers<M: Method>(h: f64) {
+        for start in [0.0, 0.7, 1.9, 3.0, 4.4] {
+            let made = step::<M>(start, &orbit(ECCENTRICITY, start), h);
+            let exact = orbit(ECCENTRICITY, start + h);
+            let difference: [f64; 4] = std::array::from_fn(|i| made.y[i] - exact[i]);
+            let (error, estimate) = (size(&difference), estimate::<M>(h).min(size(&made.error)));
+            assert!(error <= estimate, "{}: error {error:e}, estimate {estimate:e}", M::NAME);
+        }
+    }
+    covers::<Dopri5>(0.05);
+    covers::<Verner7>(0.1);
+    covers::<Dop853>(0.2);
+}
