@@ -1,6 +1,7 @@
 //! The mechanism against itself told otherwise: an independent solution in maximal coordinates.
 
 mod against_reference;
+mod chance;
 mod comparison;
 mod reference;
 mod reference_itself;

@@ -1,7 +1,7 @@
 //! The reference by itself: what mechanics conserves, what the literature prints.
 
 use crate::reference::{Crossing, Reference};
-use crate::scenes::{ALL, brisk, each_contact, untouched, worn_pin};
+use crate::scenes::{ALL, brisk, each_contact, worn_pin};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Point, Scene};
 
@@ -109,7 +109,7 @@ fn the_ideal_mechanism_peaks_as_the_literature_says() {
 
 /// Rebound over approach speed of the slider dropped on the guide with both lower corners.
 fn rebound(law: DampingLaw, restitution: f64, exponent: f64) -> f64 {
-    let mut scene = untouched();
+    let mut scene = Scene::default();
     scene.drive.mode = DriveMode::Speed;
     scene.gravity = 1e3;
     scene.joint.c.model = JointModel::Clearance;

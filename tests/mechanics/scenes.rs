@@ -2,8 +2,7 @@
 
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::{
-    Contact, Crank, DampingLaw, Drive, DriveMode, Elasticity, Friction, FrictionLaw, Guide, GuideLines, JointModel,
-    Joints, Method, Pair, Point, Revolute, Rod, Scene, Slider, Solver,
+    Contact, DampingLaw, DriveMode, Elasticity, Friction, FrictionLaw, JointModel, Pair, Point, Scene,
 };
 
 /// A mechanism with its inputs.
@@ -22,77 +21,9 @@ pub const C: Play = [false, false, true, false];
 pub const T: Play = [false, false, false, true];
 pub const ALL: Play = [true; 4];
 
-/// An untouched scene: the start values of the FMU's face.
-pub fn untouched() -> Scene {
-    let contact = Contact {
-        young: Pair { bearing: 207e9, journal: 207e9 },
-        poisson: Pair { bearing: 0.3, journal: 0.3 },
-        stiffness: 0.0,
-        exponent: 1.5,
-        width: 0.02,
-        law: DampingLaw::LankaraniNikravesh,
-        ratio_limit: 1.0,
-        restitution: 0.9,
-        speed_floor: 1e-3,
-        friction: Friction {
-            law: FrictionLaw::None,
-            coefficient: 0.03,
-            static_coefficient: 0.05,
-            v0: 1e-3,
-            v1: 1e-2,
-            v_stribeck: 1e-2,
-        },
-    };
-    let revolute = Revolute {
-        model: JointModel::Ideal,
-        damping: 0.0,
-        radius: 0.01,
-        clearance: 5e-4,
-        eccentricity_start: Point::default(),
-        elasticity: Elasticity::Hertz,
-        contact,
-    };
-    Scene {
-        drive: Drive { mode: DriveMode::Torque },
-        gravity: 0.0,
-        crank: Crank {
-            angle_start: 0.0,
-            speed_start: 0.0,
-            length: 0.05,
-            mass: 0.30,
-            inertia: 1.0e-4,
-            com: Point { x: 0.025, y: 0.0 },
-        },
-        rod: Rod { length: 0.12, mass: 0.21, inertia: 2.5e-4, com: Point { x: 0.06, y: 0.0 } },
-        slider: Slider {
-            mass: 0.14,
-            inertia: 1.0e-4,
-            com: Point::default(),
-            length: 0.04,
-            height: 0.02,
-            centre: Point::default(),
-        },
-        guide: GuideLines { offset: 0.0 },
-        joint: Joints {
-            a: revolute.clone(),
-            b: revolute.clone(),
-            c: revolute,
-            t: Guide {
-                model: JointModel::Ideal,
-                damping: 0.0,
-                clearance: 5e-4,
-                corner_radius: 1e-3,
-                offset_start: 0.0,
-                contact,
-            },
-        },
-        solver: Solver { method: Method::Verner7, tolerance: 1e-6, step: 1e-6 },
-    }
-}
-
 /// The worn pin of the literature: clearance at C, 5000 rpm, from dead centre.
 pub fn worn_pin() -> Scene {
-    let mut scene = untouched();
+    let mut scene = Scene::default();
     scene.drive.mode = DriveMode::Speed;
     scene.crank.speed_start = 5000.0 * std::f64::consts::TAU / 60.0;
     scene.joint.c.model = JointModel::Clearance;
@@ -101,7 +32,7 @@ pub fn worn_pin() -> Scene {
 
 /// A fast mechanism off dead centre with small clearances, so that impacts come soon.
 pub fn brisk(mode: DriveMode, play: Play) -> Scene {
-    let mut scene = untouched();
+    let mut scene = Scene::default();
     scene.drive.mode = mode;
     scene.crank.angle_start = 0.7;
     scene.crank.speed_start = 300.0;
