@@ -86,10 +86,8 @@ pub fn flags(o: &Outputs) -> [i32; 4] {
 #[derive(Clone, Copy, Debug)]
 pub struct Distance {
     pub output: &'static str,
-    /// Greatest difference over `scale`.
+    /// Greatest difference over the greatest |output|, or over what counts as 0 of its kind.
     pub relative: f64,
-    /// Greatest |output|, or the scale below which its kind counts as 0.
-    pub scale: f64,
     /// [s] Where the difference is greatest.
     pub time: f64,
     /// There.
@@ -115,7 +113,7 @@ pub fn distances(scene: &Scene, times: &[f64], first: &[Outputs], second: &[Outp
                 .max_by(|a, b| a.1.total_cmp(&b.1))
                 .unwrap_or((0, f64::INFINITY));
             let values = [first[at][k].2, second[at][k].2];
-            Distance { output, relative: difference / scale, scale, time: times[at], values }
+            Distance { output, relative: difference / scale, time: times[at], values }
         })
         .collect()
 }

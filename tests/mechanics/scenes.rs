@@ -97,7 +97,7 @@ fn laws() -> Vec<Case> {
         .filter_map(DampingLaw::from_value)
         .map(|law| {
             case(format!("law {law:?}"), brisk(DriveMode::Speed, [false, false, true, true]), |s| {
-                each_contact(s, |c| (c.law, c.restitution) = (law, 0.6));
+                each_contact(s, |c| (c.law, c.restitution) = (law, 0.45));
             })
         })
         .collect()
