@@ -55,27 +55,29 @@ struct Stages<'a, const N: usize, P: Problem<N> + ?Sized> {
 impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     #[inline(always)]
     fn evaluate<M: Method, const I: usize>(&mut self) {
-        if I < M::TABLEAU.stages {
+        let tableau = const { &M::TABLEAU };
+        if I < tableau.stages {
             let mut y = *self.y;
-            self.add(&mut y, &M::TABLEAU.a[I], I);
-            let t = self.t + M::TABLEAU.c[I] * self.h;
+            self.add(&mut y, &tableau.a[I], I);
+            let t = self.t + tableau.c[I] * self.h;
             self.problem.rates(self.modes, t, &y, &mut self.k[I]);
         }
     }
 
     #[inline(always)]
     fn finish<M: Method>(&self) -> Attempt<N> {
-        let stages = M::TABLEAU.stages;
+        let tableau = const { &M::TABLEAU };
+        let stages = tableau.stages;
         let mut y = *self.y;
         let mut error = [0.0; N];
-        self.add(&mut y, &M::TABLEAU.b, stages);
-        self.add(&mut error, &M::TABLEAU.error, stages);
-        let coarse_error = M::TABLEAU.coarse_error.map(|weights| {
+        self.add(&mut y, &tableau.b, stages);
+        self.add(&mut error, &tableau.error, stages);
+        let coarse_error = tableau.coarse_error.as_ref().map(|weights| {
             let mut error = [0.0; N];
-            self.add(&mut error, &weights, stages);
+            self.add(&mut error, weights, stages);
             error
         });
-        let rates = M::TABLEAU.first_same_as_last.then(|| self.k[stages - 1]);
+        let rates = tableau.first_same_as_last.then(|| self.k[stages - 1]);
         Attempt { y, rates, error, coarse_error }
     }
 

@@ -179,6 +179,15 @@ fn the_state_at_an_event_lies_on_the_guard() {
 }
 
 #[test]
+fn guards_that_fall_together_are_crossed_together() {
+    let problem = cosine(3, |_, q, v| (q - 0.3, v));
+    problem.run::<Verner7>(1e-9, [1.0, 0.0], 6.0);
+    let log = problem.log.borrow();
+    assert_eq!(log.len(), 2, "{log:?}");
+    assert!(log.iter().all(|(_, crossed, _)| crossed[..3] == [true; 3] && crossed[3..] == [false; GUARDS - 3]));
+}
+
+#[test]
 fn guards_that_fall_close_to_each_other_are_crossed_in_their_order() {
     // Two levels that the cosine crosses 1e-7 s after each other, written against their order.
     let gap = 1e-7;

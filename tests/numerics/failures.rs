@@ -1,7 +1,7 @@
 //! When the integrator gives up: the right error, at the right time, with the state intact.
 
 use super::free::Free;
-use slidercrank::integrator::methods::{Rk4, Verner7};
+use slidercrank::integrator::methods::{Dopri5, Rk4, Verner7};
 use slidercrank::integrator::{Crossed, GUARDS, Guard, IntegrationError, Integrator, Problem, Reset, Settings};
 
 const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3 };
@@ -35,6 +35,18 @@ fn a_wall_of_nans_is_approached_and_the_step_runs_out() {
     assert!((q - time * time).abs() < bound && (v - 2.0 * time).abs() < bound, "{q}, {v} at {time}");
     // And it gives up again where it gave up before.
     assert_eq!(integrator.advance(&problem, 1.0).map_err(|error| error.time()), Err(time));
+}
+
+#[test]
+fn a_state_that_blows_up_stops_where_it_does() {
+    // v̇ = v²: v = 1/(1 − t).
+    let problem = Free { accelerations: |_: f64, _: &[f64], v: &[f64], a: &mut [f64]| a[0] = v[0] * v[0] };
+    let mut integrator = Integrator::<2, (), Dopri5>::start(&problem, SETTINGS, 0.0, [0.0, 1.0], ());
+    let error = integrator.advance(&problem, 2.0).expect_err("there is nothing beyond");
+    assert!((error.time() - 1.0).abs() < 1e-7, "{error:?}");
+    let front = integrator.memory().front;
+    assert_eq!(front.t, error.time());
+    assert!(front.y.iter().all(|y| y.is_finite()), "{front:?}");
 }
 
 #[test]
