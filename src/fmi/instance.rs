@@ -191,11 +191,11 @@ impl Instance {
     }
 
     fn outputs(&mut self) -> Result<&Outputs, Error> {
-        let outputs = match self.outputs {
-            Some(outputs) => outputs,
-            None => self.live()?.outputs(),
-        };
-        Ok(self.outputs.insert(outputs))
+        if self.outputs.is_none() {
+            self.outputs = Some(self.live()?.outputs());
+        }
+        // There by now; a copy of them for each variable would cost more than making them.
+        Ok(self.outputs.get_or_insert_default())
     }
 
     fn forget_simulation(&mut self) {

@@ -13,6 +13,9 @@ pub struct Attempt<const N: usize> {
     pub error: [f64; N],
     /// A second estimate, where the method has one.
     pub coarse_error: Option<[f64; N]>,
+    /// What early stages saw that no error estimate weighs: by how much h times their rates leaves
+    /// the line between the first stage and the first that is weighed, beyond half of those.
+    pub unseen: [f64; N],
 }
 
 /// Attempts a step of `h` from `y` at `t`, whose rates are `rates`.
@@ -78,7 +81,26 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
             error
         });
         let rates = tableau.first_same_as_last.then(|| self.k[stages - 1]);
-        Attempt { y, rates, error, coarse_error }
+        Attempt { y, rates, error, coarse_error, unseen: self.unseen::<M>() }
+    }
+
+    /// A force that sets in early throws the stages after it out of its reach if the step is far too
+    /// long; they see nothing, agree with each other, and the estimate is small for a step that missed
+    /// everything. The early stages themselves give it away.
+    #[inline(always)]
+    fn unseen<M: Method>(&self) -> [f64; N] {
+        let tableau = const { &M::TABLEAU };
+        let weighed = const { M::TABLEAU.first_weighed_stage() };
+        let mut unseen = [0.0; N];
+        for j in 1..weighed {
+            let share = tableau.c[j] / tableau.c[weighed];
+            for (i, unseen) in unseen.iter_mut().enumerate() {
+                let (first, late) = (self.k[0][i], self.k[weighed][i]);
+                let apart = (self.k[j][i] - first - share * (late - first)).abs();
+                *unseen = f64::max(*unseen, self.h * (apart - 0.5 * first.abs().max(late.abs())));
+            }
+        }
+        unseen
     }
 
     /// Adds h·Σ weight_j·k_j; a weight of zero costs nothing.

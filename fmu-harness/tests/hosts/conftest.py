@@ -1,0 +1,33 @@
+"""The packaged FMUs, whose directory the Rust test hands over."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from mechanism import Mechanism
+
+SCENES = ["allplay", "guideplay", "ideal", "press", "wornpin"]
+
+
+def fmu(scene):
+    file = Path(os.environ["SLIDERCRANK_FMUS"]) / f"{scene}.fmu"
+    assert file.is_file(), f"{file} was not packaged"
+    return file
+
+
+def unpacked(scene):
+    @pytest.fixture(scope="session", name=scene)
+    def make(tmp_path_factory):
+        return Mechanism(fmu(scene), tmp_path_factory.mktemp(scene))
+
+    return make
+
+
+allplay, guideplay, ideal, press, wornpin = map(unpacked, SCENES)
+
+
+@pytest.fixture(params=SCENES)
+def every_fmu(request):
+    """Each shipped scene's file in turn."""
+    return fmu(request.param)

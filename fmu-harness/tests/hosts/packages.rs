@@ -1,0 +1,62 @@
+//! All shipped scenes as FMUs, and a run of one by the harness itself, made once for all tests.
+
+use anyhow::Result;
+use fmu_harness::host::Fmu;
+use fmu_harness::package::{Package, build::workspace};
+use fmu_harness::run::{Experiment, Until, run};
+use fmu_harness::scenes::{Scenario, names};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The scene that the harness runs, as `test_simulate.py` does.
+const RUN: &str = "wornpin";
+const STOP: f64 = 0.024;
+const STEP: f64 = 1e-5;
+
+/// Where the files are. A scene that cannot be packaged is missing there: its tests fail, others do not.
+pub fn directory() -> &'static Path {
+    static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
+    DIRECTORY.get_or_init(|| {
+        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmus");
+        for scene in names(&workspace().join("fmu-harness").join("scenes")) {
+            if let Err(error) = package(&scene, &directory) {
+                eprintln!("{scene} cannot be packaged: {error:#}");
+            }
+        }
+        if let Err(error) = record(&directory) {
+            eprintln!("{RUN} cannot be run: {error:#}");
+        }
+        directory
+    })
+}
+
+fn package(scene: &str, directory: &Path) -> Result<()> {
+    let package = Scenario::find(scene).and_then(|scenario| Package::make(&scenario));
+    replace(&directory.join(format!("{scene}.fmu")), |file| package?.save(file))
+}
+
+fn record(directory: &Path) -> Result<()> {
+    let fmu = Fmu::open(&directory.join(format!("{RUN}.fmu")))?;
+    let experiment = Experiment {
+        settings: vec![],
+        inputs: vec![],
+        start: 0.0,
+        until: Until::Time(STOP),
+        step: STEP,
+        tolerance: None,
+    };
+    let recording = run(&fmu, &experiment, |line| eprintln!("{}", line.message), |_| ())?;
+    replace(&directory.join(format!("{RUN}.csv")), |file| recording.trajectory.write_csv(file))
+}
+
+/// Puts a whole new file in an old one's place, or removes the old one: another run of these tests
+/// may be reading.
+fn replace(file: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
+    let draft = file.with_extension(format!("{}.draft", std::process::id()));
+    let done = write(&draft).and_then(|()| Ok(fs::rename(&draft, file)?));
+    if done.is_err() {
+        let _ = fs::remove_file(file);
+    }
+    done
+}
