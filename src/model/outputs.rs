@@ -3,7 +3,7 @@
 use super::ideal::IdealMechanism;
 use super::joint::guide::CORNERS;
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
-use super::plane::{Rotation, Vec2};
+use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};
 use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
@@ -88,7 +88,7 @@ impl Observer {
     fn accuracy(&self, instant: &Instant) -> AccuracyOutputs {
         let turning = &instant.pose.turning;
         let speed = turning.speed[CRANK];
-        let ideal = self.ideal.motion(Rotation::new(turning.angle[CRANK]), speed);
+        let ideal = self.ideal.motion(turning.rotation[CRANK], speed);
         let exists = ideal.rod.cos > 0.0; // not so where it is not a number
         if !exists {
             return AccuracyOutputs::default();
