@@ -18,6 +18,8 @@ const LEAST_FACTOR: f64 = 0.2;
 const GREATEST_FACTOR: f64 = 5.0;
 /// Share of the last error in the choice of the next step; Hairer, Wanner II, IV.2.
 const MEMORY: f64 = 0.04;
+/// Rates of early stages are of low order: only this many times a tolerable error is suspicious.
+const UNSEEN: f64 = 1e3;
 /// A state cannot be asked to be more accurate than a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
@@ -25,6 +27,9 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 pub fn norm<const N: usize>(attempt: &Attempt<N>, y: &[f64; N], scales: &[f64; N], tolerance: f64) -> f64 {
     let weight = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
     let square = |error: &[f64; N]| (0..N).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / N.max(1) as f64;
+    if (0..N).any(|i| attempt.unseen[i] > UNSEEN * weight(i)) {
+        return f64::INFINITY;
+    }
     let fine = square(&attempt.error);
     match &attempt.coarse_error {
         None => fine.sqrt(),

@@ -10,6 +10,7 @@ mod controller;
 pub mod dense_output;
 mod error;
 mod event;
+mod memory;
 pub mod methods;
 mod problem;
 pub mod root;
@@ -20,7 +21,8 @@ mod tableau;
 
 pub use controller::Settings;
 pub use error::IntegrationError;
+pub use memory::{Front, Memory};
 pub use problem::{Crossed, GUARDS, Guard, Problem, Reset};
 pub use statistics::Statistics;
-pub use step::{Front, Integrator, Memory};
+pub use step::Integrator;
 pub use tableau::{Method, Tableau};

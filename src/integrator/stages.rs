@@ -13,6 +13,9 @@ pub struct Attempt<const N: usize> {
     pub error: [f64; N],
     /// A second estimate, where the method has one.
     pub coarse_error: Option<[f64; N]>,
+    /// What early stages saw that no error estimate weighs: by how much h times their rates leaves
+    /// the line between the first stage and the first that is weighed, beyond half of those.
+    pub unseen: [f64; N],
 }
 
 /// Attempts a step of `h` from `y` at `t`, whose rates are `rates`.
@@ -55,28 +58,49 @@ struct Stages<'a, const N: usize, P: Problem<N> + ?Sized> {
 impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     #[inline(always)]
     fn evaluate<M: Method, const I: usize>(&mut self) {
-        if I < M::TABLEAU.stages {
+        let tableau = const { &M::TABLEAU };
+        if I < tableau.stages {
             let mut y = *self.y;
-            self.add(&mut y, &M::TABLEAU.a[I], I);
-            let t = self.t + M::TABLEAU.c[I] * self.h;
+            self.add(&mut y, &tableau.a[I], I);
+            let t = self.t + tableau.c[I] * self.h;
             self.problem.rates(self.modes, t, &y, &mut self.k[I]);
         }
     }
 
     #[inline(always)]
     fn finish<M: Method>(&self) -> Attempt<N> {
-        let stages = M::TABLEAU.stages;
+        let tableau = const { &M::TABLEAU };
+        let stages = tableau.stages;
         let mut y = *self.y;
         let mut error = [0.0; N];
-        self.add(&mut y, &M::TABLEAU.b, stages);
-        self.add(&mut error, &M::TABLEAU.error, stages);
-        let coarse_error = M::TABLEAU.coarse_error.map(|weights| {
+        self.add(&mut y, &tableau.b, stages);
+        self.add(&mut error, &tableau.error, stages);
+        let coarse_error = tableau.coarse_error.as_ref().map(|weights| {
             let mut error = [0.0; N];
-            self.add(&mut error, &weights, stages);
+            self.add(&mut error, weights, stages);
             error
         });
-        let rates = M::TABLEAU.first_same_as_last.then(|| self.k[stages - 1]);
-        Attempt { y, rates, error, coarse_error }
+        let rates = tableau.first_same_as_last.then(|| self.k[stages - 1]);
+        Attempt { y, rates, error, coarse_error, unseen: self.unseen::<M>() }
+    }
+
+    /// A force that sets in early throws the stages after it out of its reach if the step is far too
+    /// long; they see nothing, agree with each other, and the estimate is small for a step that missed
+    /// everything. The early stages themselves give it away.
+    #[inline(always)]
+    fn unseen<M: Method>(&self) -> [f64; N] {
+        let tableau = const { &M::TABLEAU };
+        let weighed = const { M::TABLEAU.first_weighed_stage() };
+        let mut unseen = [0.0; N];
+        for j in 1..weighed {
+            let share = tableau.c[j] / tableau.c[weighed];
+            for (i, unseen) in unseen.iter_mut().enumerate() {
+                let (first, late) = (self.k[0][i], self.k[weighed][i]);
+                let apart = (self.k[j][i] - first - share * (late - first)).abs();
+                *unseen = f64::max(*unseen, self.h * (apart - 0.5 * first.abs().max(late.abs())));
+            }
+        }
+        unseen
     }
 
     /// Adds h·Σ weight_j·k_j; a weight of zero costs nothing.

@@ -1,9 +1,10 @@
 //! Attempt, judge, locate, commit.
 
 use super::controller::{self, Settings};
-use super::dense_output::{Correction, Step};
+use super::dense_output::Correction;
 use super::error::IntegrationError;
 use super::event;
+use super::memory::{Front, Memory};
 use super::problem::{Crossed, GUARDS, Guard, Problem};
 use super::stages::{Attempt, attempt};
 use super::statistics::Statistics;
@@ -20,38 +21,6 @@ const LANDED: f64 = 0.1;
 const STEPS: u64 = 200_000_000;
 /// [s] A first step of a motion without rates.
 const FIRST_STEP: f64 = 1e-4;
-
-/// One end of a step: a time, a state, its rates under the modes that hold on this side.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Front<const N: usize, D> {
-    /// [s]
-    pub t: f64,
-    /// State.
-    pub y: [f64; N],
-    /// Its rates.
-    pub rates: [f64; N],
-    /// Discrete state.
-    pub modes: D,
-}
-
-/// All that an integrator remembers: as plain numbers, a saved state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Memory<const N: usize, D> {
-    /// Start of the last step.
-    pub start: Front<N, D>,
-    /// Its end, before the events there.
-    pub end: Front<N, D>,
-    /// The same instant after its events: where the next step starts.
-    pub front: Front<N, D>,
-    /// [s] The next step.
-    pub step: f64,
-    /// Error of the last accepted step over the tolerance.
-    pub last_error: f64,
-    /// Events at the front, which the end does not know yet.
-    pub crossings: u64,
-    /// Work done.
-    pub statistics: Statistics,
-}
 
 /// An explicit Runge-Kutta integrator with event location.
 pub struct Integrator<const N: usize, D, M> {
@@ -92,15 +61,6 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         &self.memory
     }
 
-    /// Work done since the start to reach `t` in the last step.
-    pub fn statistics_at(&self, t: f64) -> Statistics {
-        let mut statistics = self.memory.statistics;
-        if t < self.memory.front.t {
-            statistics.events -= self.memory.crossings;
-        }
-        statistics
-    }
-
     /// Steps until `t` lies within the last step.
     ///
     /// # Errors
@@ -124,15 +84,14 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Memory { start, end, front, .. } = &self.memory;
+        let Memory { start, front, .. } = &self.memory;
         if t >= front.t {
             return (front.y, front.modes);
         }
-        let h = end.t - start.t;
-        let step = Step { t: start.t, h, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates };
+        let step = self.memory.last_step();
         let tolerance = self.settings.tolerance;
         let correction = self.correction.get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));
-        (step.state((t - start.t) / h, correction), start.modes)
+        (step.state((t - step.t) / step.h, correction), start.modes)
     }
 
     /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
@@ -145,7 +104,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if t >= self.memory.front.t {
             return;
         }
-        self.memory.statistics = self.statistics_at(t);
+        self.memory.statistics = self.memory.statistics_at(t);
         self.memory.statistics.steps -= 1;
         if t <= start.t {
             self.memory.crossings = 0;
@@ -208,9 +167,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if problem.guard_count() == 0 {
             return Ok(());
         }
-        let end = self.memory.end;
-        let step = Step { t: start.t, h, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates };
-        match event::first(problem, &start.modes, &step, &before, &self.guards) {
+        let event = event::first(problem, &start.modes, &self.memory.last_step(), &before, &self.guards);
+        match event {
             None => {}
             Some((share, guard)) => self.land(problem, h, share, guard),
         }

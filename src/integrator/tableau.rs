@@ -69,6 +69,18 @@ impl Tableau {
         full
     }
 
+    /// The first stage after the first of all that an error estimate weighs; 0 without an estimate.
+    pub const fn first_weighed_stage(&self) -> usize {
+        let mut i = 1;
+        while i < self.stages {
+            if self.error[i] != 0.0 {
+                return i;
+            }
+            i += 1;
+        }
+        0
+    }
+
     /// Each row sums to its node, the weights to one and the error's weights to zero.
     pub const fn is_consistent(&self) -> bool {
         let mut i = 0;

@@ -91,10 +91,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         if SPEED {
             (angle[CRANK], speed[CRANK]) = (self.rotor.at(t), self.rotor.speed);
         }
-        let mut turning = turning(angle, speed);
-        if T {
-            turning.rotation[SLIDER] = super::plane::Rotation::NONE;
-        }
+        let turning = turning(angle, speed, !T);
         let mut start = Self::LAYOUT.roots(positions);
         if T {
             start.slider.y = self.height;
@@ -245,7 +242,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     for Open<A, B, C, T, SPEED, N>
 {
     fn start(&self, pose: &StartPose) -> [f64; N] {
-        let turning = turning(pose.angle, pose.speed);
+        let turning = turning(pose.angle, pose.speed, !T);
         let place = roots(Self::TOPOLOGY, &self.chains, &pose.place, Place(&turning));
         let velocity = roots(Self::TOPOLOGY, &self.chains, &pose.velocity, Velocity(&turning));
         let mut y = [0.0; N];

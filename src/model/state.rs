@@ -72,8 +72,10 @@ pub struct Instant {
     pub loads: Loads,
 }
 
-/// Turning from angles and rates.
+/// Turning from angles and rates; the slider on an ideal guide does not turn.
 #[inline(always)]
-pub fn turning(angle: [f64; 3], speed: [f64; 3]) -> Turning {
-    Turning { angle, speed, rotation: angle.map(Rotation::new) }
+pub fn turning(angle: [f64; 3], speed: [f64; 3], slider_turns: bool) -> Turning {
+    let [crank, rod, slider] = angle;
+    let slider = if slider_turns { Rotation::new(slider) } else { Rotation::NONE };
+    Turning { angle, speed, rotation: [Rotation::new(crank), Rotation::new(rod), slider] }
 }

@@ -85,7 +85,7 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
     fn outputs(&mut self, t: f64) -> Outputs {
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
         let mut outputs = self.observe(&contacts, t, &y);
-        let Statistics { steps, rejected, evaluations, events } = self.integrator.statistics_at(t);
+        let Statistics { steps, rejected, evaluations, events } = self.integrator.memory().statistics_at(t);
         let count = |n: u64| i32::try_from(n).unwrap_or(i32::MAX);
         outputs.solver = SolverOutputs {
             steps: count(steps),

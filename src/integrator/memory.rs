@@ -1,0 +1,53 @@
+//! What an integrator remembers between steps.
+
+use super::dense_output::Step;
+use super::statistics::Statistics;
+
+/// One end of a step: a time, a state, its rates under the modes that hold on this side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Front<const N: usize, D> {
+    /// [s]
+    pub t: f64,
+    /// State.
+    pub y: [f64; N],
+    /// Its rates.
+    pub rates: [f64; N],
+    /// Discrete state.
+    pub modes: D,
+}
+
+/// All that an integrator remembers: as plain numbers, a saved state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memory<const N: usize, D> {
+    /// Start of the last step.
+    pub start: Front<N, D>,
+    /// Its end, before the events there.
+    pub end: Front<N, D>,
+    /// The same instant after its events: where the next step starts.
+    pub front: Front<N, D>,
+    /// [s] The next step.
+    pub step: f64,
+    /// Error of the last accepted step over the tolerance.
+    pub last_error: f64,
+    /// Events at the front, which the end does not know yet.
+    pub crossings: u64,
+    /// Work done.
+    pub statistics: Statistics,
+}
+
+impl<const N: usize, D> Memory<N, D> {
+    /// The last step, up to the events at its end.
+    pub fn last_step(&self) -> Step<'_, N> {
+        let (start, end) = (&self.start, &self.end);
+        Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates }
+    }
+
+    /// Work done since the start to reach `t` in the last step.
+    pub fn statistics_at(&self, t: f64) -> Statistics {
+        let mut statistics = self.statistics;
+        if t < self.front.t {
+            statistics.events -= self.crossings;
+        }
+        statistics
+    }
+}

@@ -1,0 +1,8 @@
+//! The mechanism against itself told otherwise: an independent solution in maximal coordinates.
+
+mod against_reference;
+mod chance;
+mod comparison;
+mod reference;
+mod reference_itself;
+mod scenes;

@@ -1,0 +1,112 @@
+//! Outputs of a motion: the solver's numbers as the FMU names them.
+
+use super::bodies::{CRANK, ROD, SLIDER, Vector, cross, perp};
+use super::constraints::{Constraints, DRIVE_ROW, Solution};
+use super::contact::{Contact, Touch, eccentricity};
+use super::loads::Loads;
+use super::solver::Reference;
+use slidercrank::model::signals::{
+    AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
+};
+use slidercrank::scene::{DriveMode, JointModel, Scene};
+
+impl Reference {
+    /// Everything of the model's §8; the solver's counts are left at 0.
+    pub fn outputs(&self) -> Outputs {
+        let (motion, bodies) = (&self.motion, &self.bodies);
+        let loads = self.loads(self.time, motion);
+        let solution = self.constraints.accelerate(bodies, self.time, motion, &loads.generalized);
+        let pin = bodies.journals[2];
+        let acceleration = pin.jacobian(motion) * solution.acceleration + pin.centripetal(motion);
+        let (position, velocity) = (pin.position(motion), pin.velocity(motion));
+        let crank = CrankOutputs {
+            angle: motion.angle(CRANK),
+            speed: motion.spin(CRANK),
+            acceleration: solution.acceleration[3 * CRANK + 2],
+        };
+        let ideal = ideal_slider(&self.scene, crank);
+        let [joint_a, joint_b, joint_c] = [0, 1, 2].map(|k| self.revolute(k, &loads, &solution));
+        Outputs {
+            slider: SliderOutputs {
+                x: position.x,
+                v: velocity.x,
+                a: acceleration.x,
+                y: position.y,
+                angle: motion.angle(SLIDER),
+            },
+            crank,
+            rod: RodOutputs { angle: motion.angle(ROD), speed: motion.spin(ROD) },
+            joint_a,
+            joint_b,
+            joint_c,
+            joint_t: self.guide(&loads, &solution),
+            drive_torque: match self.scene.drive.mode {
+                DriveMode::Torque => self.inputs_at(self.time).crank_torque,
+                DriveMode::Speed => solution.multipliers[DRIVE_ROW],
+            },
+            accuracy: AccuracyOutputs {
+                position: position.x - ideal[0],
+                velocity: velocity.x - ideal[1],
+                acceleration: acceleration.x - ideal[2],
+            },
+            ..Outputs::default()
+        }
+    }
+
+    fn revolute(&self, k: usize, loads: &Loads, solution: &Solution) -> RevoluteOutputs {
+        // A and C are named for the force on the journal's body, B for that on the bearing's.
+        let named = |on_journal: Vector| if k == 1 { (-on_journal).into() } else { on_journal.into() };
+        let Some(contact) = &self.contacts[k] else {
+            let reaction = Constraints::revolute_reaction(solution, k);
+            return RevoluteOutputs { force: named(reaction), ..RevoluteOutputs::default() };
+        };
+        let e = eccentricity(&self.bodies.bearings[k], &self.bodies.journals[k], &self.motion);
+        RevoluteOutputs {
+            force: named(loads.on_journal[k]),
+            eccentricity: e.into(),
+            penetration: contact.touch(&self.motion).penetration,
+            contact: self.phases[k].closed,
+        }
+    }
+
+    fn guide(&self, loads: &Loads, solution: &Solution) -> GuideOutputs {
+        let motion = &self.motion;
+        if self.scene.joint.t.model == JointModel::Ideal {
+            let (height, couple) = Constraints::guide_reaction(solution);
+            let reaction = height * Vector::y();
+            let lever = self.bodies.centre.position(motion) - self.bodies.journals[2].position(motion);
+            return GuideOutputs {
+                force: (loads.on_slider + reaction).into(),
+                moment: loads.about_pin + couple + cross(lever, reaction),
+                ..GuideOutputs::default()
+            };
+        }
+        let touches: Vec<Touch> = self.corners().map(|contact| contact.touch(motion)).collect();
+        GuideOutputs {
+            force: loads.on_slider.into(),
+            moment: loads.about_pin,
+            penetration: touches.iter().map(|t| t.penetration).fold(f64::NEG_INFINITY, f64::max),
+            contacts: self.phases[3..].iter().map(|phase| i32::from(phase.closed)).sum(),
+        }
+    }
+
+    fn corners(&self) -> impl Iterator<Item = &Contact> {
+        self.contacts[3..].iter().flatten()
+    }
+}
+
+/// Position, velocity and acceleration of the ideal mechanism's slider at this crank motion.
+fn ideal_slider(scene: &Scene, crank: CrankOutputs) -> [f64; 3] {
+    let height = scene.guide.offset - scene.slider.centre.y;
+    let (sin, cos) = crank.angle.sin_cos();
+    let to_pin = scene.crank.length * Vector::new(cos, sin);
+    let rod_angle = ((height - to_pin.y) / scene.rod.length).asin();
+    let along_rod = scene.rod.length * Vector::new(rod_angle.cos(), rod_angle.sin());
+    // Each rate of the rod from: the pin's height, its rate and its acceleration do not change.
+    let rod_speed = -crank.speed * to_pin.x / along_rod.x;
+    let velocity = crank.speed * perp(to_pin) + rod_speed * perp(along_rod);
+    let turning = crank.acceleration * perp(to_pin) - crank.speed.powi(2) * to_pin - rod_speed.powi(2) * along_rod;
+    let rod_acceleration = -turning.y / along_rod.x;
+    let acceleration = turning + rod_acceleration * perp(along_rod);
+    [to_pin.x + along_rod.x, velocity.x, acceleration.x]
+}

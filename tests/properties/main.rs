@@ -1,0 +1,14 @@
+//! What must hold of the mechanism whatever computes it: closed forms, balances, limits, symmetries.
+
+mod clearance_to_zero;
+mod conservation;
+mod consistency;
+mod first_impact;
+mod friction;
+mod ideal;
+mod motion;
+mod restitution;
+mod restitution_laws;
+mod scenes;
+mod symmetry;
+mod told_twice;

@@ -1,0 +1,94 @@
+//! The rules of the README's "Invariants" that a program can check.
+#![allow(clippy::panic)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Longest file, in lines.
+const LONGEST: usize = 300;
+
+#[test]
+fn the_integrator_knows_no_mechanism() {
+    lacks("src/integrator", &["crate::model", "crate::scene", "crate::fmi", "crate::simulation"]);
+}
+
+#[test]
+fn the_model_knows_neither_fmi_nor_files() {
+    lacks("src/model", &["crate::fmi", "crate::simulation", "std::fs", "std::io", "println!"]);
+}
+
+#[test]
+fn nothing_below_the_face_knows_it() {
+    for place in ["src/integrator", "src/model", "src/simulation", "src/scene"] {
+        lacks(place, &["crate::fmi", "fmi2"]);
+    }
+}
+
+#[test]
+fn unsafe_code_lives_in_two_places() {
+    let allowed = ["src/fmi/abi", "fmu-harness/src/host/library.rs"];
+    for file in sources("src").into_iter().chain(sources("fmu-harness/src")) {
+        if !allowed.iter().any(|place| file.strip_prefix(root()).is_ok_and(|path| path.starts_with(place))) {
+            let text = read(&file);
+            let found = text.lines().find(|line| line.contains("unsafe ") && !line.trim_start().starts_with("//"));
+            assert!(found.is_none(), "{}: {}", file.display(), found.unwrap_or_default());
+        }
+    }
+}
+
+#[test]
+fn a_file_is_a_sitting() {
+    for place in ["src", "fmu-harness/src", "modelDescription", "tests", "fmu-harness/tests", "fmu-harness/benches"] {
+        for file in sources(place) {
+            let lines = read(&file).lines().count();
+            assert!(lines <= LONGEST, "{} has {lines} lines, more than {LONGEST}", file.display());
+        }
+    }
+}
+
+#[test]
+fn elementary_functions_come_from_one_module() {
+    for place in ["src/model", "src/integrator", "src/simulation"] {
+        lacks(place, &["libm::", ".sin()", ".cos()", ".sin_cos()", ".powf(", ".exp()", ".ln()", ".tanh()", ".atan2("]);
+    }
+}
+
+/// No line of code under `place`, comments and tests apart, holds any of `words`.
+fn lacks(place: &str, words: &[&str]) {
+    for file in sources(place) {
+        let text = read(&file);
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        for (number, line) in code.lines().enumerate() {
+            let line = line.split("//").next().unwrap_or_default();
+            for word in words {
+                assert!(!line.contains(word), "{}:{}: {word}", file.display(), number + 1);
+            }
+        }
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
+
+fn read(file: &Path) -> String {
+    fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+/// Rust files below `place`.
+fn sources(place: &str) -> Vec<PathBuf> {
+    let mut found = vec![];
+    let mut folders = vec![root().join(place)];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                found.push(path);
+            }
+        }
+    }
+    assert!(!found.is_empty(), "no source under {place}");
+    found
+}
