@@ -1,9 +1,12 @@
 """What a simulated second costs with FMPy at three communication steps; no test, but a measurement.
 
-    target/hosts/bin/python fmu-harness/tests/hosts/cost.py FMU [SECONDS [OUTPUTS]]
+    target/hosts/bin/python fmu-harness/tests/hosts/cost.py WORNPIN.fmu IDEAL.fmu [OUTPUT...]
 
-CPU time of this process, the least of several runs. FMPy's own share is taken apart by running the
-same loop on a library whose fmi2DoStep and fmi2GetReal do nothing; it is compiled here by `cc`.
+CPU time of this process, the least of several runs. The host's share is taken apart in two ways:
+- `unit`: less the same loop on a library whose fmi2DoStep and fmi2GetReal do nothing (made here by
+  `cc`). What is left is all that happens in the unit, the making of outputs at each point included;
+- `solver`: less the same loop on the second FMU, which has next to nothing to integrate but makes
+  outputs as well.
 """
 
 import ctypes
@@ -17,6 +20,8 @@ from mechanism import Mechanism
 
 STEPS = [1e-5, 1e-4, 1e-3]
 REPEATS = 5
+SECONDS = 0.24  # [s] simulated in each run: 20 turns of the worn pin
+OUTPUTS = ["slider.x", "slider.v", "joint.C.force.x", "joint.C.force.y"]
 TOLERANCE = 1e-6
 NOTHING = """
 #include <stddef.h>
@@ -33,9 +38,9 @@ def idle(folder):
     return ctypes.CDLL(str(library))
 
 
-def loop(slave, references, step, seconds):
+def loop(slave, references, step):
     """[s] CPU time of stepping to the end and reading the outputs at each point."""
-    count = round(seconds / step)
+    count = round(SECONDS / step)
     step_on, read = slave.fmu.doStep, slave.fmu.getReal
     start = time.process_time()
     for point in range(count):
@@ -44,7 +49,7 @@ def loop(slave, references, step, seconds):
     return time.process_time() - start
 
 
-def least(mechanism, references, step, seconds, library=None):
+def least(mechanism, references, step, library=None):
     costs, work = [], 0
     for _ in range(REPEATS):
         slave = mechanism.start(tolerance=TOLERANCE)
@@ -55,28 +60,29 @@ def least(mechanism, references, step, seconds, library=None):
                 nothing.argtypes, nothing.restype = ours.argtypes, ours.restype
                 nothing.argnames = ours.argnames
                 functions[name] = nothing
-        costs.append(loop(slave, references, step, seconds))
+        costs.append(loop(slave, references, step))
         work = slave.get("solver.evaluations")
         slave.free()
     return min(costs), work
 
 
-def main(file, seconds=0.24, outputs="slider.x,slider.v,joint.C.force.x,joint.C.force.y"):
-    mechanism, seconds = Mechanism(file), float(seconds)
-    names = [v.name for v in mechanism.outputs(("Real",))] if outputs == "all" else outputs.split(",")
-    references = mechanism.references(names)
-    print(f"{Path(file).name}: {seconds} s simulated, tolerance {TOLERANCE}, {len(names)} outputs read at each point")
-    print(f"{'step':>8} {'total':>10} {'host':>10} {'unit':>10}  evaluations/s    [s of CPU per simulated second]")
-    units = []
+def main(file, reference, *outputs):
+    mechanism, easy = Mechanism(file), Mechanism(reference)
+    references = mechanism.references(outputs or OUTPUTS)
+    print(f"{Path(file).name}: {SECONDS} s simulated, tolerance {TOLERANCE}, {len(references)} outputs read at each point")
+    print(f"{'step':>8} {'total':>10} {'host':>10} {'unit':>10} {'solver':>10}    s of CPU per simulated second")
+    shares = []
     with TemporaryDirectory() as folder:
         library = idle(folder)
         for step in STEPS:
-            total, work = least(mechanism, references, step, seconds)
-            host, _ = least(mechanism, references, step, seconds, library)
-            units.append(total - host)
-            shown = [f"{cost / seconds:10.4f}" for cost in (total, host, total - host)]
-            print(f"{step:8.0e} {' '.join(shown)}  {work / seconds:13.0f}")
-    print(f"host apart, the dearest step costs {max(units) / min(units):.2f} times the cheapest")
+            total, work = least(mechanism, references, step)
+            host, _ = least(mechanism, references, step, library)
+            simple, _ = least(easy, references, step)
+            shares.append((total - host, total - simple))
+            costs = " ".join(f"{cost / SECONDS:10.4f}" for cost in (total, host, total - host, total - simple))
+            print(f"{step:8.0e} {costs}    {work / SECONDS:.0f} evaluations per simulated second")
+    units, solvers = zip(*shares)
+    print(f"dearest over cheapest: unit {max(units) / min(units):.2f}, solver {max(solvers) / min(solvers):.2f}")
 
 
 if __name__ == "__main__":
