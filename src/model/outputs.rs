@@ -73,6 +73,30 @@ impl Observer {
         }
     }
 
+    /// Sets those time derivatives of outputs that an instant knows without differences.
+    pub fn set_known_rates(&self, instant: &Instant, rates: &mut Outputs) {
+        let Instant { pose, acceleration, angle_acceleration, .. } = instant;
+        let speed = &pose.turning.speed;
+        let Topology { a, b, c, .. } = self.topology;
+        rates.slider.x = pose.velocity.pin.x;
+        rates.slider.v = acceleration.pin.x;
+        rates.slider.y = pose.velocity.pin.y;
+        rates.slider.angle = speed[SLIDER];
+        rates.crank.angle = speed[CRANK];
+        rates.crank.speed = angle_acceleration[CRANK];
+        rates.rod.angle = speed[ROD];
+        rates.rod.speed = angle_acceleration[ROD];
+        let joints = [&mut rates.joint_a, &mut rates.joint_b, &mut rates.joint_c];
+        for (index, (joint, ideal)) in joints.into_iter().zip([a, b, c]).enumerate() {
+            if !ideal {
+                joint.eccentricity = pose.play(index).rate.into();
+            }
+        }
+        let accuracy = self.accuracy(instant);
+        rates.accuracy.position = accuracy.velocity;
+        rates.accuracy.velocity = accuracy.acceleration;
+    }
+
     fn guide(&self, ideal: bool, r: &Reactions, contacts: &Contacts, penetration: &[f64; 3 + CORNERS]) -> GuideOutputs {
         let deepest = penetration[3..].iter().copied().fold(f64::NEG_INFINITY, f64::max);
         GuideOutputs {

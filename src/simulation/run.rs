@@ -105,15 +105,7 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         let first = self.observe(&contacts, before, &along(before - t));
         let second = self.observe(&contacts, after, &along(after - t));
         let mut slopes = second.combined(&first, |second, first| (second - first) / (after - before));
-        // What is an output itself is known better.
-        let now = self.observe(&contacts, t, &y);
-        slopes.slider.x = now.slider.v;
-        slopes.slider.v = now.slider.a;
-        slopes.crank.angle = now.crank.speed;
-        slopes.crank.speed = now.crank.acceleration;
-        slopes.rod.angle = now.rod.speed;
-        slopes.accuracy.position = now.accuracy.velocity;
-        slopes.accuracy.velocity = now.accuracy.acceleration;
+        self.observer.set_known_rates(&self.plant.instant(&contacts, t, &y), &mut slopes);
         slopes
     }
 

@@ -44,8 +44,7 @@ pub struct Motion {
 }
 
 /// Reads the instant at the communication point. Rates of eccentricities and of the slider's height and
-/// tilt come from `output_rates`, which takes them from differences over 2e-8 s: they carry the rounding
-/// of 0.17 m, some 1e-9 m/s.
+/// tilt come from `output_rates`, which knows them without differences.
 pub fn motion(scene: &Scene, simulation: &mut Simulation) -> Motion {
     let o = simulation.outputs();
     let d = simulation.output_rates();
