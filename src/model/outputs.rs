@@ -62,7 +62,7 @@ impl Observer {
                 speed: turning.speed[CRANK],
                 acceleration: angle_acceleration[CRANK],
             },
-            rod: RodOutputs { angle: turning.angle[ROD], speed: turning.speed[ROD] },
+            rod: RodOutputs { angle: turning.angle[ROD], speed: turning.speed[ROD], ..RodOutputs::default() },
             joint_a: joint(0, a, r.a),
             joint_b: joint(1, b, r.b),
             joint_c: joint(2, c, r.c),

@@ -32,6 +32,8 @@ pub struct Outputs {
     pub drive_torque: f64,
     /// Slider against the ideal rigid mechanism at the same crank motion.
     pub accuracy: AccuracyOutputs,
+    /// Energies, works and losses, with an audit; 0 otherwise.
+    pub energy: EnergyOutputs,
     /// Work of the integrator since the start.
     pub solver: SolverOutputs,
 }
@@ -69,6 +71,10 @@ pub struct RodOutputs {
     pub angle: f64,
     /// [rad/s]
     pub speed: f64,
+    /// [m] Deflection at mid-span; 0 of a rigid rod.
+    pub deflection: f64,
+    /// [m] Stretch from end to end; 0 of a rigid rod.
+    pub stretch: f64,
 }
 
 /// State and force of a revolute joint.
@@ -108,6 +114,39 @@ pub struct AccuracyOutputs {
     pub acceleration: f64,
 }
 
+/// Energies, works since the start and losses since the start [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyOutputs {
+    /// Kinetic.
+    pub kinetic: f64,
+    /// Gravity (heights from y = 0), elastic rod and contacts.
+    pub potential: f64,
+    /// Work of torque and load.
+    pub input: f64,
+    /// Lost in contacts, friction, viscous and modal damping.
+    pub dissipated: f64,
+    /// Change of (kinetic + potential) − input + dissipated.
+    pub residual: f64,
+    /// Gravity's part of `potential`.
+    pub gravity: f64,
+    /// The rod's part of `potential`.
+    pub elastic: f64,
+    /// The contacts' part of `potential`.
+    pub contact: f64,
+    /// The torque's part of `input`.
+    pub torque_work: f64,
+    /// The slider load's part of `input`.
+    pub load_work: f64,
+    /// The contacts' hysteresis in `dissipated`.
+    pub contact_loss: f64,
+    /// Friction in `dissipated`.
+    pub friction_loss: f64,
+    /// Viscous friction in `dissipated`.
+    pub viscous_loss: f64,
+    /// Modal damping in `dissipated`.
+    pub modal_loss: f64,
+}
+
 /// Work of the integrator since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolverOutputs {
@@ -145,7 +184,12 @@ impl Outputs {
                 speed: combine(a.crank.speed, b.crank.speed),
                 acceleration: combine(a.crank.acceleration, b.crank.acceleration),
             },
-            rod: RodOutputs { angle: combine(a.rod.angle, b.rod.angle), speed: combine(a.rod.speed, b.rod.speed) },
+            rod: RodOutputs {
+                angle: combine(a.rod.angle, b.rod.angle),
+                speed: combine(a.rod.speed, b.rod.speed),
+                deflection: combine(a.rod.deflection, b.rod.deflection),
+                stretch: combine(a.rod.stretch, b.rod.stretch),
+            },
             joint_a: revolute(&a.joint_a, &b.joint_a),
             joint_b: revolute(&a.joint_b, &b.joint_b),
             joint_c: revolute(&a.joint_c, &b.joint_c),
@@ -160,6 +204,22 @@ impl Outputs {
                 position: combine(a.accuracy.position, b.accuracy.position),
                 velocity: combine(a.accuracy.velocity, b.accuracy.velocity),
                 acceleration: combine(a.accuracy.acceleration, b.accuracy.acceleration),
+            },
+            energy: EnergyOutputs {
+                kinetic: combine(a.energy.kinetic, b.energy.kinetic),
+                potential: combine(a.energy.potential, b.energy.potential),
+                input: combine(a.energy.input, b.energy.input),
+                dissipated: combine(a.energy.dissipated, b.energy.dissipated),
+                residual: combine(a.energy.residual, b.energy.residual),
+                gravity: combine(a.energy.gravity, b.energy.gravity),
+                elastic: combine(a.energy.elastic, b.energy.elastic),
+                contact: combine(a.energy.contact, b.energy.contact),
+                torque_work: combine(a.energy.torque_work, b.energy.torque_work),
+                load_work: combine(a.energy.load_work, b.energy.load_work),
+                contact_loss: combine(a.energy.contact_loss, b.energy.contact_loss),
+                friction_loss: combine(a.energy.friction_loss, b.energy.friction_loss),
+                viscous_loss: combine(a.energy.viscous_loss, b.energy.viscous_loss),
+                modal_loss: combine(a.energy.modal_loss, b.energy.modal_loss),
             },
             solver: SolverOutputs::default(),
         }

@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod enumerations;
+pub mod modal;
 pub mod parameter;
 pub mod problem;
 pub mod profile;
@@ -14,7 +15,8 @@ pub mod units;
 pub mod write;
 
 pub use check::SceneError;
-pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method};
+pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method, Surface};
+pub use modal::ModalTable;
 pub use parameter::PARAMETERS;
 use serde::{Deserialize, Serialize};
 
@@ -36,6 +38,8 @@ pub struct Scene {
     pub guide: GuideLines,
     /// The four joints.
     pub joint: Joints,
+    /// What is reckoned up beside the motion.
+    pub energy: Energy,
     /// How time is integrated.
     pub solver: Solver,
 }
@@ -50,6 +54,7 @@ impl Default for Scene {
             slider: Slider::default(),
             guide: GuideLines::default(),
             joint: Joints::default(),
+            energy: Energy::default(),
             solver: Solver::default(),
         };
         for parameter in PARAMETERS {
@@ -85,7 +90,7 @@ pub struct Crank {
 }
 
 /// Connecting rod: big end at its reference point, small end at distance `length` along its x axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rod {
     /// [m] Big-end centre to small-end centre.
     pub length: f64,
@@ -95,6 +100,31 @@ pub struct Rod {
     pub inertia: f64,
     /// [m] Centre of mass in body axes.
     pub com: Point,
+    /// Bending and stretching. With modes, `mass`, `inertia` and `com` are the beam's.
+    pub flexible: Flexible,
+}
+
+/// Elastic modes of the rod: a uniform beam. No modes: rigid.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Flexible {
+    /// Number of bending modes.
+    pub bending_modes: i32,
+    /// Number of axial modes.
+    pub axial_modes: i32,
+    /// [Pa] Young's modulus.
+    pub young: f64,
+    /// [kg/m³]
+    pub density: f64,
+    /// [m²] Area of the cross-section.
+    pub area: f64,
+    /// [m⁴] Second moment of the cross-section.
+    pub second_moment: f64,
+    /// Damping ratio of every mode.
+    pub damping_ratio: f64,
+    /// Foreshortening of the bent rod.
+    pub geometric_stiffness: bool,
+    /// Modes that stand in for the beam's: the first `bending_modes` and `axial_modes` of them.
+    pub table: Option<ModalTable>,
 }
 
 /// Slider: pin journal at its reference point; a rectangle runs in the guide.
@@ -175,6 +205,10 @@ pub struct Guide {
     pub corner_radius: f64,
     /// [m] Rectangle's centre above the middle line at the start.
     pub offset_start: f64,
+    /// Corners or faces.
+    pub surface: Surface,
+    /// [N/m²] Stiffness of the faces per length; 0: of the elastic half-space.
+    pub foundation_stiffness: f64,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
 }
@@ -229,6 +263,19 @@ pub struct Friction {
     pub v1: f64,
     /// [m/s] Stribeck speed v_s.
     pub v_stribeck: f64,
+    /// [1/m] Bristle stiffness σ0 of lugre.
+    pub sigma0: f64,
+    /// [s/m] Bristle damping σ1.
+    pub sigma1: f64,
+    /// [s/m] Viscous coefficient σ2.
+    pub sigma2: f64,
+}
+
+/// What is reckoned up beside the motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Energies, works and losses.
+    pub audit: bool,
 }
 
 /// How time is integrated.

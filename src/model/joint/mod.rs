@@ -38,6 +38,7 @@ fn with_friction<K: KernelFamily, E: Elastic, D: Damped>(contact: &Contact) -> K
         FrictionLaw::Ambrosio => K::kernel::<E, D, Ambrosio>(),
         FrictionLaw::Tanh => K::kernel::<E, D, Tanh>(),
         FrictionLaw::Stribeck => K::kernel::<E, D, Stribeck>(),
+        FrictionLaw::Lugre => K::kernel::<E, D, Frictionless>(),
     }
 }
 

@@ -103,7 +103,7 @@ impl Laws {
     pub fn friction_force(&self, phase: &Phase, normal_force: f64, sliding: f64) -> f64 {
         let f = &self.friction;
         let coefficient = match f.law {
-            FrictionLaw::None => 0.0,
+            FrictionLaw::None | FrictionLaw::Lugre => 0.0,
             FrictionLaw::Ambrosio => {
                 let share = match phase.zone.abs() {
                     0 => 0.0,

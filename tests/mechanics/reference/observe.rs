@@ -35,7 +35,7 @@ impl Reference {
                 angle: motion.angle(SLIDER),
             },
             crank,
-            rod: RodOutputs { angle: motion.angle(ROD), speed: motion.spin(ROD) },
+            rod: RodOutputs { angle: motion.angle(ROD), speed: motion.spin(ROD), ..RodOutputs::default() },
             joint_a,
             joint_b,
             joint_c,
