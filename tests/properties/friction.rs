@@ -6,13 +6,21 @@ use slidercrank::model::friction::{Ambrosio, Friction as Law, FrictionParameters
 use slidercrank::scene::{Friction, FrictionLaw, Scene};
 
 fn parameters(law: FrictionLaw) -> Friction {
-    Friction { law, coefficient: 0.12, static_coefficient: 0.3, v0: 0.5, v1: 4.0, v_stribeck: 1.5 }
+    Friction {
+        law,
+        coefficient: 0.12,
+        static_coefficient: 0.3,
+        v0: 0.5,
+        v1: 4.0,
+        v_stribeck: 1.5,
+        ..Friction::default()
+    }
 }
 
 /// f_t/f_n as physics.md 6 has it.
 fn ratio(f: &Friction, v: f64) -> f64 {
     match f.law {
-        FrictionLaw::None => 0.0,
+        FrictionLaw::None | FrictionLaw::Lugre => 0.0,
         FrictionLaw::Ambrosio => v.signum() * f.coefficient * ((v.abs() - f.v0) / (f.v1 - f.v0)).clamp(0.0, 1.0),
         FrictionLaw::Tanh => f.coefficient * (v / f.v1).tanh(),
         FrictionLaw::Stribeck => {
@@ -27,7 +35,7 @@ const LAWS: [FrictionLaw; 4] = [FrictionLaw::None, FrictionLaw::Ambrosio, Fricti
 fn library_ratio(f: &Friction, v: f64) -> f64 {
     let p = FrictionParameters::new(f);
     match f.law {
-        FrictionLaw::None => Frictionless::ratio(&p, v),
+        FrictionLaw::None | FrictionLaw::Lugre => Frictionless::ratio(&p, v),
         FrictionLaw::Ambrosio => Ambrosio::ratio(&p, v),
         FrictionLaw::Tanh => Tanh::ratio(&p, v),
         FrictionLaw::Stribeck => Stribeck::ratio(&p, v),
