@@ -135,7 +135,7 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
         0.0
     }
 
-    fn cross(&self, contacts: &Contacts, _: f64, _: &[f64; N], _: &Crossed) -> Reset<Contacts> {
+    fn cross(&self, contacts: &Contacts, _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<Contacts> {
         Reset { modes: *contacts, step: None }
     }
 }

@@ -220,7 +220,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         self.guard_scale
     }
 
-    fn cross(&self, contacts: &Contacts, t: f64, y: &[f64; N], crossed: &Crossed) -> Reset<Contacts> {
+    fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
         let penetrations = self.penetrations(&self.pose(t, y));
         let mut reset = Reset { modes: *contacts, step: None };
         for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
