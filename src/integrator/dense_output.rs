@@ -46,8 +46,8 @@ impl<const N: usize> Step<'_, N> {
             y[i] = q;
             y[p + i] = v;
         }
-        for i in 2 * p..states {
-            y[i] = self.cubic(i, s).0;
+        for (i, z) in y.iter_mut().enumerate().take(states).skip(2 * p) {
+            *z = self.cubic(i, s).0;
         }
         if let Some(e) = correction {
             let x = s - 0.5;

@@ -6,6 +6,8 @@
 //! `open` and `closed` (the two kinds of mechanism), `joint` and `contact` (forces), `reactions` and
 //! `outputs`.
 
+pub mod bristles;
+pub mod clearances;
 pub mod closed;
 pub mod contact;
 pub mod coordinates;

@@ -96,7 +96,7 @@ pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &In
         } else {
             let x = of_slider.force.x - guide.force.x - load.x;
             let rod_arm = pose.place.small_end - pose.place.big_end;
-            r.c = closed_loop_pin_force(&of_rod, loads.couple[ROD], x, rod_arm);
+            r.c = closed_loop_pin_force(&of_rod, loads.couples()[ROD], x, rod_arm);
             r.b = of_rod.force + r.c;
             r.a = of_crank.force + r.b;
         }
@@ -104,10 +104,10 @@ pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &In
         r.t = Vec2::new(guide.force.x, rest.y);
         // About the centre of mass: J·α = (pin − com) × (all forces) + couples + guide's moment.
         let forces = r.c + load + r.t;
-        r.moment = of_slider.moment + cross(of_slider.com, forces) - loads.couple[SLIDER];
+        r.moment = of_slider.moment + cross(of_slider.com, forces) - loads.slider_couple;
     }
     let to_pin = pose.place.crank_pin - pose.place.crank;
-    r.torque = of_crank.moment + cross(of_crank.com, r.a) + cross(to_pin - of_crank.com, r.b) - loads.couple[CRANK];
+    r.torque = of_crank.moment + cross(of_crank.com, r.a) + cross(to_pin - of_crank.com, r.b) - loads.crank_couple;
     r
 }
 

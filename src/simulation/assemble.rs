@@ -1,7 +1,9 @@
 //! Chooses the compiled mechanism and method that a scene calls for.
 
 use super::run::{Motion, Run};
+use crate::integrator::ROOM;
 use crate::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
+use crate::model::bristles::bristled_contacts;
 use crate::model::closed::Closed;
 use crate::model::drive::InputSignal;
 use crate::model::mechanism::Topology;
@@ -16,8 +18,13 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
     macro_rules! open {
         ($a:literal, $b:literal, $c:literal, $t:literal, $speed:literal) => {{
             const N: usize = 2 * Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed }.freedoms();
-            let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
-            with_method::<N, _>(scene, time, pose, signal, plant)
+            if has_extra_states(scene) {
+                let plant = Open::<$a, $b, $c, $t, $speed, ROOM>::assemble(scene, time);
+                with_method::<ROOM, _>(scene, time, pose, signal, plant)
+            } else {
+                let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
+                with_method::<N, _>(scene, time, pose, signal, plant)
+            }
         }};
     }
     /// Both drives.
@@ -52,6 +59,11 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
         (false, false, false, true) => driven!(speed, false, false, false, true),
         (false, false, false, false) => driven!(speed, false, false, false, false),
     }
+}
+
+/// The scene calls for states beside positions and rates.
+fn has_extra_states(scene: &Scene) -> bool {
+    !bristled_contacts(scene).is_empty()
 }
 
 /// A method is compiled once for every number of states and calls the mechanism through a table of
