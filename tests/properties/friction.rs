@@ -13,7 +13,9 @@ fn parameters(law: FrictionLaw) -> Friction {
         v0: 0.5,
         v1: 4.0,
         v_stribeck: 1.5,
-        ..Friction::default()
+        sigma0: 1e5,
+        sigma1: 300.0,
+        sigma2: 0.0,
     }
 }
 
