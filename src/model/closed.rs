@@ -206,6 +206,7 @@ impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
             ),
             angle_acceleration,
             loads,
+            flexible: None,
         }
     }
 

@@ -227,7 +227,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         let Accelerations { roots, angle } = self.accelerations(&pose, &loads);
         let forced = Acceleration(&pose.turning, &angle);
         let acceleration = walk(Self::TOPOLOGY, &self.bodies, &self.chains, &roots, forced);
-        Instant { pose, acceleration, angle_acceleration: angle, loads }
+        Instant { pose, acceleration, angle_acceleration: angle, loads, flexible: None }
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {

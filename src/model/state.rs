@@ -7,6 +7,8 @@ use super::joint::revolute::Play;
 use super::kinematics::{JointCentres, Turning};
 use super::mechanism::{CRANK, SLIDER};
 use super::plane::Rotation;
+use super::reactions::Demand;
+use super::rod::Elastic;
 
 /// Contacts of the joints A, B, C and of the guide's corners.
 pub const CONTACTS: usize = 3 + CORNERS;
@@ -72,6 +74,17 @@ pub struct Instant {
     pub angle_acceleration: [f64; 3],
     /// Loads, with the contact forces in them.
     pub loads: Loads,
+    /// Of a flexible rod.
+    pub flexible: Option<FlexibleInstant>,
+}
+
+/// What only a flexible rod has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlexibleInstant {
+    /// What the rod's motion needs of forces and moments.
+    pub demand: Demand,
+    /// Its elasticity.
+    pub elastic: Elastic,
 }
 
 /// Turning from angles and rates; the slider on an ideal guide does not turn.
