@@ -1,5 +1,6 @@
 //! What a scene's parameters must be to each other.
 
+use super::closure::{rise, rod_sine};
 use super::parameter::{PARAMETERS, Parameter, Refusal};
 use super::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Point, Scene, Surface};
 use crate::model_description::number::number;
@@ -84,25 +85,11 @@ impl Scene {
 
     /// The rod must reach the slider's height at the start.
     fn check_closure(&self) -> Result<(), SceneError> {
-        let start = |joint: &super::Revolute| match joint.model {
-            JointModel::Ideal => 0.0,
-            JointModel::Clearance => joint.eccentricity_start.y,
-        };
-        let joints = &self.joint;
-        let big_end = start(&joints.a) + self.crank.length * self.crank.angle_start.sin() - start(&joints.b);
-        let offset = match joints.t.model {
-            JointModel::Ideal => 0.0,
-            JointModel::Clearance => joints.t.offset_start,
-        };
-        let small_end = self.guide.offset + offset - self.slider.centre.y - start(&joints.c);
-        // l·sin θ2 = small_end − big_end; at sin θ2 = ±1 the rod's speed has no bound.
-        let rise = (small_end - big_end).abs();
-        let length = self.rod.length;
-        if rise < length {
+        if rod_sine(self).abs() < 1.0 {
             return Ok(());
         }
-        let allowed = format!("above {} m, for the rod to reach the slider at the start", number(rise));
-        Err(SceneError::Conflict { name: "rod.length".into(), value: length, allowed })
+        let allowed = format!("above {} m, for the rod to reach the slider at the start", number(rise(self).abs()));
+        Err(SceneError::Conflict { name: "rod.length".into(), value: self.rod.length, allowed })
     }
 }
 
