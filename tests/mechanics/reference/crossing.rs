@@ -122,10 +122,11 @@ impl Reference {
             let trial = self.attempt(length)?;
             self.margin(departure, &self.after(&trial.change))
         };
-        let mut above = if low > 0.0 { margin_at(low)? } else { self.margin(departure, &self.motion)? };
+        let start = self.margin(departure, &self.motion)?;
+        let mut above = if low > 0.0 { margin_at(low)? } else { start };
         let mut below = margin_at(high)?;
         // A branch just entered may miss its own bound by round-off.
-        if above <= 0.0 && low == 0.0 {
+        if above <= 0.0 && start <= 0.0 {
             return Some(0.0);
         }
         // Rough states judge rough.
