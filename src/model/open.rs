@@ -136,7 +136,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         accelerate(Self::TOPOLOGY, bodies, chains, *gravity, &pose.turning, loads)
     }
 
-    /// Penetration and its rate of every contact; far open for a joint without clearance.
+    /// Penetration and approach speed of every contact; far open for a joint without clearance.
     #[inline(always)]
     fn penetrations(&self, pose: &Pose) -> [(f64, f64); 3 + CORNERS] {
         let mut all = [(f64::NEG_INFINITY, 0.0); 3 + CORNERS];
@@ -147,10 +147,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
             }
         }
         if !T {
-            let slider = pose.slider();
-            for k in 0..CORNERS {
-                all[3 + k] = (self.guide.penetration(k, &slider), self.guide.penetration_rate(k, &slider));
-            }
+            all[3..].copy_from_slice(&self.guide.approaches(&pose.slider()));
         }
         all
     }
@@ -209,10 +206,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
             };
         }
         if !T {
-            let slider = pose.slider();
-            for k in 0..CORNERS {
-                guards[3 + k] = self.guide.guard(k, &contacts[3 + k], &slider);
-            }
+            guards[3..3 + CORNERS].copy_from_slice(&self.guide.guards(&contacts[3..], &pose.slider()));
         }
     }
 
@@ -223,6 +217,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     fn cross(&self, contacts: &Contacts, t: f64, y: &[f64; N], crossed: &Crossed) -> Reset<Contacts> {
         let penetrations = self.penetrations(&self.pose(t, y));
         let mut reset = Reset { modes: *contacts, step: None };
+        let crossed = self.guide.contacts_of(crossed);
         for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if mode.closed {
                 *mode = ContactMode::default();
@@ -291,6 +286,10 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
-        self.penetrations(pose).map(|(depth, _)| depth)
+        let mut depths = self.penetrations(pose).map(|(depth, _)| depth);
+        if !T {
+            depths[3..].copy_from_slice(&self.guide.penetrations(&pose.slider()));
+        }
+        depths
     }
 }

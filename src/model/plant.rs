@@ -29,6 +29,6 @@ pub trait Plant<const N: usize>: Problem<N, Modes = Contacts> + Send {
     /// Everything about one instant.
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant;
 
-    /// [m] Penetration of every contact of a pose, −∞ where there is none.
+    /// [m] Penetration in the joints A, B, C and of the guide's corners at a pose, −∞ in an ideal joint.
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];
 }

@@ -8,7 +8,7 @@ use super::kinematics::{JointCentres, Turning};
 use super::mechanism::{CRANK, ROD, SLIDER};
 use super::plane::Rotation;
 
-/// Contacts of the joints A, B, C and of the guide's corners.
+/// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.
 pub const CONTACTS: usize = 3 + CORNERS;
 
 /// The discrete state: every contact's memory.

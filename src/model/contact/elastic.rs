@@ -15,6 +15,9 @@ pub struct HertzThreeHalves;
 /// K·δ^p for any p.
 pub struct Power;
 
+/// K·δ: a bed of springs of the stiffness K, pressed in by δ on average.
+pub struct Linear;
+
 /// Conformal cylinders: F = (π/2)·E*·L·δ·√(δ/(2(c + δ))); C. Liu, K. Zhang, R. Yang, The FEM
 /// analysis and approximate model for cylindrical joints with clearances, Mech. Mach. Theory 42
 /// (2007) 183-197.
@@ -31,6 +34,13 @@ impl Elastic for Power {
     #[inline(always)]
     fn force(parameters: &ContactParameters, depth: f64) -> f64 {
         parameters.stiffness * math::powf(depth, parameters.exponent)
+    }
+}
+
+impl Elastic for Linear {
+    #[inline(always)]
+    fn force(parameters: &ContactParameters, depth: f64) -> f64 {
+        parameters.stiffness * depth
     }
 }
 

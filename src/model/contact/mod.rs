@@ -7,7 +7,7 @@
 pub mod damping;
 mod elastic;
 
-pub use elastic::{Elastic, HertzThreeHalves, Liu, Power};
+pub use elastic::{Elastic, HertzThreeHalves, Linear, Liu, Power};
 
 use super::friction::{Friction, FrictionParameters};
 use crate::math;
