@@ -1,5 +1,6 @@
 //! What must hold of the mechanism whatever computes it: closed forms, balances, limits, symmetries.
 
+mod audit;
 mod clearance_to_zero;
 mod conservation;
 mod consistency;
