@@ -3,6 +3,8 @@
 mod against_reference;
 mod chance;
 mod comparison;
+mod elastic_itself;
+mod elastic_scenes;
 mod reference;
 mod reference_itself;
 mod scenes;

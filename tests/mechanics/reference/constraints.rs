@@ -1,7 +1,9 @@
 //! Ideal joints and a prescribed crank as constraints Φ(q, t) = 0, held by Lagrange multipliers:
 //! M·q̈ − Φ_qᵀ·λ = Q and Φ_q·q̈ = γ, so that Φ_qᵀ·λ is the reaction.
 
-use super::bodies::{Bodies, CRANK, Motion, Nine, SLIDER, Vector};
+use super::bodies::Bodies;
+use super::coordinates::{COORDINATES, CRANK, Coordinates, Mass, Motion, SLIDER, Vector};
+use super::elimination::System;
 use nalgebra::{SMatrix, SVector};
 use slidercrank::scene::{DriveMode, JointModel, Scene};
 
@@ -11,12 +13,14 @@ const HEIGHT_ROW: usize = 6;
 const TILT_ROW: usize = 7;
 pub const DRIVE_ROW: usize = 8;
 
-type Square = SMatrix<f64, 9, 9>;
-type Eighteen = SVector<f64, 18>;
+const ROWS: usize = 9;
+/// One number per row.
+type Nine = SVector<f64, ROWS>;
+type Jacobian = SMatrix<f64, ROWS, COORDINATES>;
 
 /// Which constraints hold, and what they ask for.
 pub struct Constraints {
-    held: [bool; 9],
+    held: [bool; ROWS],
     guide_offset: f64,
     angle_start: f64,
     speed: f64,
@@ -26,7 +30,7 @@ pub struct Constraints {
 /// The constraints at one instant.
 struct Rows {
     /// Φ_q, zero in rows not held.
-    jacobian: Square,
+    jacobian: Jacobian,
     /// Φ.
     miss: Nine,
     /// What Φ_q·v must be.
@@ -37,7 +41,7 @@ struct Rows {
 
 /// q̈ and λ.
 pub struct Solution {
-    pub acceleration: Nine,
+    pub acceleration: Coordinates,
     pub multipliers: Nine,
 }
 
@@ -57,13 +61,13 @@ impl Constraints {
 
     fn rows(&self, bodies: &Bodies, time: f64, motion: &Motion) -> Rows {
         let mut rows =
-            Rows { jacobian: Square::zeros(), miss: Nine::zeros(), rate: Nine::zeros(), acceleration: Nine::zeros() };
+            Rows { jacobian: Jacobian::zeros(), miss: Nine::zeros(), rate: Nine::zeros(), acceleration: Nine::zeros() };
         for (joint, &row) in REVOLUTE_ROWS.iter().enumerate() {
             // Journal centre = bearing centre.
             let (bearing, journal) = (&bodies.bearings[joint], &bodies.journals[joint]);
             let jacobian = journal.jacobian(motion) - bearing.jacobian(motion);
             let miss = journal.position(motion) - bearing.position(motion);
-            let drift = journal.centripetal(motion) - bearing.centripetal(motion);
+            let drift = journal.drift(motion) - bearing.drift(motion);
             rows.jacobian.fixed_rows_mut::<2>(row).copy_from(&jacobian);
             rows.miss.fixed_rows_mut::<2>(row).copy_from(&miss);
             rows.acceleration.fixed_rows_mut::<2>(row).copy_from(&-drift);
@@ -72,55 +76,64 @@ impl Constraints {
         let height = bodies.centre.jacobian(motion).row(1).into_owned();
         rows.jacobian.row_mut(HEIGHT_ROW).copy_from(&height);
         rows.miss[HEIGHT_ROW] = bodies.centre.position(motion).y - self.guide_offset;
-        rows.acceleration[HEIGHT_ROW] = -bodies.centre.centripetal(motion).y;
+        rows.acceleration[HEIGHT_ROW] = -bodies.centre.drift(motion).y;
         rows.jacobian[(TILT_ROW, 3 * SLIDER + 2)] = 1.0;
         rows.miss[TILT_ROW] = motion.angle(SLIDER);
         // θ1 = θ0 + ω0·(t − t0).
         rows.jacobian[(DRIVE_ROW, 3 * CRANK + 2)] = 1.0;
         rows.miss[DRIVE_ROW] = motion.angle(CRANK) - (self.angle_start + self.speed * (time - self.time_start));
         rows.rate[DRIVE_ROW] = self.speed;
-        for row in (0..9).filter(|&row| !self.held[row]) {
+        for row in (0..ROWS).filter(|&row| !self.held[row]) {
             rows.jacobian.row_mut(row).fill(0.0);
             (rows.miss[row], rows.rate[row], rows.acceleration[row]) = (0.0, 0.0, 0.0);
         }
         rows
     }
 
-    /// Solves [M Φ_qᵀ; Φ_q 0]·[x; −λ] = [load; right].
-    fn solve(&self, bodies: &Bodies, jacobian: &Square, load: &Nine, right: &Nine) -> Solution {
-        let mut matrix = SMatrix::<f64, 18, 18>::zeros();
-        matrix.fixed_view_mut::<9, 9>(0, 0).set_diagonal(&bodies.inertia);
-        matrix.fixed_view_mut::<9, 9>(0, 9).copy_from(&jacobian.transpose());
-        matrix.fixed_view_mut::<9, 9>(9, 0).copy_from(jacobian);
-        for row in (0..9).filter(|&row| !self.held[row]) {
-            matrix[(9 + row, 9 + row)] = 1.0;
+    /// Solves [M Φ_qᵀ; Φ_q 0]·[x; −λ] = [load; right], leaving out what is not there.
+    fn solve(&self, count: usize, mass: &Mass, jacobian: &Jacobian, load: &Coordinates, right: &Nine) -> Solution {
+        let held: Vec<usize> = (0..ROWS).filter(|&row| self.held[row]).collect();
+        let mut system = System::new(count + held.len());
+        for row in 0..count {
+            (0..count).for_each(|column| system.set(row, column, mass[(row, column)]));
+            system.set_right(row, load[row]);
         }
-        let mut right_side = Eighteen::zeros();
-        right_side.fixed_rows_mut::<9>(0).copy_from(load);
-        right_side.fixed_rows_mut::<9>(9).copy_from(right);
-        let solved = matrix.lu().solve(&right_side).expect("the mechanism stands away from its singular positions");
-        Solution {
-            acceleration: solved.fixed_rows::<9>(0).into_owned(),
-            multipliers: -solved.fixed_rows::<9>(9).into_owned(),
+        for (k, &row) in held.iter().enumerate() {
+            for column in 0..count {
+                system.set(count + k, column, jacobian[(row, column)]);
+                system.set(column, count + k, jacobian[(row, column)]);
+            }
+            system.set_right(count + k, right[row]);
         }
+        let solved = system.solve();
+        let mut solution = Solution { acceleration: Coordinates::zeros(), multipliers: Nine::zeros() };
+        solution.acceleration.rows_mut(0, count).copy_from_slice(&solved[..count]);
+        for (k, &row) in held.iter().enumerate() {
+            solution.multipliers[row] = -solved[count + k];
+        }
+        solution
     }
 
-    /// Accelerations and multipliers under these generalized forces.
-    pub fn accelerate(&self, bodies: &Bodies, time: f64, motion: &Motion, loads: &Nine) -> Solution {
+    /// Accelerations and multipliers under these generalized forces, and under gravity and the
+    /// forces of q̇.
+    pub fn accelerate(&self, bodies: &Bodies, time: f64, motion: &Motion, loads: &Coordinates) -> Solution {
         let rows = self.rows(bodies, time, motion);
-        self.solve(bodies, &rows.jacobian, loads, &rows.acceleration)
+        let inertia = bodies.inertia(motion);
+        self.solve(bodies.count, &inertia.mass, &rows.jacobian, &(loads + inertia.loads), &rows.acceleration)
     }
 
     /// The nearest motion, measured by mass, that keeps every constraint.
     pub fn project(&self, bodies: &Bodies, time: f64, mut motion: Motion) -> Motion {
+        let none = Coordinates::zeros();
+        let mass = bodies.inertia(&motion).mass;
         // Newton from a miss of 1e-13 is at round-off after the first of these.
         for _ in 0..2 {
             let rows = self.rows(bodies, time, &motion);
-            motion.q += self.solve(bodies, &rows.jacobian, &Nine::zeros(), &-rows.miss).acceleration;
+            motion.q += self.solve(bodies.count, &mass, &rows.jacobian, &none, &-rows.miss).acceleration;
         }
         let rows = self.rows(bodies, time, &motion);
         let miss = rows.rate - rows.jacobian * motion.v;
-        motion.v += self.solve(bodies, &rows.jacobian, &Nine::zeros(), &miss).acceleration;
+        motion.v += self.solve(bodies.count, &mass, &rows.jacobian, &none, &miss).acceleration;
         motion
     }
 

@@ -1,10 +1,12 @@
 //! Gragg, Bulirsch and Stoer: modified midpoint rules with 2, 4, 6, … substeps, extrapolated to
 //! substeps of length 0 (Hairer, Nørsett, Wanner, Solving ODEs I, II.9).
 
+use super::coordinates::{CONTACTS, COORDINATES};
 use nalgebra::SVector;
 
-/// Coordinates, then velocities.
-pub type State = SVector<f64, 18>;
+pub const SIZE: usize = 2 * COORDINATES + CONTACTS + 6;
+/// Coordinates, velocities, bristles, account.
+pub type State = SVector<f64, SIZE>;
 
 /// More columns would amplify round-off: the weights of the ninth row already add up to 150.
 const COLUMNS: usize = 9;

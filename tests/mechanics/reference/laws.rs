@@ -26,7 +26,7 @@ pub struct Laws {
 }
 
 /// σ_b + σ_j with σ = (1 − ν²)/E.
-fn compliance(contact: &Contact) -> f64 {
+pub fn compliance(contact: &Contact) -> f64 {
     let sigma = |poisson: f64, young: f64| (1.0 - poisson * poisson) / young;
     sigma(contact.poisson.bearing, contact.young.bearing) + sigma(contact.poisson.journal, contact.young.journal)
 }
@@ -50,6 +50,11 @@ impl Laws {
     pub fn of_corner(guide: &Guide) -> Self {
         let hertz = 4.0 / (3.0 * compliance(&guide.contact)) * guide.corner_radius.sqrt();
         Self::new(power(&guide.contact, hertz), &guide.contact)
+    }
+
+    /// A bed of springs under a face gives its elastic force itself.
+    pub fn of_face(guide: &Guide) -> Self {
+        Self::new(Elastic::Power { stiffness: 0.0, exponent: 1.0 }, &guide.contact)
     }
 
     fn new(elastic: Elastic, contact: &Contact) -> Self {
@@ -92,18 +97,22 @@ impl Laws {
     }
 
     /// [N] f_n on the branch of `phase`.
-    pub fn normal_force(&self, phase: &Phase, penetration: f64, rate: f64) -> f64 {
-        if !phase.closed || phase.clipped {
+    pub fn normal_force(&self, phase: &Phase, elastic_force: f64, rate: f64) -> f64 {
+        if !phase.closed() || phase.clipped {
             return 0.0;
         }
-        self.elastic_force(penetration) * self.damping_multiplier(phase, rate)
+        elastic_force * self.damping_multiplier(phase, rate)
     }
 
     /// [N] f_t on the branch of `phase`.
-    pub fn friction_force(&self, phase: &Phase, normal_force: f64, sliding: f64) -> f64 {
+    pub fn friction_force(&self, phase: &Phase, normal_force: f64, sliding: f64, bristle: f64) -> f64 {
         let f = &self.friction;
         let coefficient = match f.law {
-            FrictionLaw::None | FrictionLaw::Lugre => 0.0,
+            FrictionLaw::None => 0.0,
+            FrictionLaw::Lugre => {
+                let damping = f.sigma1 * self.fading(sliding) * self.bristle_rate(phase, sliding, bristle);
+                f.sigma0 * bristle + damping + f.sigma2 * sliding
+            }
             FrictionLaw::Ambrosio => {
                 let share = match phase.zone.abs() {
                     0 => 0.0,
@@ -113,13 +122,29 @@ impl Laws {
                 f.coefficient * f64::from(phase.zone.signum()) * share
             }
             FrictionLaw::Tanh => f.coefficient * (sliding / f.v1).tanh(),
-            FrictionLaw::Stribeck => {
-                let fading = (-(sliding / f.v_stribeck).powi(2)).exp();
-                let falling = f.coefficient + (f.static_coefficient - f.coefficient) * fading;
-                falling * (sliding / f.v1).tanh()
-            }
+            FrictionLaw::Stribeck => self.falling(sliding) * (sliding / f.v1).tanh(),
         };
         coefficient * normal_force
+    }
+
+    /// exp(−(v/v_s)²).
+    fn fading(&self, sliding: f64) -> f64 {
+        (-(sliding / self.friction.v_stribeck).powi(2)).exp()
+    }
+
+    /// μ_k + (μ_s − μ_k)·exp(−(v/v_s)²).
+    fn falling(&self, sliding: f64) -> f64 {
+        let f = &self.friction;
+        f.coefficient + (f.static_coefficient - f.coefficient) * self.fading(sliding)
+    }
+
+    /// [m/s] ż = v − σ0·|v|·z/g(v) of lugre, the sign of v being that of `phase`.
+    pub fn bristle_rate(&self, phase: &Phase, sliding: f64, bristle: f64) -> f64 {
+        if !phase.closed() || self.friction.law != FrictionLaw::Lugre {
+            return 0.0;
+        }
+        let speed = f64::from(phase.zone) * sliding;
+        sliding - self.friction.sigma0 * speed * bristle / self.falling(sliding)
     }
 }
 

@@ -1,30 +1,97 @@
-//! What a motion without losses keeps: energy; and momentum, while nothing touches the ground.
+//! The energy audit; and what a motion without losses keeps: energy, and momentum while nothing
+//! touches the ground.
 
-use super::bodies::{CRANK, ROD, SLIDER, Vector, cross};
+use super::constraints::{DRIVE_ROW, Solution};
+use super::coordinates::{Account, CRANK, Motion, ROD, SLIDER, Vector, cross};
+use super::loads::Loads;
 use super::solver::Reference;
+use slidercrank::model::signals::{EnergyOutputs, Inputs};
+use slidercrank::scene::DriveMode;
 
 impl Reference {
-    /// [J] Kinetic energy, height and elastic contacts.
+    /// [J] Kinetic energy, height, elastic rod and elastic contacts.
     pub fn energy(&self) -> f64 {
-        let (motion, inertia) = (&self.motion, &self.bodies.inertia);
-        let kinetic = 0.5 * motion.v.component_mul(inertia).dot(&motion.v);
-        let weight = |body: usize| inertia[3 * body] * self.scene.gravity;
-        let height: f64 = [CRANK, ROD, SLIDER].map(|body| weight(body) * motion.centre_of_mass(body).y).iter().sum();
-        let elastic =
-            |contact: &super::contact::Contact| contact.laws.elastic_energy(contact.touch(motion).penetration);
-        kinetic + height + self.contacts.iter().flatten().map(elastic).sum::<f64>()
+        self.kinetic(&self.motion) + self.stores(&self.motion).iter().sum::<f64>()
+    }
+
+    fn kinetic(&self, motion: &Motion) -> f64 {
+        0.5 * motion.v.dot(&(self.bodies.inertia(motion).mass * motion.v))
+    }
+
+    /// [J] Of height, rod and contacts.
+    fn stores(&self, motion: &Motion) -> [f64; 3] {
+        let of_contact = |k: usize| self.contacts[k].as_ref().map_or(0.0, |c| c.energy(motion, &self.phases[k]));
+        [
+            self.bodies.height_energy(motion),
+            self.bodies.beam.as_ref().map_or(0.0, |beam| beam.energy(motion)),
+            (0..self.contacts.len()).map(of_contact).sum(),
+        ]
+    }
+
+    /// [N·m] On the crank: given, or what the speed drive needs.
+    pub(super) fn drive_torque(&self, inputs: Inputs, solution: &Solution) -> f64 {
+        match self.scene.drive.mode {
+            DriveMode::Torque => inputs.crank_torque,
+            DriveMode::Speed => solution.multipliers[DRIVE_ROW],
+        }
+    }
+
+    /// [W] What the account gains.
+    pub(super) fn powers(&self, time: f64, motion: &Motion, loads: &Loads, solution: &Solution) -> Account {
+        if !self.scene.energy.audit {
+            return Account::zeros();
+        }
+        let inputs = self.inputs_at(time);
+        Account::from([
+            self.drive_torque(inputs, solution) * motion.spin(CRANK),
+            inputs.slider_load * self.bodies.journals[2].velocity(motion).x,
+            loads.contact_loss,
+            loads.friction_loss,
+            loads.viscous_loss,
+            self.bodies.beam.as_ref().map_or(0.0, |beam| beam.loss(motion)),
+        ])
+    }
+
+    /// All 0 without an audit.
+    pub(super) fn audit(&self) -> EnergyOutputs {
+        if !self.scene.energy.audit {
+            return EnergyOutputs::default();
+        }
+        let kinetic = self.kinetic(&self.motion);
+        let [gravity, elastic, contact] = self.stores(&self.motion);
+        let potential = gravity + elastic + contact;
+        let [torque_work, load_work, contact_loss, friction_loss, viscous_loss, modal_loss] =
+            self.motion.account.into();
+        let input = torque_work + load_work;
+        let dissipated = contact_loss + friction_loss + viscous_loss + modal_loss;
+        EnergyOutputs {
+            kinetic,
+            potential,
+            input,
+            dissipated,
+            residual: kinetic + potential - self.energy_start - input + dissipated,
+            gravity,
+            elastic,
+            contact,
+            torque_work,
+            load_work,
+            contact_loss,
+            friction_loss,
+            viscous_loss,
+            modal_loss,
+        }
     }
 
     /// [kg·m/s, kg·m/s, kg·m²/s] Of all bodies; angular about the origin.
     pub fn momentum(&self) -> [f64; 3] {
-        let (motion, inertia) = (&self.motion, &self.bodies.inertia);
-        let momenta = motion.v.component_mul(inertia);
+        let motion = &self.motion;
+        let momenta = self.bodies.inertia(motion).mass * motion.v;
         let mut sum = [0.0; 3];
         for body in [CRANK, ROD, SLIDER] {
             let linear = Vector::new(momenta[3 * body], momenta[3 * body + 1]);
             sum[0] += linear.x;
             sum[1] += linear.y;
-            sum[2] += cross(motion.centre_of_mass(body), linear) + momenta[3 * body + 2];
+            sum[2] += cross(motion.origin(body), linear) + momenta[3 * body + 2];
         }
         sum
     }

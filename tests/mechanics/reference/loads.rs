@@ -1,67 +1,90 @@
-//! Applied forces: gravity, drive, slider load, viscous friction and contacts.
+//! Applied forces: drive, slider load, viscous friction, contacts, and the rod's elasticity.
 
-use super::bodies::{Bodies, CRANK, Motion, Nine, ROD, SLIDER, Vector, cross, push, twist};
+use super::bodies::Bodies;
 use super::contact::Contact;
+use super::coordinates::{Bristles, CONTACTS, Coordinates, Motion, Vector, cross};
 use super::phase::Phase;
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::{DriveMode, Scene};
 
 /// Forces of the joints at one instant, and the generalized forces of everything applied.
 pub struct Loads {
-    pub generalized: Nine,
+    pub generalized: Coordinates,
     /// Contact force of A, B, C on the journal's body.
     pub on_journal: [Vector; 3],
     /// Viscous and contact force of the guide on the slider.
     pub on_slider: Vector,
     /// Its moment about the pin.
     pub about_pin: f64,
+    /// [m/s] ż of each contact.
+    pub bristle_rates: Bristles,
+    /// [W] What the contacts' hysteresis takes.
+    pub contact_loss: f64,
+    /// [W]
+    pub friction_loss: f64,
+    /// [W]
+    pub viscous_loss: f64,
 }
 
 pub fn loads(
     scene: &Scene,
     bodies: &Bodies,
-    contacts: &[Option<Contact>; 7],
-    phases: &[Phase; 7],
+    contacts: &[Option<Contact>; CONTACTS],
+    phases: &[Phase; CONTACTS],
     inputs: Inputs,
     motion: &Motion,
 ) -> Loads {
-    let mut sum = Nine::zeros();
-    for body in [CRANK, ROD, SLIDER] {
-        sum[3 * body + 1] -= bodies.inertia[3 * body] * scene.gravity;
-    }
+    let mut sum = bodies.beam.as_ref().map_or(Coordinates::zeros(), |beam| beam.inner_forces(motion));
     if scene.drive.mode == DriveMode::Torque {
-        sum += twist(CRANK, inputs.crank_torque);
+        sum += bodies.crank.twist(inputs.crank_torque);
     }
-    let pin = bodies.journals[2];
-    let along = |force: f64| push(motion, SLIDER, pin.position(motion), force * Vector::x());
+    let pin = &bodies.journals[2];
+    let along = |force: f64| pin.push(motion, pin.position(motion), force * Vector::x());
     sum += along(inputs.slider_load);
 
     let joint = &scene.joint;
+    let mut viscous_loss = 0.0;
     for (k, damping) in [joint.a.damping, joint.b.damping, joint.c.damping].into_iter().enumerate() {
-        let (bearing, journal) = (bodies.bearings[k].body, bodies.journals[k].body);
-        let couple = -damping * (motion.spin(journal) - motion.spin(bearing));
-        sum += twist(journal, couple) - twist(bearing, couple);
+        let (bearing, journal) = (&bodies.bearings[k], &bodies.journals[k]);
+        let turning = journal.spin(motion) - bearing.spin(motion);
+        let couple = -damping * turning;
+        sum += journal.twist(couple) - bearing.twist(couple);
+        viscous_loss -= couple * turning;
     }
-    let viscous = -joint.t.damping * pin.velocity(motion).x;
+    let along_guide = pin.velocity(motion).x;
+    let viscous = -joint.t.damping * along_guide;
     sum += along(viscous);
+    viscous_loss -= viscous * along_guide;
 
-    let mut loads =
-        Loads { generalized: sum, on_journal: [Vector::zeros(); 3], on_slider: viscous * Vector::x(), about_pin: 0.0 };
+    let mut loads = Loads {
+        generalized: sum,
+        on_journal: [Vector::zeros(); 3],
+        on_slider: viscous * Vector::x(),
+        about_pin: 0.0,
+        bristle_rates: Bristles::zeros(),
+        contact_loss: 0.0,
+        friction_loss: 0.0,
+        viscous_loss,
+    };
     for (k, contact) in contacts.iter().enumerate() {
-        let Some(contact) = contact else { continue };
-        let touch = contact.touch(motion);
-        let normal = contact.laws.normal_force(&phases[k], touch.penetration, touch.rate);
-        let friction = contact.laws.friction_force(&phases[k], normal, touch.sliding);
+        let (Some(contact), phase) = (contact, &phases[k]) else { continue };
+        if !phase.closed() {
+            continue;
+        }
+        let (touch, bristle) = (contact.touch(motion, phase), motion.bristles[k]);
+        let normal = contact.laws.normal_force(phase, touch.elastic, touch.rate);
+        let friction = contact.laws.friction_force(phase, normal, touch.sliding, bristle);
         let force = -normal * touch.normal - friction * touch.tangent;
-        let (inner, outer) = contact.inner_and_outer();
-        loads.generalized += push(motion, inner, touch.point, force);
-        if let Some(outer) = outer {
-            loads.generalized += push(motion, outer, touch.point, -force);
+        loads.generalized += contact.push(motion, touch.point, force);
+        if k < 3 {
             loads.on_journal[k] = force;
         } else {
             loads.on_slider += force;
             loads.about_pin += cross(touch.point - pin.position(motion), force);
         }
+        loads.bristle_rates[k] = contact.laws.bristle_rate(phase, touch.sliding, bristle);
+        loads.contact_loss += (normal - touch.elastic) * touch.rate;
+        loads.friction_loss += friction * touch.sliding;
     }
     loads
 }

@@ -1,20 +1,29 @@
 //! The mechanism solved a second way, from the equations of the model alone.
 //!
 //! Where the product cuts the loop and integrates minimal coordinates with Runge-Kutta pairs,
-//! this keeps all nine coordinates of the three bodies, holds ideal joints and a prescribed crank
-//! by Lagrange multipliers, and integrates by extrapolation. It shares the scene and the signals
-//! with the product, and no equation. Slow and simple is fine here; wrong is not.
+//! this keeps all coordinates of the three bodies, holds ideal joints and a prescribed crank by
+//! Lagrange multipliers, sums a flexible rod over quadrature points, and integrates by
+//! extrapolation. It shares the scene and the signals with the product, and no equation. Slow and
+//! simple is fine here; wrong is not.
 
+mod beam;
 mod bodies;
 mod constraints;
 mod contact;
+mod coordinates;
+mod crossing;
+mod elimination;
 mod extrapolation;
+mod face;
 mod laws;
 mod ledger;
 mod loads;
+mod mark;
 mod observe;
 mod phase;
+mod quadrature;
 mod solver;
 mod start;
 
-pub use solver::{Crossing, Reference};
+pub use crossing::Crossing;
+pub use solver::Reference;

@@ -1,14 +1,14 @@
 //! Outputs of a motion: the solver's numbers as the FMU names them.
 
-use super::bodies::{CRANK, ROD, SLIDER, Vector, cross, perp};
-use super::constraints::{Constraints, DRIVE_ROW, Solution};
-use super::contact::{Contact, Touch, eccentricity};
+use super::constraints::{Constraints, Solution};
+use super::contact::eccentricity;
+use super::coordinates::{CRANK, ROD, SLIDER, Vector, cross, perp};
 use super::loads::Loads;
 use super::solver::Reference;
 use slidercrank::model::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
-use slidercrank::scene::{DriveMode, JointModel, Scene};
+use slidercrank::scene::{JointModel, Scene};
 
 impl Reference {
     /// Everything of the model's §8; the solver's counts are left at 0.
@@ -16,8 +16,8 @@ impl Reference {
         let (motion, bodies) = (&self.motion, &self.bodies);
         let loads = self.loads(self.time, motion);
         let solution = self.constraints.accelerate(bodies, self.time, motion, &loads.generalized);
-        let pin = bodies.journals[2];
-        let acceleration = pin.jacobian(motion) * solution.acceleration + pin.centripetal(motion);
+        let pin = &bodies.journals[2];
+        let acceleration = pin.jacobian(motion) * solution.acceleration + pin.drift(motion);
         let (position, velocity) = (pin.position(motion), pin.velocity(motion));
         let crank = CrankOutputs {
             angle: motion.angle(CRANK),
@@ -35,20 +35,23 @@ impl Reference {
                 angle: motion.angle(SLIDER),
             },
             crank,
-            rod: RodOutputs { angle: motion.angle(ROD), speed: motion.spin(ROD), ..RodOutputs::default() },
+            rod: RodOutputs {
+                angle: motion.angle(ROD),
+                speed: motion.spin(ROD),
+                deflection: bodies.beam.as_ref().map_or(0.0, |beam| beam.middle.place(&motion.modes()).y),
+                stretch: bodies.beam.as_ref().map_or(0.0, |beam| beam.small_end.stretch(&motion.modes())),
+            },
             joint_a,
             joint_b,
             joint_c,
             joint_t: self.guide(&loads, &solution),
-            drive_torque: match self.scene.drive.mode {
-                DriveMode::Torque => self.inputs_at(self.time).crank_torque,
-                DriveMode::Speed => solution.multipliers[DRIVE_ROW],
-            },
+            drive_torque: self.drive_torque(self.inputs_at(self.time), &solution),
             accuracy: AccuracyOutputs {
                 position: position.x - ideal[0],
                 velocity: velocity.x - ideal[1],
                 acceleration: acceleration.x - ideal[2],
             },
+            energy: self.audit(),
             ..Outputs::default()
         }
     }
@@ -64,8 +67,8 @@ impl Reference {
         RevoluteOutputs {
             force: named(loads.on_journal[k]),
             eccentricity: e.into(),
-            penetration: contact.touch(&self.motion).penetration,
-            contact: self.phases[k].closed,
+            penetration: contact.touch(&self.motion, &self.phases[k]).depths[0],
+            contact: self.phases[k].closed(),
         }
     }
 
@@ -81,17 +84,16 @@ impl Reference {
                 ..GuideOutputs::default()
             };
         }
-        let touches: Vec<Touch> = self.corners().map(|contact| contact.touch(motion)).collect();
+        let depths = self.contacts[3..]
+            .iter()
+            .zip(&self.phases[3..])
+            .filter_map(|(contact, phase)| contact.as_ref().map(|contact| contact.touch(motion, phase).depths));
         GuideOutputs {
             force: loads.on_slider.into(),
             moment: loads.about_pin,
-            penetration: touches.iter().map(|t| t.penetration).fold(f64::NEG_INFINITY, f64::max),
-            contacts: self.phases[3..].iter().map(|phase| i32::from(phase.closed)).sum(),
+            penetration: depths.flatten().fold(f64::NEG_INFINITY, f64::max),
+            contacts: self.phases[3..].iter().flat_map(|phase| phase.inside.map(i32::from)).sum(),
         }
-    }
-
-    fn corners(&self) -> impl Iterator<Item = &Contact> {
-        self.contacts[3..].iter().flatten()
     }
 }
 

@@ -1,7 +1,8 @@
 //! The start: the crank at θ0 and ω0, every joint with clearance at its start eccentricity, and
 //! the loop closed with the slider on the +x side.
 
-use super::bodies::{CRANK, Motion, Nine, ROD, SLIDER, Vector, perp};
+use super::beam::mode_count;
+use super::coordinates::{CRANK, Motion, ROD, SLIDER, Vector, perp};
 use nalgebra::Rotation2;
 use slidercrank::scene::{JointModel, Point, Revolute, Scene};
 
@@ -29,7 +30,7 @@ pub fn start(scene: &Scene) -> Motion {
     let big_end_velocity = crank_speed * perp(to_pin);
     let slider_velocity = Vector::new((big_end_velocity + rod_speed * perp(along_rod)).x, 0.0);
 
-    let mut motion = Motion { q: Nine::zeros(), v: Nine::zeros() };
+    let mut motion = Motion::at_rest();
     let mut place = |body: usize, com: Point, angle: f64, at: Vector, speed: f64, velocity: Vector| {
         let lever = Rotation2::new(angle) * vector(com);
         let (position, velocity) = (at + lever, velocity + speed * perp(lever));
@@ -37,7 +38,9 @@ pub fn start(scene: &Scene) -> Motion {
         motion.v.fixed_rows_mut::<3>(3 * body).copy_from_slice(&[velocity.x, velocity.y, speed]);
     };
     place(CRANK, scene.crank.com, crank_angle, main_journal, crank_speed, Vector::zeros());
-    place(ROD, scene.rod.com, rod_angle, big_end, rod_speed, big_end_velocity);
+    // A flexible rod's coordinates are its big end's.
+    let rod_com = if mode_count(&scene.rod.flexible) > 0 { Point::default() } else { scene.rod.com };
+    place(ROD, rod_com, rod_angle, big_end, rod_speed, big_end_velocity);
     place(SLIDER, scene.slider.com, 0.0, slider_pin, 0.0, slider_velocity);
     motion
 }
