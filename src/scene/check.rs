@@ -1,6 +1,7 @@
 //! What a scene's parameters must be to each other.
 
 use super::closure::{rise, rod_sine};
+use super::modal_check::TableError;
 use super::parameter::{PARAMETERS, Parameter, Refusal};
 use super::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Point, Scene, Surface};
 use crate::model_description::number::number;
@@ -23,12 +24,15 @@ pub enum SceneError {
         /// What it must be, in words and numbers.
         allowed: String,
     },
+    /// The rod's modal table cannot be a rod's.
+    Table(TableError),
 }
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Range(refusal) => refusal.fmt(f),
+            Self::Table(error) => error.fmt(f),
             Self::Conflict { name, value, allowed } => {
                 write!(f, "{name} = {} is not allowed: {allowed}", number(*value))
             }
@@ -43,6 +47,7 @@ impl SceneError {
     pub fn name(&self) -> &str {
         match self {
             Self::Range(refusal) => refusal.name,
+            Self::Table(_) => "rod.flexible.table",
             Self::Conflict { name, .. } => name,
         }
     }
@@ -80,7 +85,28 @@ impl Scene {
             })?;
             check_contact("T", &guide.contact)?;
         }
+        self.check_modes()?;
         self.check_closure()
+    }
+
+    /// A modal table must be one, and hold the modes that are asked for.
+    fn check_modes(&self) -> Result<(), SceneError> {
+        let flexible = &self.rod.flexible;
+        let Some(table) = &flexible.table else {
+            return Ok(());
+        };
+        table.check().map_err(SceneError::Table)?;
+        for (kind, asked, given) in [
+            ("bending", flexible.bending_modes, table.bending.len()),
+            ("axial", flexible.axial_modes, table.axial.len()),
+        ] {
+            if usize::try_from(asked).is_ok_and(|asked| asked > given) {
+                let name = format!("rod.flexible.{kind}_modes");
+                let allowed = format!("at most {given}, the {kind} modes of rod.flexible.table");
+                return Err(SceneError::Conflict { name, value: f64::from(asked), allowed });
+            }
+        }
+        Ok(())
     }
 
     /// The rod must reach the slider's height at the start.

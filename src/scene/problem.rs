@@ -74,6 +74,24 @@ pub enum Fault {
     },
     /// Values that do not go together.
     Conflict(SceneError),
+    /// A table without its form.
+    Form {
+        /// Whose value.
+        key: String,
+        /// What the form asks for.
+        why: String,
+    },
+    /// A file that cannot be read.
+    File {
+        /// Whose value names it.
+        key: String,
+        /// As named.
+        file: String,
+        /// Why not.
+        why: String,
+    },
+    /// A fault in a file that the scene names.
+    Inside(Box<ReadError>),
 }
 
 impl fmt::Display for ReadError {
@@ -107,6 +125,9 @@ impl fmt::Display for Fault {
                 write!(f, "{key} = {found} is not allowed: {allowed}")
             }
             Self::Conflict(error) => error.fmt(f),
+            Self::Form { key, why } => write!(f, "{key}: {why}"),
+            Self::File { key, file, why } => write!(f, "{key} = {file:?}: {why}"),
+            Self::Inside(error) => error.fmt(f),
         }
     }
 }

@@ -18,11 +18,14 @@
 use super::parameter::{Kind, PARAMETERS, Parameter};
 use super::problem::{Fault, Problem, ReadError, nearest, position};
 use super::profile::{Profile, Profiles};
+pub use super::read_table::Files;
 use super::read_value::{Value, integer, number, source};
 use super::run::{End, Run};
-use super::{Scene, SceneError, read_profile};
+use super::{Scene, SceneError, read_profile, read_table};
 use crate::model_description::number::number as shown;
 use std::collections::HashMap;
+use std::fs;
+use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 /// What a scene file says.
@@ -41,9 +44,10 @@ pub struct SceneFile {
 }
 
 /// Keys beside the parameters: name and SI unit, none for a text.
-const OTHERS: [(&str, Option<&str>); 7] = [
+const OTHERS: [(&str, Option<&str>); 8] = [
     ("name", None),
     ("description", None),
+    (TABLE, None),
     ("run.turns", Some("1")),
     ("run.stop", Some("s")),
     ("run.step", Some("s")),
@@ -51,12 +55,20 @@ const OTHERS: [(&str, Option<&str>); 7] = [
     ("slider.load", Some("N")),
 ];
 
+/// The rod's modes: a table, or the name of a file that holds one.
+const TABLE: &str = "rod.flexible.table";
+
 /// Most turns, and most seconds, of a run.
 const LONGEST: f64 = 1e6;
 
-/// Reads a scene file's text; `file` is its name for messages.
+/// Reads a scene file's text; `file` is its name for messages and tells where files that it names are.
 pub fn read(text: &str, file: &str) -> Result<SceneFile, ReadError> {
-    let mut reader = Reader { text, found: SceneFile::default(), places: HashMap::new(), faults: vec![] };
+    read_with(text, file, &|name| fs::read_to_string(Path::new(file).with_file_name(name)))
+}
+
+/// Reads a scene file's text; `files` finds the files that it names.
+pub fn read_with(text: &str, file: &str, files: Files) -> Result<SceneFile, ReadError> {
+    let mut reader = Reader { text, files, found: SceneFile::default(), places: HashMap::new(), faults: vec![] };
     match DeTable::parse(text) {
         Ok(table) => reader.table("", table.get_ref()),
         Err(error) => {
@@ -81,6 +93,7 @@ pub fn read(text: &str, file: &str) -> Result<SceneFile, ReadError> {
 
 struct Reader<'i> {
     text: &'i str,
+    files: Files<'i>,
     found: SceneFile,
     /// Byte offsets of what was set.
     places: HashMap<String, usize>,
@@ -130,6 +143,10 @@ impl<'i> Reader<'i> {
         };
         match path {
             "name" => self.found.name = self.text_of(path, value)?,
+            TABLE => match read_table::table(self.text, path, value, self.files) {
+                Ok(table) => self.found.scene.rod.flexible.table = Some(table),
+                Err(fault) => self.faults.push(fault),
+            },
             "description" => self.found.description = self.text_of(path, value)?,
             "run.turns" => self.found.run.end = End::Turns(limited(self, "1")?),
             "run.stop" => self.found.run.end = End::Time(limited(self, "s")?),

@@ -1,11 +1,14 @@
 //! The scene inside the library's own bytes, so that a packaged FMU needs no resource file.
 //!
 //! A block of the library's data holds, little endian: a magic, the block's version, the payload's
-//! length, its CRC-32, and the payload: the guid, then every parameter's value in the order of the
-//! declaration. A library as the compiler leaves it has length 0: the declared start values. The
-//! packager finds the magic in the library's file and writes a scene's values behind it.
+//! length, its CRC-32, and the payload: the guid, every parameter's value in the order of the
+//! declaration, and the numbers of the rod's modal table if there is one; zeros fill the rest. A
+//! library as the compiler leaves it has length 0: the declared start values. The packager finds the
+//! magic in the library's file and writes a scene's values behind it.
 
 use super::Scene;
+use super::modal::{MOST_NUMBERS, ModalTable};
+use super::modal_check::TableError;
 use super::parameter::{DECLARATION, DEFAULT_GUID, PARAMETER_COUNT, PARAMETERS, Refusal};
 use crate::model_description::guid as digest;
 use std::fmt;
@@ -13,12 +16,13 @@ use std::hint::black_box;
 
 /// The magic, last byte first: the block is the one place in a library where it stands forward.
 const MAGIC_REVERSED: [u8; 24] = *b"\x01tols-enecs-knarcredils\xF5";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const GUID: usize = 36;
 const MAGIC: usize = MAGIC_REVERSED.len();
 const HEADER: usize = MAGIC + 12;
+/// Payload without a table.
 const PAYLOAD: usize = GUID + 8 * PARAMETER_COUNT;
-const BLOCK: usize = HEADER + PAYLOAD;
+const BLOCK: usize = HEADER + PAYLOAD + 8 * MOST_NUMBERS;
 
 static SLOT: [u8; BLOCK] = blank();
 
@@ -42,12 +46,14 @@ pub enum SlotError {
     Repeated(usize),
     /// The block is cut off or of another version.
     Version(u32),
-    /// The payload is of another length than this version's.
+    /// The payload is of a length that none of this version has.
     Length(u32),
     /// The payload is damaged.
     Checksum,
     /// A value is not legal.
     Value(Refusal),
+    /// The modal table is none.
+    Table(TableError),
 }
 
 impl fmt::Display for SlotError {
@@ -61,10 +67,11 @@ impl fmt::Display for SlotError {
                 write!(f, "the library's scene is of version {version}, not {VERSION}")
             }
             Self::Length(length) => {
-                write!(f, "the library's scene has {length} bytes, not {PAYLOAD}")
+                write!(f, "the library's scene has {length} bytes, not {PAYLOAD} and a table's")
             }
             Self::Checksum => f.write_str("the library's scene is damaged"),
             Self::Value(refusal) => write!(f, "the library's scene: {refusal}"),
+            Self::Table(error) => write!(f, "the library's scene: {error}"),
         }
     }
 }
@@ -73,7 +80,7 @@ impl std::error::Error for SlotError {}
 
 /// The guid of a package of this scene: digest of the declaration and the scene's values.
 pub fn guid(scene: &Scene) -> String {
-    digest::guid(&DECLARATION, values(scene))
+    digest::guid(&DECLARATION, numbers(scene))
 }
 
 /// The scene that this library was packaged with, and its guid.
@@ -90,11 +97,16 @@ pub fn write(library: &mut [u8], scene: &Scene) -> Result<(), SlotError> {
     if version != VERSION {
         return Err(SlotError::Version(version));
     }
+    if let Some(table) = &scene.rod.flexible.table {
+        table.check().map_err(SlotError::Table)?;
+    }
     let mut payload = guid(scene).into_bytes();
-    payload.extend(values(scene).flat_map(f64::to_le_bytes));
-    let words = [PAYLOAD as u32, crc32fast::hash(&payload)];
+    payload.extend(numbers(scene).into_iter().flat_map(f64::to_le_bytes));
+    let words = [payload.len() as u32, crc32fast::hash(&payload)];
     block[MAGIC + 4..HEADER].copy_from_slice(words.map(u32::to_le_bytes).as_flattened());
-    block[HEADER..].copy_from_slice(&payload);
+    let (front, rest) = block[HEADER..].split_at_mut(payload.len());
+    front.copy_from_slice(&payload);
+    rest.fill(0);
     Ok(())
 }
 
@@ -121,24 +133,32 @@ fn parse(block: &[u8; BLOCK]) -> Result<(Scene, String), SlotError> {
     if length == 0 {
         return Ok((scene, DEFAULT_GUID.to_owned()));
     }
-    if length != PAYLOAD as u32 {
-        return Err(SlotError::Length(length));
-    }
-    let payload = &block[HEADER..];
+    let payload = block[HEADER..].get(..length as usize).filter(|payload| payload.len() >= PAYLOAD);
+    let payload = payload.ok_or(SlotError::Length(length))?;
     if crc32fast::hash(payload) != checksum {
         return Err(SlotError::Checksum);
     }
     let (guid, numbers) = payload.split_at(GUID);
     let guid = std::str::from_utf8(guid).map_err(|_| SlotError::Checksum)?;
-    let (numbers, _) = numbers.as_chunks::<8>();
-    for (parameter, number) in PARAMETERS.iter().zip(numbers) {
-        parameter.write(&mut scene, f64::from_le_bytes(*number)).map_err(SlotError::Value)?;
+    let (numbers, rest) = numbers.as_chunks::<8>();
+    let numbers: Vec<f64> = numbers.iter().map(|number| f64::from_le_bytes(*number)).collect();
+    let (values, table) = numbers.split_at(PARAMETER_COUNT);
+    for (parameter, value) in PARAMETERS.iter().zip(values) {
+        parameter.write(&mut scene, *value).map_err(SlotError::Value)?;
+    }
+    if !table.is_empty() || !rest.is_empty() {
+        let table = ModalTable::from_numbers(table).filter(|_| rest.is_empty()).ok_or(SlotError::Length(length))?;
+        table.check().map_err(SlotError::Table)?;
+        scene.rod.flexible.table = Some(table);
     }
     Ok((scene, guid.to_owned()))
 }
 
-fn values(scene: &Scene) -> impl Iterator<Item = f64> {
-    PARAMETERS.iter().map(|parameter| parameter.value(scene))
+/// Everything of a scene that a package can differ in.
+fn numbers(scene: &Scene) -> Vec<f64> {
+    let mut numbers: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
+    numbers.extend(scene.rod.flexible.table.iter().flat_map(ModalTable::numbers));
+    numbers
 }
 
 /// The little-endian word at an offset inside a block.
@@ -149,6 +169,7 @@ fn word(block: &[u8], offset: usize) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::modal::AxialMode;
     use super::*;
 
     fn library() -> Vec<u8> {
@@ -180,6 +201,50 @@ mod tests {
         assert_ne!(guid(&scene), guid(&Scene::default()));
         assert_eq!(patched[..777], library()[..777]);
         assert_eq!(patched[777 + BLOCK..], library()[777 + BLOCK..]);
+    }
+
+    #[test]
+    fn modes_travel_with_the_scene_and_count_in_the_guid() {
+        let mut scene = Scene::default();
+        let plain = guid(&scene);
+        let axial = |end: f64| ModalTable {
+            mass: 2.0,
+            axial: vec![AxialMode { frequency: 1e4, mass: 1.0, end }],
+            first: vec![1.0, 1.2],
+            second: vec![vec![0.6, 0.7], vec![0.7, 1.0]],
+            coupling: vec![vec![], vec![]],
+            ..ModalTable::default()
+        };
+        let mut guids = vec![plain];
+        let mut patched = library();
+        for end in [1.4, 1.5] {
+            scene.rod.flexible.table = Some(axial(end));
+            write(&mut patched, &scene).expect("room for the scene");
+            assert_eq!(reread(&patched), Ok((scene.clone(), guid(&scene))));
+            assert!(!guids.contains(&guid(&scene)));
+            guids.push(guid(&scene));
+        }
+        let mut torn = patched.clone();
+        torn[777 + HEADER + PAYLOAD + 40] ^= 1;
+        assert_eq!(reread(&torn), Err(SlotError::Checksum));
+        // A length that no table has, and one beyond the block, are told before any number is believed.
+        for length in [PAYLOAD - 8, PAYLOAD + 12, PAYLOAD + 80, BLOCK, usize::MAX >> 32] {
+            let mut foreign = patched.clone();
+            let end = (777 + HEADER + length).min(777 + BLOCK);
+            let checksum = crc32fast::hash(&foreign[777 + HEADER..end]);
+            foreign[777 + MAGIC + 4..777 + MAGIC + 8].copy_from_slice(&(length as u32).to_le_bytes());
+            foreign[777 + MAGIC + 8..777 + HEADER].copy_from_slice(&checksum.to_le_bytes());
+            assert_eq!(reread(&foreign), Err(SlotError::Length(length as u32)));
+        }
+        // What a table leaves behind is gone.
+        scene.rod.flexible.table = None;
+        write(&mut patched, &scene).expect("room for the scene");
+        let mut fresh = library();
+        write(&mut fresh, &scene).expect("room for the scene");
+        assert!(patched == fresh);
+        scene.rod.flexible.table = Some(ModalTable::default());
+        assert!(matches!(write(&mut patched, &scene), Err(SlotError::Table(_))));
+        assert!(patched == fresh);
     }
 
     #[test]

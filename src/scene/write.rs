@@ -1,5 +1,6 @@
 //! Scene → scene file, complete and in SI units: for keeping a scene that a program made.
 
+use super::modal::ModalTable;
 use super::parameter::{Kind, PARAMETERS};
 use super::profile::Profile;
 use super::read::SceneFile;
@@ -31,7 +32,16 @@ pub fn write(file: &SceneFile) -> String {
         };
         line(&mut out, parameter.name, &value);
     }
+    // Numbers and lists of them have a form in TOML always, here and below.
+    if let Some(Ok(table)) = file.scene.rod.flexible.table.as_ref().map(toml::Value::try_from) {
+        line(&mut out, "rod.flexible.table", &table.to_string());
+    }
     out
+}
+
+/// The text of a file that `rod.flexible.table` may name.
+pub fn write_table(table: &ModalTable) -> String {
+    toml::to_string(table).unwrap_or_default()
 }
 
 fn profile(profile: &Profile) -> String {

@@ -3,6 +3,7 @@
 use super::{out_directory, package, shown};
 use crate::host::{Archive, Fmu, LogLine, Setting};
 use crate::inputs;
+use crate::package::MODES;
 use crate::report::figure::{self, Pair};
 use crate::report::summary;
 use crate::run::{ANGLE, Experiment, Recording, Until, run};
@@ -11,7 +12,7 @@ use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use slidercrank::scene::read::{SceneFile, read};
+use slidercrank::scene::read::{SceneFile, read_with};
 use slidercrank::scene::run::End;
 use std::f64::consts::TAU;
 use std::fs;
@@ -90,8 +91,7 @@ impl Run {
         match &self.fmu {
             Some(file) => {
                 let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                let scene =
-                    Archive::open(file)?.text("documentation/scene.toml").and_then(|text| read(&text, &name).ok());
+                let scene = packaged_scene(file, &name)?;
                 Ok(Subject { name, fmu: Fmu::open(file)?, scene })
             }
             None => {
@@ -138,6 +138,15 @@ impl Run {
         let declared = || fmu.description().variable(SPEED).ok()?.of_kind.number("start");
         set.or_else(declared).map(f64::abs).filter(|speed| *speed > 0.0)
     }
+}
+
+/// The scene that an FMU of ours was packaged with.
+fn packaged_scene(file: &Path, name: &str) -> Result<Option<SceneFile>> {
+    let mut archive = Archive::open(file)?;
+    let text = archive.text("documentation/scene.toml");
+    // Whatever file the scene names its modes in, the package holds them under one name.
+    let modes = archive.text(&format!("documentation/{MODES}")).unwrap_or_default();
+    Ok(text.and_then(|text| read_with(&text, name, &|_| Ok(modes.clone())).ok()))
 }
 
 /// Whether the figures of a slider-crank can be drawn of it.

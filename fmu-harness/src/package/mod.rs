@@ -15,12 +15,16 @@ use slidercrank::scene::check::LEAST_RESTITUTION;
 use slidercrank::scene::parameter::PARAMETERS;
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::slot;
+use slidercrank::scene::write::write_table;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
 use std::path::Path;
 
 /// Drawing of the mechanism, made from `model.svg` by the test `the_picture_is_the_drawing`.
 const PICTURE: &[u8] = include_bytes!("../../assets/model.png");
+
+/// Name of the rod's modes in a package's documentation, if its scene has such.
+pub const MODES: &str = "modes.toml";
 
 /// A packaged FMU.
 pub struct Package {
@@ -55,7 +59,7 @@ fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
     let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
     slot::write(&mut library, scene)?;
     let identifier = &declaration.model.identifier;
-    Ok(vec![
+    let mut parts = vec![
         Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
         Part::new("model.png", PICTURE),
         Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
@@ -63,7 +67,11 @@ fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
         Part::new("documentation/scene.toml", scenario.text.as_str()),
         Part::new("documentation/licenses/license.txt", licences::own()),
         Part::new("documentation/licenses/third-party.txt", licences::third_party()?),
-    ])
+    ];
+    if let Some(table) = &scene.rod.flexible.table {
+        parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
+    }
+    Ok(parts)
 }
 
 /// modelDescription.xml: the scene's values are the start values, its run the default experiment.

@@ -1,5 +1,7 @@
 //! Scene files: what is read, and how what is wrong is told.
 
+mod modal_table;
+
 use slidercrank::scene::profile::{Against, Profile};
 use slidercrank::scene::read::{SceneFile, read};
 use slidercrank::scene::run::{End, Run};
