@@ -1,6 +1,6 @@
 //! Mechanisms drawn by lot: combinations of effects that nobody thought of.
 
-use crate::scenes::Case;
+use crate::scenes::{Case, LONGEST};
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::{Contact, DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Point, Scene};
 
@@ -100,5 +100,5 @@ pub fn drawn(number: u64) -> Case {
     } else {
         Inputs { crank_torque: lot.about(1e4), slider_load: lot.about(1e5) }
     };
-    Case { name: format!("drawn {number}"), scene: s, inputs, rates }
+    Case { name: format!("drawn {number}"), scene: s, inputs, rates, longest: LONGEST }
 }
