@@ -31,6 +31,8 @@ pub enum Fault {
     Superfluous(&'static str),
     /// Not min ≤ start ≤ max, or a nominal that is not positive.
     Range,
+    /// A bound or start value of an integer that is none.
+    Fraction(f64),
     /// A type, item, group or variable that is not declared.
     Unknown(String),
     /// Declared twice.
@@ -50,6 +52,7 @@ impl fmt::Display for RowError {
             Fault::Missing(attribute) => write!(f, "`{attribute}` is missing"),
             Fault::Superfluous(attribute) => write!(f, "`{attribute}` has no meaning here"),
             Fault::Range => f.write_str("not min <= start <= max and nominal > 0"),
+            Fault::Fraction(value) => write!(f, "{value} is no integer"),
             Fault::Unknown(name) => write!(f, "`{name}` is not declared"),
             Fault::Duplicate(name) => write!(f, "`{name}` is declared twice"),
             Fault::Name(name) => write!(f, "`{name}` is not a structured name"),

@@ -5,6 +5,7 @@ mod definitions;
 mod element;
 mod fault;
 pub mod guid;
+pub mod number;
 pub mod page;
 pub mod raw;
 mod restitution;

@@ -1,5 +1,6 @@
 //! Rows → `documentation/index.html`: the prose of page.html with the tables filled in.
 
+use super::number::number;
 use super::restitution::{ASKED, DELIVERED};
 use super::rows::{Declaration, Kind, Role, Row};
 
@@ -108,6 +109,7 @@ fn shown(declaration: &Declaration, row: usize, start: f64) -> String {
             let item = items.iter().find(|item| f64::from(item.value) == start);
             item.map_or_else(String::new, |item| format!("<code>{}</code>", item.name))
         }
+        Kind::Boolean => format!("<code>{}</code>", start != 0.0),
         Kind::Real { of, .. } if start != 0.0 => {
             let of = &declaration.types[of];
             let unit = declaration.units.iter().find(|unit| unit.name == of.unit);
@@ -128,6 +130,8 @@ fn range(declaration: &Declaration, row: &Row) -> String {
         Kind::Real { min: Some(min), max: Some(max), .. } => {
             format!("{} to {}", number(min), number(max))
         }
+        Kind::Integer { min: Some(min), max: Some(max) } => format!("{min} to {max}"),
+        Kind::Boolean => "<code>true</code> or <code>false</code>".to_owned(),
         Kind::Enumeration { of } => {
             let items = declaration.enumerations[of].items.len();
             format!("1 to {items}, below")
@@ -163,12 +167,6 @@ fn restitution() -> String {
         out += "</tr>\n";
     }
     out + "</table>\n"
-}
-
-/// The shortest decimal, with an exponent outside 0.001 to 99999.
-fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || (1e-3..1e5).contains(&size) { format!("{value}") } else { format!("{value:e}") }
 }
 
 fn escaped(text: &str) -> String {

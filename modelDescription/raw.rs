@@ -181,6 +181,7 @@ pub(super) struct RawRow {
 #[derive(Clone, Deserialize)]
 #[serde(untagged)]
 pub(super) enum RawStart {
+    Boolean(bool),
     Number(f64),
     Item(String),
 }

@@ -95,7 +95,7 @@ pub enum Role {
     },
     /// A fixed parameter.
     Parameter {
-        /// In SI units; an enumeration's by its item's value.
+        /// In SI units; an enumeration's by its item's value, a Boolean's as 0 or 1.
         start: f64,
     },
 }

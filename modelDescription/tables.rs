@@ -45,7 +45,20 @@ pub fn parameters(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> S
                      set: |scene, value| {{ scene.{field} = {name}::from_value(value)?; Some(()) }} }}"
                 )
             }
-            Kind::Integer { .. } | Kind::Boolean => unreachable_kind(),
+            Kind::Integer { min, max } => {
+                let (min, max) = (min.unwrap_or(i32::MIN), max.unwrap_or(i32::MAX));
+                format!(
+                    "Kind::Integer {{ start: {start}, min: {min}, max: {max}, \
+                     get: |scene| scene.{field}, set: |scene, value| scene.{field} = value }}"
+                )
+            }
+            Kind::Boolean => {
+                let start = start != 0.0;
+                format!(
+                    "Kind::Boolean {{ start: {start}, \
+                     get: |scene| scene.{field}, set: |scene, value| scene.{field} = value }}"
+                )
+            }
         };
         line(&mut out, &format!("    Parameter {{ name: {name:?}, description: {description:?}, kind: {kind} }},"));
     }
@@ -119,11 +132,6 @@ fn default_of(declaration: &Declaration, enumeration: &Enumeration) -> i32 {
     };
     let start = declaration.rows.iter().find(of_this).and_then(start_of);
     start.map_or(1, |start| start as i32)
-}
-
-/// `rows` refuses parameters of these types.
-fn unreachable_kind() -> String {
-    "compile_error!(\"integer and boolean parameters have no table yet\")".into()
 }
 
 /// `hunt_crossley` → `HuntCrossley`.

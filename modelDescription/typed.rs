@@ -24,11 +24,15 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
                 Some(_) => Role::Output { depends: vec![], at_start: None },
             }
         }
-        ("parameter", "fixed", Kind::Real { min, max, .. }) => {
-            min.ok_or(Fault::Missing("min"))?;
-            max.ok_or(Fault::Missing("max"))?;
+        ("parameter", "fixed", Kind::Real { .. } | Kind::Integer { .. }) => {
+            row.min.ok_or(Fault::Missing("min"))?;
+            row.max.ok_or(Fault::Missing("max"))?;
             Role::Parameter { start: number(&row.start)? }
         }
+        ("parameter", "fixed", Kind::Boolean) => match row.start {
+            Some(RawStart::Boolean(start)) => Role::Parameter { start: f64::from(u8::from(start)) },
+            _ => return Err(Fault::Missing("start")),
+        },
         ("parameter", "fixed", Kind::Enumeration { of }) => {
             let Some(RawStart::Item(name)) = &row.start else {
                 return Err(Fault::Missing("start"));
@@ -62,7 +66,6 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
 
 /// The row's type, declared or built in.
 fn kind(row: &RawRow, raw: &Raw) -> Result<Kind, Fault> {
-    let whole = |bound: Option<f64>| bound.map(|bound| bound as i32);
     if let Some(of) = raw.types.iter().position(|declared| declared.name == row.of_type) {
         let RawRow { min, max, nominal, unbounded, .. } = *row;
         return Ok(Kind::Real { of, min, max, nominal, unbounded });
@@ -71,7 +74,7 @@ fn kind(row: &RawRow, raw: &Raw) -> Result<Kind, Fault> {
         return Err(Fault::Superfluous("nominal, unbounded"));
     }
     match row.of_type.as_str() {
-        "Integer" => Ok(Kind::Integer { min: whole(row.min), max: whole(row.max) }),
+        "Integer" => Ok(Kind::Integer { min: row.min.map(whole).transpose()?, max: row.max.map(whole).transpose()? }),
         _ if row.min.is_some() || row.max.is_some() => Err(Fault::Superfluous("min, max")),
         "Boolean" => Ok(Kind::Boolean),
         name => {
@@ -81,16 +84,27 @@ fn kind(row: &RawRow, raw: &Raw) -> Result<Kind, Fault> {
     }
 }
 
+/// The integer that a number is.
+fn whole(number: f64) -> Result<i32, Fault> {
+    // The cast saturates: what is no 32-bit integer does not come back as it went.
+    if f64::from(number as i32) == number { Ok(number as i32) } else { Err(Fault::Fraction(number)) }
+}
+
 /// Refuses numbers that contradict each other.
 fn in_order(kind: &Kind, role: &Role) -> Result<(), Fault> {
-    let Kind::Real { min, max, nominal, .. } = kind else {
-        return Ok(());
+    let (min, max, nominal) = match *kind {
+        Kind::Real { min, max, nominal, .. } => (min, max, nominal),
+        Kind::Integer { min, max } => (min.map(f64::from), max.map(f64::from), None),
+        Kind::Boolean | Kind::Enumeration { .. } => return Ok(()),
     };
     let (min, max) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
     let start = match role {
         Role::Input { start } | Role::Parameter { start } => *start,
         Role::Output { .. } => min.max(0.0).min(max),
     };
+    if matches!(kind, Kind::Integer { .. }) {
+        whole(start)?;
+    }
     let ordered = min <= start && start <= max && nominal.is_none_or(|nominal| nominal > 0.0);
     if ordered { Ok(()) } else { Err(Fault::Range) }
 }

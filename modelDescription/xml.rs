@@ -11,7 +11,8 @@ use std::io;
 pub struct Package<'a> {
     /// Fingerprint that the binary checks.
     pub guid: &'a str,
-    /// Start values of the parameters, in order; an enumeration's by its item's value.
+    /// Start values of the parameters, in order; an enumeration's by its item's value, a Boolean's as
+    /// 0 or 1.
     pub starts: &'a [f64],
     /// Default experiment.
     pub experiment: Experiment,
@@ -152,9 +153,13 @@ fn type_and_range<'a>(declaration: &'a Declaration, kind: &Kind, start: Option<f
         Kind::Integer { min, max } => {
             attributes.extend(min.map(|min| ("min", min.to_string())));
             attributes.extend(max.map(|max| ("max", max.to_string())));
+            attributes.extend(start.map(|start| ("start", start.to_string())));
             "Integer"
         }
-        Kind::Boolean => "Boolean",
+        Kind::Boolean => {
+            attributes.extend(start.map(|start| ("start", (start != 0.0).to_string())));
+            "Boolean"
+        }
         Kind::Enumeration { of } => {
             attributes.push(("declaredType", declaration.enumerations[*of].name.clone()));
             attributes.extend(start.map(|start| ("start", start.to_string())));

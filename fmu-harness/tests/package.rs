@@ -123,4 +123,36 @@ fn inspection_tells_names_units_and_capabilities() {
     let clearance: Vec<String> = line("joint.C.clearance ").split_whitespace().map(str::to_owned).collect();
     assert_eq!(clearance[2..6], ["parameter", "fixed", "Real", "0.0005"]);
     assert!(line("joint.C.model").contains("clearance"), "an enumeration's start by its name");
+    let words = |start: &str| line(start).split_whitespace().skip(2).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(words("rod.flexible.bending_modes "), ["parameter", "fixed", "Integer", "0"]);
+    assert_eq!(words("rod.flexible.geometric_stiffness "), ["parameter", "fixed", "Boolean", "true"]);
+}
+
+#[test]
+fn integers_and_booleans_are_set_by_name() {
+    let (_directory, file) = saved();
+    let fmu = Fmu::open(&file).expect("an FMU");
+    let attempt = |settings: &[&str]| {
+        let settings = settings.iter().map(|setting| setting.parse().expect("name=value")).collect();
+        let until = Until::Time(1e-4);
+        run(
+            &fmu,
+            &Experiment { settings, inputs: vec![], start: 0.0, until, step: 1e-5, tolerance: None },
+            |_| {},
+            |_| {},
+        )
+    };
+    let recording = attempt(&["rod.flexible.bending_modes=2", "energy.audit=true"]).expect("a run");
+    let read = |name: &str| recording.parameter(name);
+    assert_eq!((read("rod.flexible.bending_modes"), read("energy.audit")), (Some(2.0), Some(1.0)));
+    assert_eq!((read("rod.flexible.axial_modes"), read("rod.flexible.geometric_stiffness")), (Some(0.0), Some(1.0)));
+    for (setting, wanted) in [
+        ("rod.flexible.bending_modes=two", "a whole number"),
+        ("rod.flexible.bending_modes=1.5", "a whole number"),
+        ("energy.audit=yes", "true or false"),
+        ("rod.flexible.bending_modes=9", "answers fmi2Error"),
+    ] {
+        let error = format!("{:#}", attempt(&[setting]).err().expect("a value that cannot be"));
+        assert!(error.contains(wanted), "{setting}: {error}");
+    }
 }

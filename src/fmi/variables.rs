@@ -28,7 +28,7 @@ pub enum Access {
     IntegerOutput(fn(&Outputs) -> i32),
     /// A Boolean output.
     BooleanOutput(fn(&Outputs) -> bool),
-    /// A fixed parameter: real, or an enumeration that FMI calls reach as an integer.
+    /// A fixed parameter of any type; FMI calls reach an enumeration as an integer.
     Parameter(&'static Parameter),
 }
 

@@ -1,5 +1,6 @@
 //! Error norm and step-size control.
 
+use super::problem::{Extent, Problem};
 use super::stages::Attempt;
 use super::tableau::Method;
 use crate::math;
@@ -24,10 +25,17 @@ const UNSEEN: f64 = 1e3;
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// Root mean square of the error over the tolerance; at most 1 for a step to be accepted.
-pub fn norm<const N: usize>(attempt: &Attempt<N>, y: &[f64; N], scales: &[f64; N], tolerance: f64) -> f64 {
+pub fn norm<const N: usize, P: Problem<N> + ?Sized>(
+    attempt: &Attempt<N>,
+    y: &[f64; N],
+    problem: &P,
+    tolerance: f64,
+) -> f64 {
+    let scales = problem.scales();
+    let n = Extent::of(problem).weighed;
     let weight = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
-    let square = |error: &[f64; N]| (0..N).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / N.max(1) as f64;
-    if (0..N).any(|i| attempt.unseen[i] > UNSEEN * weight(i)) {
+    let square = |error: &[f64; N]| (0..n).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / n.max(1) as f64;
+    if (0..n).any(|i| attempt.unseen[i] > UNSEEN * weight(i)) {
         return f64::INFINITY;
     }
     let fine = square(&attempt.error);
@@ -42,12 +50,13 @@ pub fn norm<const N: usize>(attempt: &Attempt<N>, y: &[f64; N], scales: &[f64; N
 }
 
 /// The state with the largest error over its weight.
-pub fn worst_component<const N: usize>(attempt: &Attempt<N>, scales: &[f64; N]) -> usize {
+pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt<N>, problem: &P) -> usize {
+    let scales = problem.scales();
     let share = |i: &usize| {
         let e = (attempt.error[*i] / scales[*i]).abs();
         if e.is_nan() { f64::INFINITY } else { e }
     };
-    (0..N).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
+    (0..Extent::of(problem).weighed).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
 }
 
 /// By how much the next step is longer after an accepted one.

@@ -5,8 +5,11 @@
 //! the step, at its quarters, correct it to degree eight:
 //! q(s) = quintic(s) + (s·(1 − s))³·(e0 + e1·x + e2·x²), x = s − ½ (Birkhoff interpolation; the
 //! coefficients follow from q̈ at x = −¼, 0, ¼). Velocities are the derivative of positions.
+//!
+//! First-order states follow the cubic through value and rate at both ends, always corrected to degree
+//! five by their rates at the same quarters: z(s) = cubic(s) + (s·(1 − s))²·(e0 + e1·x).
 
-use super::problem::Problem;
+use super::problem::{Extent, Problem};
 
 /// A quintic's error this many times a step's tolerance goes unseen.
 const SLACK: f64 = 30.0;
@@ -26,24 +29,32 @@ pub struct Step<'a, const N: usize> {
     pub y1: &'a [f64; N],
     /// Rates at its end.
     pub f1: &'a [f64; N],
+    /// How many states there are.
+    pub extent: Extent,
 }
 
-/// Corrections e0, e1, e2 of each position; `None` where the quintic will do.
+/// Corrections e0, e1, e2 of each position and first-order state; `None` where none is needed.
 pub type Correction<const N: usize> = Option<[[f64; 3]; N]>;
 
 impl<const N: usize> Step<'_, N> {
     /// The state at the share `s` of the step, 0 to 1.
     pub fn state(&self, s: f64, correction: &Correction<N>) -> [f64; N] {
-        let p = N / 2;
+        let Extent { positions: p, states, .. } = self.extent;
         let mut y = [0.0; N];
         for i in 0..p {
             let (q, v, _) = self.quintic(i, s);
             y[i] = q;
             y[p + i] = v;
         }
+        for (i, z) in y.iter_mut().enumerate().take(states).skip(2 * p) {
+            *z = self.cubic(i, s).0;
+        }
         if let Some(e) = correction {
             let x = s - 0.5;
             let b = 0.25 - x * x; // s·(1 − s)
+            for i in 2 * p..states {
+                y[i] += b * b * (e[i][0] + x * e[i][1]);
+            }
             for i in 0..p {
                 let c = e[i][0] + x * (e[i][1] + x * e[i][2]);
                 let slope = e[i][1] + 2.0 * x * e[i][2];
@@ -57,7 +68,7 @@ impl<const N: usize> Step<'_, N> {
     /// Position, velocity and h²·acceleration of the quintic.
     #[inline]
     fn quintic(&self, i: usize, s: f64) -> (f64, f64, f64) {
-        let (h, p) = (self.h, N / 2);
+        let (h, p) = (self.h, self.extent.positions);
         let q0 = self.y0[i];
         let (v0, v1) = (h * self.f0[i], h * self.f1[i]);
         let (a0, a1) = (h * h * self.f0[p + i], h * h * self.f1[p + i]);
@@ -74,10 +85,20 @@ impl<const N: usize> Step<'_, N> {
         (q, v / h, a)
     }
 
+    /// A first-order state by the cubic, and h·its rate.
+    #[inline]
+    fn cubic(&self, i: usize, s: f64) -> (f64, f64) {
+        let z0 = self.y0[i];
+        let (r0, r1) = (self.h * self.f0[i], self.h * self.f1[i]);
+        let (dz, dr) = (self.y1[i] - z0 - r0, r1 - r0);
+        let (c2, c3) = (3.0 * dz - dr, dr - 2.0 * dz);
+        (z0 + s * (r0 + s * (c2 + s * c3)), r0 + s * (2.0 * c2 + s * 3.0 * c3))
+    }
+
     /// Looks at the acceleration half-way and, where the quintic misses it by too much for the
     /// tolerance, makes the correction.
     pub fn correction<P: Problem<N> + ?Sized>(&self, problem: &P, modes: &P::Modes, tolerance: f64) -> Correction<N> {
-        let p = N / 2;
+        let Extent { positions: p, states, .. } = self.extent;
         let half = self.defect(problem, modes, 0.5, &None);
         let scales = problem.scales();
         // Largest error of a quintic with this defect half-way: position d/24, velocity d/(10·h).
@@ -85,12 +106,15 @@ impl<const N: usize> Step<'_, N> {
             let d = half[i].abs();
             d / 24.0 <= SLACK * tolerance * scales[i] && d / (10.0 * self.h) <= SLACK * tolerance * scales[p + i]
         });
-        if good {
+        if good && states == 2 * p {
             return None;
         }
         let mut e = [[0.0; 3]; N];
         for i in 0..p {
             e[i][0] = -8.0 / 3.0 * half[i];
+        }
+        for i in 2 * p..states {
+            e[i][1] = 16.0 * half[i];
         }
         let sextic = Some(e);
         let before = self.defect(problem, modes, 0.25, &sextic);
@@ -102,11 +126,14 @@ impl<const N: usize> Step<'_, N> {
             e[i][1] = -512.0 / 45.0 * odd;
             e[i][2] = 2.0 * e[i][0] - 256.0 / 9.0 * even;
         }
+        for i in 2 * p..states {
+            e[i][0] = 8.0 / 3.0 * (before[i] - after[i]);
+        }
         Some(e)
     }
 
-    /// h²·(acceleration of the system − acceleration of the quintic) at the share `s`, the system's
-    /// taken at the corrected state.
+    /// h²·(acceleration of the system − acceleration of the quintic) at the share `s`, and h·(rate − rate
+    /// of the cubic) of first-order states; the system's are taken at the corrected state.
     fn defect<P: Problem<N> + ?Sized>(
         &self,
         problem: &P,
@@ -117,8 +144,12 @@ impl<const N: usize> Step<'_, N> {
         let mut rates = [0.0; N];
         problem.rates(modes, self.t + s * self.h, &self.state(s, correction), &mut rates);
         let mut defect = [0.0; N];
-        for i in 0..N / 2 {
-            defect[i] = self.h * self.h * rates[N / 2 + i] - self.quintic(i, s).2;
+        let Extent { positions: p, states, .. } = self.extent;
+        for i in 0..p {
+            defect[i] = self.h * self.h * rates[p + i] - self.quintic(i, s).2;
+        }
+        for i in 2 * p..states {
+            defect[i] = self.h * rates[i] - self.cubic(i, s).1;
         }
         defect
     }

@@ -1,6 +1,7 @@
 //! What an integrator remembers between steps.
 
 use super::dense_output::Step;
+use super::problem::Extent;
 use super::statistics::Statistics;
 
 /// One end of a step: a time, a state, its rates under the modes that hold on this side.
@@ -37,9 +38,9 @@ pub struct Memory<const N: usize, D> {
 
 impl<const N: usize, D> Memory<N, D> {
     /// The last step, up to the events at its end.
-    pub fn last_step(&self) -> Step<'_, N> {
+    pub fn last_step(&self, extent: Extent) -> Step<'_, N> {
         let (start, end) = (&self.start, &self.end);
-        Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates }
+        Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates, extent }
     }
 
     /// Work done since the start to reach `t` in the last step.

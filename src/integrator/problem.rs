@@ -24,12 +24,47 @@ pub struct Reset<D> {
     pub step: Option<f64>,
 }
 
-/// A second-order hybrid system of `N` states: `N/2` positions, then their rates in the same order.
+/// From this `N` on, the arrays of a problem are room for states and [`Problem::extent`] tells how
+/// many there are; a smaller `N` is their exact number, known to the compiler.
+pub const ROOM: usize = 32;
+
+/// How many states a problem has, and of which kinds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Extent {
+    /// Positions, which come first; as many rates of theirs follow, and then first-order states.
+    pub positions: usize,
+    /// Leading states that the error norm weighs; the others follow from them.
+    pub weighed: usize,
+    /// All states.
+    pub states: usize,
+}
+
+impl Extent {
+    /// `states` states: positions and their rates.
+    pub const fn second_order(states: usize) -> Self {
+        Self { positions: states / 2, weighed: states, states }
+    }
+
+    /// Of a problem, as a constant where it is one.
+    #[inline(always)]
+    pub fn of<const N: usize, P: Problem<N> + ?Sized>(problem: &P) -> Self {
+        if N < ROOM { Self::second_order(N) } else { problem.extent() }
+    }
+}
+
+/// A hybrid system of second order in its positions, with first-order states beside them where it has
+/// room for more than `ROOM` states.
 pub trait Problem<const N: usize> {
     /// The discrete state. It is constant within a step.
     type Modes: Copy;
 
-    /// Writes the rates of the state `y` at time `t`: the velocities, then the accelerations.
+    /// How many states there are. An `N` below [`ROOM`] does not ask.
+    fn extent(&self) -> Extent {
+        Extent::second_order(N)
+    }
+
+    /// Writes the rates of the state `y` at time `t`: the velocities, then the accelerations, then the
+    /// rates of first-order states.
     fn rates(&self, modes: &Self::Modes, t: f64, y: &[f64; N], rates: &mut [f64; N]);
 
     /// [unit of each state] An error of `tolerance` times this is just tolerable in one step.
@@ -47,6 +82,6 @@ pub trait Problem<const N: usize> {
     /// [unit of the guards] An error of `tolerance` times this in a guard is just tolerable.
     fn guard_scale(&self) -> f64;
 
-    /// The modes after the guards in `crossed` fell through zero at `t`.
-    fn cross(&self, modes: &Self::Modes, t: f64, y: &[f64; N], crossed: &Crossed) -> Reset<Self::Modes>;
+    /// The modes after the guards in `crossed` fell through zero at `t`; may reset first-order states.
+    fn cross(&self, modes: &Self::Modes, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Self::Modes>;
 }

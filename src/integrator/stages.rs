@@ -1,6 +1,6 @@
 //! The stages of one step: k_i = f(t + c_i·h, y + h·Σ a_ij·k_j).
 
-use super::problem::Problem;
+use super::problem::{Extent, Problem};
 use super::tableau::{Method, STAGES};
 
 /// An attempted step.
@@ -30,7 +30,7 @@ pub fn attempt<const N: usize, M: Method, P: Problem<N> + ?Sized>(
 ) -> Attempt<N> {
     let mut k = [[0.0; N]; STAGES];
     k[0] = *rates;
-    let mut stages = Stages { problem, modes, t, y, h, k };
+    let mut stages = Stages { problem, modes, t, y, h, k, states: Extent::of(problem).states };
     // A stage beyond the method's own is not compiled.
     stages.evaluate::<M, 1>();
     stages.evaluate::<M, 2>();
@@ -53,6 +53,7 @@ struct Stages<'a, const N: usize, P: Problem<N> + ?Sized> {
     y: &'a [f64; N],
     h: f64,
     k: [[f64; N]; STAGES],
+    states: usize,
 }
 
 impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
@@ -94,7 +95,7 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
         let mut unseen = [0.0; N];
         for j in 1..weighed {
             let share = tableau.c[j] / tableau.c[weighed];
-            for (i, unseen) in unseen.iter_mut().enumerate() {
+            for (i, unseen) in unseen.iter_mut().enumerate().take(self.states) {
                 let (first, late) = (self.k[0][i], self.k[weighed][i]);
                 let apart = (self.k[j][i] - first - share * (late - first)).abs();
                 *unseen = f64::max(*unseen, self.h * (apart - 0.5 * first.abs().max(late.abs())));
@@ -106,7 +107,7 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     /// Adds h·Σ weight_j·k_j; a weight of zero costs nothing.
     #[inline(always)]
     fn add(&self, y: &mut [f64; N], weights: &[f64; STAGES], count: usize) {
-        for (i, y) in y.iter_mut().enumerate() {
+        for (i, y) in y.iter_mut().enumerate().take(self.states) {
             let mut sum = 0.0;
             for (weight, k) in weights.iter().zip(&self.k).take(count) {
                 if *weight != 0.0 {

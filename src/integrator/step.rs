@@ -5,7 +5,7 @@ use super::dense_output::Correction;
 use super::error::IntegrationError;
 use super::event;
 use super::memory::{Front, Memory};
-use super::problem::{Crossed, GUARDS, Guard, Problem};
+use super::problem::{Crossed, Extent, GUARDS, Guard, Problem};
 use super::stages::{Attempt, attempt};
 use super::statistics::Statistics;
 use super::tableau::Method;
@@ -88,7 +88,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if t >= front.t {
             return (front.y, front.modes);
         }
-        let step = self.memory.last_step();
+        let step = self.memory.last_step(Extent::of(problem));
         let tolerance = self.settings.tolerance;
         let correction = self.correction.get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));
         (step.state((t - step.t) / step.h, correction), start.modes)
@@ -157,7 +157,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         P: Problem<N, Modes = D> + ?Sized,
     {
         let start = self.memory.front;
-        if let Some(component) = start.rates.iter().position(|rate| !rate.is_finite()) {
+        if let Some(component) = lost_state(problem, &start.rates) {
             return Err(IntegrationError::NotFinite { time: start.t, component });
         }
         let (h, made) = self.accepted(problem, &start)?;
@@ -167,10 +167,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if problem.guard_count() == 0 {
             return Ok(());
         }
-        let event = event::first(problem, &start.modes, &self.memory.last_step(), &before, &self.guards);
-        match event {
-            None => {}
-            Some((share, guard)) => self.land(problem, h, share, guard),
+        let step = self.memory.last_step(Extent::of(problem));
+        if let Some((share, guard)) = event::first(problem, &start.modes, &step, &before, &self.guards) {
+            self.land(problem, h, share, guard);
         }
         Ok(())
     }
@@ -184,19 +183,17 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let mut wanted = if adaptive { self.memory.step } else { self.settings.fixed_step };
         let mut rejected = false;
         loop {
-            // The step is what time really moves by, so that nothing drifts from its rounding.
+            // The step is what time really moves by: nothing drifts from its rounding.
             let h = start.t + wanted.min(problem.longest_step()) - start.t;
             if h <= 0.0 {
                 let made = self.attempt(problem, start, wanted);
-                let component = controller::worst_component(&made, problem.scales());
+                let component = controller::worst_component(&made, problem);
                 return Err(IntegrationError::StepUnderflow { time: start.t, step: wanted, component });
             }
             let made = self.attempt(problem, start, h);
-            let finite = made.y.iter().all(|y| y.is_finite());
-            let error = if finite {
-                controller::norm(&made, &start.y, problem.scales(), self.settings.tolerance)
-            } else {
-                f64::INFINITY
+            let error = match lost_state(problem, &made.y) {
+                None => controller::norm(&made, &start.y, problem, self.settings.tolerance),
+                Some(_) => f64::INFINITY,
             };
             if error <= 1.0 {
                 let growth = controller::growth::<M>(error, self.memory.last_error);
@@ -277,7 +274,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             self.memory.statistics.events += u64::from(*crossed);
         }
         let front = &mut self.memory.front;
-        let reset = problem.cross(&front.modes, front.t, &front.y, &crossed);
+        let reset = problem.cross(&front.modes, front.t, &mut front.y, &crossed);
         front.modes = reset.modes;
         if let Some(step) = reset.step {
             self.memory.step = self.memory.step.min(step);
@@ -286,13 +283,18 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 }
 
+/// The first state that is not a finite number.
+fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
+    y.iter().take(Extent::of(problem).states).position(|y| !y.is_finite())
+}
+
 fn has_fallen(guard: &Guard) -> bool {
     guard.value <= 0.0 && guard.rate < 0.0
 }
 
 /// A first step over which the rates move the state by a hundredth of its scales.
 fn first_step<const N: usize, P: Problem<N> + ?Sized>(problem: &P, front: &Front<N, P::Modes>) -> f64 {
-    let fastest =
-        (front.rates.iter().zip(problem.scales())).map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
+    let weighed = front.rates.iter().zip(problem.scales()).take(Extent::of(problem).weighed);
+    let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
     (0.01 / fastest).min(FIRST_STEP).min(problem.longest_step())
 }

@@ -1,6 +1,6 @@
 //! The closed loop: all joints ideal, one degree of freedom, no contact.
 
-use super::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers, viscous_couples, viscous_guide};
+use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::Loads;
 use super::ideal::{IdealMechanism, IdealMotion};
 use super::joint::guide::CORNERS;
@@ -62,14 +62,9 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
         let slider_load = inputs.slider_load;
         let mut loads = Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
         if !SPEED {
-            loads.couple[CRANK] = inputs.crank_torque;
+            loads.crank_couple = inputs.crank_torque;
         }
-        if !self.rotary_dampers.is_empty() {
-            let couples = viscous_couples(&self.rotary_dampers, speed);
-            for (couple, viscous) in loads.couple.iter_mut().zip(couples) {
-                *couple += viscous;
-            }
-        }
+        add_viscous(&self.rotary_dampers, speed, &[speed[ROD]; 2], &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pin_speed));
         }
@@ -92,7 +87,8 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
             + second.inertia * ratio * ratio
             + second.mass * rod_jacobian.norm_squared()
             + third.mass * motion.x_ratio * motion.x_ratio;
-        let power = loads.couple[CRANK] + loads.couple[ROD] * ratio + loads.pin.x * motion.x_ratio
+        let couples = loads.couples();
+        let power = couples[CRANK] + couples[ROD] * ratio + loads.pin.x * motion.x_ratio
             - self.gravity * (first.mass * crank_com.y + second.mass * rod_jacobian.y)
             - second.inertia * ratio * motion.rod_bias
             - second.mass * rod_jacobian.dot(&rod_bias)
@@ -135,7 +131,7 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
         0.0
     }
 
-    fn cross(&self, contacts: &Contacts, _: f64, _: &[f64; N], _: &Crossed) -> Reset<Contacts> {
+    fn cross(&self, contacts: &Contacts, _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<Contacts> {
         Reset { modes: *contacts, step: None }
     }
 }
@@ -194,6 +190,7 @@ impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
         };
         let pose = Pose {
             turning,
+            section_speed: [rod_speed; 2],
             place: at(crank_arm, Vec2::new(motion.x, self.ideal.height)),
             velocity: at(speed * perp(crank_arm), along(motion.x_ratio * speed)),
         };
@@ -209,6 +206,7 @@ impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
             ),
             angle_acceleration,
             loads,
+            flexible: None,
         }
     }
 

@@ -1,6 +1,8 @@
 //! What drives and loads the mechanism: inputs in time, the prescribed crank angle, viscous friction.
 
+use super::dynamics::Loads;
 use super::joint::guide;
+use super::mechanism::{CRANK, SLIDER};
 use super::plane::Vec2;
 use super::signals::Inputs;
 use crate::scene::Scene;
@@ -70,23 +72,18 @@ pub struct RotaryDamper {
     pub coefficient: f64,
 }
 
-/// The couples [N·m] of viscous friction on crank, rod and slider at their speeds [rad/s].
+/// Adds the couples of viscous friction at the speeds [rad/s] of crank, rod's ends and slider.
 #[inline(always)]
-pub fn viscous_couples(dampers: &[RotaryDamper], speed: &[f64; 3]) -> [f64; 3] {
-    let mut couples = [0.0; 3];
+pub fn add_viscous(dampers: &[RotaryDamper], speed: &[f64; 3], ends: &[f64; 2], loads: &mut Loads) {
     for damper in dampers {
-        let (journal, bearing) = match damper.joint {
-            0 => (0, None),
-            1 => (0, Some(1)),
-            _ => (2, Some(1)),
+        let relative = match damper.joint {
+            0 => speed[CRANK],
+            1 => speed[CRANK] - ends[0],
+            _ => speed[SLIDER] - ends[1],
         };
-        let couple = damper.coefficient * (speed[journal] - bearing.map_or(0.0, |b: usize| speed[b]));
-        couples[journal] -= couple;
-        if let Some(bearing) = bearing {
-            couples[bearing] += couple;
-        }
+        let couple = damper.coefficient * relative;
+        loads.add_couples(damper.joint, -couple, couple);
     }
-    couples
 }
 
 /// The revolute joints with viscous friction.

@@ -1,5 +1,6 @@
 //! M(q)·q̈ = Q(t, q, q̇) of an open mechanism: loads on the bodies in, accelerations out.
 
+use super::bristles::Bristles;
 use super::joint::{guide, revolute};
 use super::kinematics::{Roots, Turning};
 use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology};
@@ -19,45 +20,66 @@ pub struct Loads {
     pub small_end: Vec2,
     /// [N] On the slider at its pin.
     pub pin: Vec2,
-    /// [N·m] On crank, rod and slider; the slider's about its pin.
-    pub couple: [f64; 3],
+    /// [N·m] On the crank.
+    pub crank_couple: f64,
+    /// [N·m] On the rod's sections at its big and small end.
+    pub end_couple: [f64; 2],
+    /// [N·m] On the slider, about its pin.
+    pub slider_couple: f64,
     /// The input's part of the force at the slider's pin [N].
     pub slider_load: f64,
     /// The guide's part: contact, or viscous friction of an ideal guide.
     pub guide: guide::Load,
+    /// [m/s] Rates of the bristles' deflections in the contacts.
+    pub bristle_rate: Bristles,
 }
 
 impl Loads {
     /// Adds the contact of joint A, B or C (0, 1, 2).
     #[inline(always)]
     pub fn add_contact(&mut self, joint: usize, load: &revolute::Load) {
-        let (journal, bearing) = match joint {
-            0 => {
-                self.crank += load.force;
-                (CRANK, None)
-            }
+        match joint {
+            0 => self.crank += load.force,
             1 => {
                 self.crank_pin += load.force;
                 self.big_end -= load.force;
-                (CRANK, Some(ROD))
             }
             _ => {
                 self.pin += load.force;
                 self.small_end -= load.force;
-                (SLIDER, Some(ROD))
             }
-        };
-        self.couple[journal] += load.journal_couple;
-        if let Some(bearing) = bearing {
-            self.couple[bearing] += load.bearing_couple;
         }
+        self.add_couples(joint, load.journal_couple, load.bearing_couple);
+        self.bristle_rate.revolute[joint] = load.bristle_rate;
+    }
+
+    /// Adds couples on the journal and the bearing of joint A, B or C (0, 1, 2).
+    #[inline(always)]
+    pub fn add_couples(&mut self, joint: usize, journal: f64, bearing: f64) {
+        match joint {
+            0 => self.crank_couple += journal,
+            1 => {
+                self.crank_couple += journal;
+                self.end_couple[0] += bearing;
+            }
+            _ => {
+                self.slider_couple += journal;
+                self.end_couple[1] += bearing;
+            }
+        }
+    }
+
+    /// [N·m] On crank, rod and slider.
+    #[inline(always)]
+    pub fn couples(&self) -> [f64; 3] {
+        [self.crank_couple, self.end_couple[0] + self.end_couple[1], self.slider_couple]
     }
 
     /// Adds forces and moment of the guide.
     #[inline(always)]
     pub fn add_guide(&mut self, load: &guide::Load) {
         self.pin += load.force;
-        self.couple[SLIDER] += load.couple;
+        self.slider_couple += load.couple;
         self.guide.force += load.force;
         self.guide.couple += load.couple;
     }
@@ -90,7 +112,7 @@ pub fn accelerate(
     let crank_length = rotation[CRANK].axis(bodies[CRANK].length);
     let rod_length = rotation[ROD].axis(bodies[ROD].length);
     let square = turning.speed.map(|speed| speed * speed);
-    let mut q = loads.couple;
+    let mut q = loads.couples();
     let mut result = Accelerations::default();
     let fall = Vec2::new(0.0, -gravity);
 

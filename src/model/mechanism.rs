@@ -8,6 +8,7 @@
 //! otherwise (augmented bodies; J. Wittenburg, Dynamics of Systems of Rigid Bodies, 1977, 5.2).
 
 use super::plane::{Vec2, perp};
+use super::rod::Rod;
 use crate::scene::{JointModel, Point, Scene};
 
 /// Index of the crank, the rod and the slider.
@@ -108,13 +109,17 @@ pub struct ChainInertia {
 /// The three bodies.
 pub type Bodies = [Body; 3];
 
-/// The three bodies of a scene.
+/// The three bodies of a scene; a flexible rod's mass properties are its beam's.
 pub fn bodies(scene: &Scene) -> Bodies {
     let point = |p: Point| Vec2::new(p.x, p.y);
     let Scene { crank, rod, slider, .. } = scene;
+    let of_rod = match Rod::new(scene) {
+        Some(flexible) => flexible.undeformed(),
+        None => Body { mass: rod.mass, inertia: rod.inertia, com: point(rod.com), length: rod.length },
+    };
     [
         Body { mass: crank.mass, inertia: crank.inertia, com: point(crank.com), length: crank.length },
-        Body { mass: rod.mass, inertia: rod.inertia, com: point(rod.com), length: rod.length },
+        of_rod,
         Body { mass: slider.mass, inertia: slider.inertia, com: point(slider.com), length: 0.0 },
     ]
 }

@@ -6,11 +6,14 @@
 //! `open` and `closed` (the two kinds of mechanism), `joint` and `contact` (forces), `reactions` and
 //! `outputs`.
 
+pub mod bristles;
+pub mod clearances;
 pub mod closed;
 pub mod contact;
 pub mod coordinates;
 pub mod drive;
 pub mod dynamics;
+pub mod flexible;
 pub mod friction;
 pub mod ideal;
 pub mod joint;
@@ -21,6 +24,7 @@ pub mod outputs;
 pub mod plane;
 pub mod plant;
 pub mod reactions;
+pub mod rod;
 pub mod scales;
 pub mod signals;
 pub mod start;

@@ -5,6 +5,7 @@ use super::joint::guide::CORNERS;
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};
+use super::rod::Elastic;
 use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
@@ -42,6 +43,7 @@ impl Observer {
         let Instant { pose, acceleration, angle_acceleration, .. } = instant;
         let turning = &pose.turning;
         let r = reactions(self.topology, &self.bodies, self.gravity, instant);
+        let elastic = instant.flexible.map_or(Elastic::default(), |flexible| flexible.elastic);
         let Topology { a, b, c, t, speed } = self.topology;
         let joint = |index: usize, ideal: bool, force: Vec2| RevoluteOutputs {
             force: force.into(),
@@ -62,7 +64,12 @@ impl Observer {
                 speed: turning.speed[CRANK],
                 acceleration: angle_acceleration[CRANK],
             },
-            rod: RodOutputs { angle: turning.angle[ROD], speed: turning.speed[ROD], ..RodOutputs::default() },
+            rod: RodOutputs {
+                angle: turning.angle[ROD],
+                speed: turning.speed[ROD],
+                deflection: elastic.deflection,
+                stretch: elastic.stretch,
+            },
             joint_a: joint(0, a, r.a),
             joint_b: joint(1, b, r.b),
             joint_c: joint(2, c, r.c),

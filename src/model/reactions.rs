@@ -26,33 +26,36 @@ pub struct Reactions {
     pub torque: f64,
 }
 
-/// Needed rate of change of a body's momentum, gravity subtracted, and of its angular momentum.
-struct Demand {
+/// What a body's motion needs of forces and of moments about its reference point, gravity subtracted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Demand {
     /// [N]
-    force: Vec2,
-    /// [m] Centre of mass from the body's reference point.
-    com: Vec2,
-    /// [N·m] About the centre of mass.
-    moment: f64,
+    pub force: Vec2,
+    /// [N·m] About the body's reference point.
+    pub moment: f64,
 }
 
 impl Demand {
     fn new(body: &Body, rotation: Rotation, speed: f64, alpha: f64, point: Vec2, gravity: f64) -> Self {
         let com = rotation.apply(body.com);
         let acceleration = point + alpha * perp(com) - speed * speed * com;
-        Self { force: body.mass * (acceleration + Vec2::new(0.0, gravity)), com, moment: body.inertia * alpha }
+        let force = body.mass * (acceleration + Vec2::new(0.0, gravity));
+        Self { force, moment: body.inertia * alpha + cross(com, force) }
     }
 }
 
 /// The joint forces at `instant`.
 pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &Instant) -> Reactions {
-    let Instant { pose, acceleration, angle_acceleration, loads } = instant;
+    let Instant { pose, acceleration, angle_acceleration, loads, flexible } = instant;
     let turning = &pose.turning;
     let demand = |k: usize, point: Vec2| {
         Demand::new(&bodies[k], turning.rotation[k], turning.speed[k], angle_acceleration[k], point, gravity)
     };
     let of_crank = demand(CRANK, acceleration.crank);
-    let of_rod = demand(ROD, acceleration.big_end);
+    let of_rod = match flexible {
+        Some(flexible) => flexible.demand,
+        None => demand(ROD, acceleration.big_end),
+    };
     let of_slider = demand(SLIDER, acceleration.pin);
     let Topology { a, b, c, t, .. } = topology;
     let load = Vec2::new(loads.slider_load, 0.0);
@@ -96,24 +99,23 @@ pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &In
         } else {
             let x = of_slider.force.x - guide.force.x - load.x;
             let rod_arm = pose.place.small_end - pose.place.big_end;
-            r.c = closed_loop_pin_force(&of_rod, loads.couple[ROD], x, rod_arm);
+            r.c = closed_loop_pin_force(&of_rod, loads.couples()[ROD], x, rod_arm);
             r.b = of_rod.force + r.c;
             r.a = of_crank.force + r.b;
         }
         let rest = of_slider.force - r.c - load;
         r.t = Vec2::new(guide.force.x, rest.y);
-        // About the centre of mass: J·α = (pin − com) × (all forces) + couples + guide's moment.
-        let forces = r.c + load + r.t;
-        r.moment = of_slider.moment + cross(of_slider.com, forces) - loads.couple[SLIDER];
+        // About the pin, where all other forces act.
+        r.moment = of_slider.moment - loads.slider_couple;
     }
     let to_pin = pose.place.crank_pin - pose.place.crank;
-    r.torque = of_crank.moment + cross(of_crank.com, r.a) + cross(to_pin - of_crank.com, r.b) - loads.couple[CRANK];
+    r.torque = of_crank.moment + cross(to_pin, r.b) - loads.crank_couple;
     r
 }
 
 /// [N] Rod on slider where all joints are ideal, from its component `x` along the guide.
 fn closed_loop_pin_force(rod: &Demand, couple: f64, x: f64, arm: Vec2) -> Vec2 {
-    // About the big end: J·α + com × m·a = couple − arm × F_C.
-    let moment = couple - rod.moment - cross(rod.com, rod.force);
+    // About the big end: what is needed = couple − arm × F_C.
+    let moment = couple - rod.moment;
     Vec2::new(x, (moment + arm.y * x) / arm.x)
 }

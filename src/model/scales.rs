@@ -31,6 +31,8 @@ pub struct Scale {
     pub length: f64,
     /// [rad] Of the angles of crank, rod and slider.
     pub angle: [f64; 3],
+    /// [m] Of the modes of a flexible rod.
+    pub deflection: f64,
     /// [1/s] Rates over positions.
     pub frequency: f64,
     /// [s] No step is longer.
@@ -60,7 +62,7 @@ impl Scale {
         if clearance == f64::INFINITY {
             let swing = (scene.gravity.abs() / scene.crank.length).sqrt();
             let frequency = turning.max(swing);
-            return Self { length: ANGLE, angle: [ANGLE; 3], frequency, longest_step };
+            return Self { length: ANGLE, angle: [ANGLE; 3], deflection: LENGTH, frequency, longest_step };
         }
         let length = LENGTH * math::powf(clearance / CLEARANCE, 1.0 / 3.0);
         let mut frequency = f64::INFINITY;
@@ -77,6 +79,6 @@ impl Scale {
         // A soft contact does not make the crank's own motion more precious.
         let frequency = frequency.max(10.0 * turning);
         let reach = [scene.crank.length, scene.rod.length, 0.5 * scene.slider.length];
-        Self { length, angle: reach.map(|reach| length / reach), frequency, longest_step }
+        Self { length, angle: reach.map(|reach| length / reach), deflection: length, frequency, longest_step }
     }
 }

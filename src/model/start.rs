@@ -4,7 +4,8 @@
 use super::kinematics::JointCentres;
 use super::plane::{Rotation, Vec2, perp};
 use crate::math;
-use crate::scene::{JointModel, Point, Revolute, Scene};
+use crate::scene::closure::rod_sine;
+use crate::scene::{Point, Revolute, Scene};
 
 /// Angles and joint centres of the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,30 +20,10 @@ pub struct StartPose {
     pub velocity: JointCentres,
 }
 
-/// sin of the rod's angle at the start; the loop closes if it lies within (−1, 1).
-pub fn rod_sine(scene: &Scene) -> f64 {
-    let crank_pin = eccentricity(&scene.joint.a) + Rotation::new(scene.crank.angle_start).axis(scene.crank.length);
-    let big_end = crank_pin - eccentricity(&scene.joint.b);
-    let small_end_y = pin_height(scene) - eccentricity(&scene.joint.c).y;
-    (small_end_y - big_end.y) / scene.rod.length
-}
-
-/// [m] Height of the slider's pin at the start.
-fn pin_height(scene: &Scene) -> f64 {
-    let offset = match scene.joint.t.model {
-        JointModel::Ideal => 0.0,
-        JointModel::Clearance => scene.joint.t.offset_start,
-    };
-    scene.guide.offset + offset - scene.slider.centre.y
-}
-
-/// [m] Of the journal at the start; an ideal joint's is zero whatever is given.
+/// [m] Of the journal at the start.
 fn eccentricity(joint: &Revolute) -> Vec2 {
-    let Point { x, y } = joint.eccentricity_start;
-    match joint.model {
-        JointModel::Ideal => Vec2::zeros(),
-        JointModel::Clearance => Vec2::new(x, y),
-    }
+    let Point { x, y } = joint.eccentricity_at_start();
+    Vec2::new(x, y)
 }
 
 impl StartPose {

@@ -5,8 +5,10 @@ use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
 use super::kinematics::{JointCentres, Turning};
-use super::mechanism::{CRANK, ROD, SLIDER};
+use super::mechanism::{CRANK, SLIDER};
 use super::plane::Rotation;
+use super::reactions::Demand;
+use super::rod::Elastic;
 
 /// Contacts of the joints A, B, C and of the guide's corners.
 pub const CONTACTS: usize = 3 + CORNERS;
@@ -23,26 +25,28 @@ pub struct Pose {
     pub place: JointCentres,
     /// [m/s]
     pub velocity: JointCentres,
+    /// [rad/s] Of the rod's sections at its big and small end.
+    pub section_speed: [f64; 2],
 }
 
 impl Pose {
     /// The journal in the bearing of joint A, B or C (0, 1, 2).
     #[inline(always)]
     pub fn play(&self, joint: usize) -> Play {
-        let (p, v, speed) = (&self.place, &self.velocity, &self.turning.speed);
+        let (p, v, speed, section) = (&self.place, &self.velocity, &self.turning.speed, &self.section_speed);
         match joint {
             0 => Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: 0.0 },
             1 => Play {
                 eccentricity: p.crank_pin - p.big_end,
                 rate: v.crank_pin - v.big_end,
                 journal_speed: speed[CRANK],
-                bearing_speed: speed[ROD],
+                bearing_speed: section[0],
             },
             _ => Play {
                 eccentricity: p.pin - p.small_end,
                 rate: v.pin - v.small_end,
                 journal_speed: speed[SLIDER],
-                bearing_speed: speed[ROD],
+                bearing_speed: section[1],
             },
         }
     }
@@ -70,6 +74,17 @@ pub struct Instant {
     pub angle_acceleration: [f64; 3],
     /// Loads, with the contact forces in them.
     pub loads: Loads,
+    /// Of a flexible rod.
+    pub flexible: Option<FlexibleInstant>,
+}
+
+/// What only a flexible rod has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlexibleInstant {
+    /// What the rod's motion needs of forces and moments.
+    pub demand: Demand,
+    /// Its elasticity.
+    pub elastic: Elastic,
 }
 
 /// Turning from angles and rates; the slider on an ideal guide does not turn.

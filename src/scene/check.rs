@@ -1,7 +1,9 @@
 //! What a scene's parameters must be to each other.
 
+use super::closure::{rise, rod_sine};
 use super::parameter::{PARAMETERS, Parameter, Refusal};
-use super::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Point, Scene};
+use super::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Point, Scene, Surface};
+use crate::model_description::number::number;
 use std::fmt;
 
 /// Least restitution of a damping law whose factor grows without bound towards 0.
@@ -28,7 +30,7 @@ impl fmt::Display for SceneError {
         match self {
             Self::Range(refusal) => refusal.fmt(f),
             Self::Conflict { name, value, allowed } => {
-                write!(f, "{name} = {value:?} is not allowed: {allowed}")
+                write!(f, "{name} = {} is not allowed: {allowed}", number(*value))
             }
         }
     }
@@ -50,57 +52,44 @@ impl Scene {
     /// Whether the parameters go together; the first that does not, otherwise. What an ideal joint
     /// does not use is held to its own range only.
     pub fn check(&self) -> Result<(), SceneError> {
-        PARAMETERS.iter().try_for_each(|parameter| self.check_range(parameter))?;
+        let in_range = |parameter: &Parameter| parameter.admit(parameter.value(self)).map_err(SceneError::Range);
+        PARAMETERS.iter().try_for_each(in_range)?;
         let joints = &self.joint;
         for (letter, joint) in [("A", &joints.a), ("B", &joints.b), ("C", &joints.c)] {
             if joint.model == JointModel::Ideal {
                 continue;
             }
             let radius = joint.radius;
-            let below_radius = || format!("below joint.{letter}.radius = {radius:?} m");
+            let below_radius = || format!("below joint.{letter}.radius = {} m", number(radius));
             rule(joint.clearance < radius, letter, "clearance", joint.clearance, below_radius)?;
             let Point { x, y } = joint.eccentricity_start;
             rule(x.hypot(y) < radius, letter, "eccentricity_start.x", x, || {
-                format!("with .y = {y:?} m, less than joint.{letter}.radius = {radius:?} m away")
+                format!("with .y = {} m, less than joint.{letter}.radius = {} m away", number(y), number(radius))
             })?;
             let width = joint.contact.width;
             let has_width = joint.elasticity != Elasticity::Liu || width > 0.0;
             rule(has_width, letter, "width", width, || "above 0 m for elasticity liu".into())?;
             check_contact(letter, &joint.contact)?;
         }
-        if joints.t.model == JointModel::Clearance {
-            check_contact("T", &joints.t.contact)?;
+        let guide = &joints.t;
+        if guide.model == JointModel::Clearance {
+            let width = guide.contact.width;
+            let half_space = guide.surface == Surface::Foundation && guide.foundation_stiffness == 0.0;
+            rule(!half_space || width > 0.0, "T", "width", width, || {
+                "above 0 m for surface foundation, unless joint.T.foundation_stiffness is given".into()
+            })?;
+            check_contact("T", &guide.contact)?;
         }
         self.check_closure()
     }
 
-    fn check_range(&self, parameter: &Parameter) -> Result<(), SceneError> {
-        // On a copy: writing is what knows the range.
-        let mut copy = Self::clone(self);
-        parameter.write(&mut copy, parameter.value(self)).map_err(SceneError::Range)
-    }
-
     /// The rod must reach the slider's height at the start.
     fn check_closure(&self) -> Result<(), SceneError> {
-        let start = |joint: &super::Revolute| match joint.model {
-            JointModel::Ideal => 0.0,
-            JointModel::Clearance => joint.eccentricity_start.y,
-        };
-        let joints = &self.joint;
-        let big_end = start(&joints.a) + self.crank.length * self.crank.angle_start.sin() - start(&joints.b);
-        let offset = match joints.t.model {
-            JointModel::Ideal => 0.0,
-            JointModel::Clearance => joints.t.offset_start,
-        };
-        let small_end = self.guide.offset + offset - self.slider.centre.y - start(&joints.c);
-        // l·sin θ2 = small_end − big_end; at sin θ2 = ±1 the rod's speed has no bound.
-        let rise = (small_end - big_end).abs();
-        let length = self.rod.length;
-        if rise < length {
+        if rod_sine(self).abs() < 1.0 {
             return Ok(());
         }
-        let allowed = format!("above {rise:?} m, for the rod to reach the slider at the start");
-        Err(SceneError::Conflict { name: "rod.length".into(), value: length, allowed })
+        let allowed = format!("above {} m, for the rod to reach the slider at the start", number(rise(self).abs()));
+        Err(SceneError::Conflict { name: "rod.length".into(), value: self.rod.length, allowed })
     }
 }
 
@@ -112,7 +101,14 @@ fn check_contact(letter: &str, contact: &Contact) -> Result<(), SceneError> {
     let friction = &contact.friction;
     let rises = friction.law != FrictionLaw::Ambrosio || friction.v0 < friction.v1;
     rule(rises, letter, "friction.v0", friction.v0, || {
-        format!("below joint.{letter}.friction.v1 = {:?} m/s for law ambrosio", friction.v1)
+        format!("below joint.{letter}.friction.v1 = {} m/s for law ambrosio", number(friction.v1))
+    })?;
+    // lugre divides by its steady coefficient, which lies between these two.
+    let lugre = friction.law == FrictionLaw::Lugre;
+    let (kinetic, still) = (friction.coefficient, friction.static_coefficient);
+    rule(!lugre || kinetic > 0.0, letter, "friction.coefficient", kinetic, || "above 0 for law lugre".into())?;
+    rule(!lugre || still >= kinetic, letter, "friction.static_coefficient", still, || {
+        format!("at least joint.{letter}.friction.coefficient = {} for law lugre", number(kinetic))
     })
 }
 
@@ -174,13 +170,56 @@ mod tests {
             scene.joint.c.elasticity = Elasticity::Liu;
             scene.joint.c.contact.width = 0.0;
         });
-        assert!(error.starts_with("joint.C.width = 0.0 is not allowed"), "{error}");
+        assert!(error.starts_with("joint.C.width = 0 is not allowed"), "{error}");
+    }
+
+    #[test]
+    fn lugre_needs_friction_that_does_not_grow_with_speed() {
+        let lugre = |kinetic: f64, still: f64| {
+            move |scene: &mut Scene| {
+                scene.joint.t.model = JointModel::Clearance;
+                let friction = &mut scene.joint.t.contact.friction;
+                friction.law = FrictionLaw::Lugre;
+                (friction.coefficient, friction.static_coefficient) = (kinetic, still);
+            }
+        };
+        let error = refused(lugre(0.0, 0.1));
+        assert_eq!(error, "joint.T.friction.coefficient = 0 is not allowed: above 0 for law lugre");
+        let error = refused(lugre(0.1, 0.05));
+        let wanted = "joint.T.friction.static_coefficient = 0.05 is not allowed: \
+                      at least joint.T.friction.coefficient = 0.1 for law lugre";
+        assert_eq!(error, wanted);
+        let mut scene = Scene::default();
+        lugre(0.1, 0.1)(&mut scene);
+        assert_eq!(scene.check(), Ok(()));
+        lugre(0.1, 0.05)(&mut scene);
+        scene.joint.t.model = JointModel::Ideal;
+        assert_eq!(scene.check(), Ok(()), "an ideal guide has no friction");
+    }
+
+    #[test]
+    fn a_half_space_needs_a_width() {
+        let wide = |width: f64, stiffness: f64| {
+            let mut scene = Scene::default();
+            scene.joint.t.model = JointModel::Clearance;
+            scene.joint.t.surface = Surface::Foundation;
+            scene.joint.t.contact.width = width;
+            scene.joint.t.foundation_stiffness = stiffness;
+            scene
+        };
+        let error = wide(0.0, 0.0).check().expect_err("a face without width").to_string();
+        assert!(error.starts_with("joint.T.width = 0 is not allowed: above 0 m for surface foundation"), "{error}");
+        assert_eq!(wide(0.0, 1e9).check(), Ok(()));
+        assert_eq!(wide(1e-3, 0.0).check(), Ok(()));
+        let mut corners = wide(0.0, 0.0);
+        corners.joint.t.surface = Surface::Corner;
+        assert_eq!(corners.check(), Ok(()));
     }
 
     #[test]
     fn a_value_outside_its_range_is_refused() {
         let error = refused(|scene| scene.rod.mass = -1.0);
-        assert_eq!(error, "rod.mass = -1 is not allowed: 1e-9 to 10000000.0 kg");
+        assert_eq!(error, "rod.mass = -1 is not allowed: 1e-9 to 1e7 kg");
         let error = refused(|scene| scene.gravity = f64::NAN);
         assert!(error.starts_with("gravity = NaN is not allowed"), "{error}");
     }

@@ -1,6 +1,7 @@
 //! What was asked for: a mechanism, its drive and its solver, as plain SI data.
 
 pub mod check;
+pub mod closure;
 pub mod enumerations;
 pub mod modal;
 pub mod parameter;

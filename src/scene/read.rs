@@ -18,9 +18,10 @@
 use super::parameter::{Kind, PARAMETERS, Parameter};
 use super::problem::{Fault, Problem, ReadError, nearest, position};
 use super::profile::{Profile, Profiles};
-use super::read_value::{Value, number, source};
+use super::read_value::{Value, integer, number, source};
 use super::run::{End, Run};
 use super::{Scene, SceneError, read_profile};
+use crate::model_description::number::number as shown;
 use std::collections::HashMap;
 use toml::de::{DeTable, DeValue};
 
@@ -124,7 +125,7 @@ impl<'i> Reader<'i> {
             legal.then_some(number).ok_or_else(|| Fault::Value {
                 key: path.to_owned(),
                 found: source(reader.text, value),
-                allowed: format!("above 0, at most {LONGEST:?} {unit}"),
+                allowed: format!("above 0, at most {} {unit}", shown(LONGEST)),
             })
         };
         match path {
@@ -165,6 +166,21 @@ impl<'i> Reader<'i> {
         let found = || source(self.text, value);
         let (number, allowed) = match &parameter.kind {
             Kind::Real { unit, .. } => (number(self.text, parameter.name, value, unit)?, parameter.allowed()),
+            Kind::Integer { .. } => {
+                let allowed = parameter.allowed();
+                let integer = integer(value).ok_or_else(|| Fault::Type {
+                    key: key(),
+                    found: found(),
+                    wanted: format!("an integer, {allowed}"),
+                })?;
+                (integer, allowed)
+            }
+            Kind::Boolean { .. } => {
+                let allowed = parameter.allowed();
+                let wrong = || Fault::Type { key: key(), found: found(), wanted: allowed.clone() };
+                let boolean = value.get_ref().as_bool().ok_or_else(wrong)?;
+                (f64::from(u8::from(boolean)), allowed)
+            }
             Kind::Enumeration { items, .. } => {
                 let names: Vec<&str> = items.iter().map(|(name, _)| *name).collect();
                 let allowed = names.join(", ");

@@ -20,9 +20,7 @@ pub(super) fn number(text: &str, key: &str, value: &Value, unit: &str) -> Result
     };
     let number: f64 = match value.get_ref() {
         DeValue::Float(float) => float.as_str().parse().map_err(|_| wrong())?,
-        DeValue::Integer(integer) => {
-            i64::from_str_radix(integer.as_str(), integer.radix()).map(|integer| integer as f64).map_err(|_| wrong())?
-        }
+        DeValue::Integer(_) => integer(value).ok_or_else(wrong)?,
         DeValue::String(quoted) => quantity(quoted, unit).map_err(|why| Fault::Unit {
             key: key.to_owned(),
             found: source(text, value),
@@ -32,6 +30,14 @@ pub(super) fn number(text: &str, key: &str, value: &Value, unit: &str) -> Result
         _ => return Err(wrong()),
     };
     number.is_finite().then_some(number).ok_or_else(wrong)
+}
+
+/// An integer, and nothing that only looks like one. Those beyond 2^53 round, far outside any range.
+pub(super) fn integer(value: &Value) -> Option<f64> {
+    let DeValue::Integer(integer) = value.get_ref() else {
+        return None;
+    };
+    i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64)
 }
 
 /// A value as it stands in the file, cut at its first line.

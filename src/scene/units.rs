@@ -18,6 +18,8 @@ const SPEED: Dimension = [0, 0, -2, 2];
 const FORCE: Dimension = [2, 2, -4, 0];
 const TORQUE: Dimension = [2, 4, -4, 0];
 const PRESSURE: Dimension = [2, -2, -4, 0];
+/// Torque times angle, so that no torque is told in joules.
+const ENERGY: Dimension = [2, 4, -4, 2];
 
 /// Symbol, dimension, and the ratio to SI as a quotient, so that 50 mm is 50/1000 m to the bit.
 const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
@@ -52,12 +54,19 @@ const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
     ("MN", FORCE, 1e6, 1.0),
     ("Nm", TORQUE, 1.0, 1.0),
     ("kNm", TORQUE, 1e3, 1.0),
+    ("J", ENERGY, 1.0, 1.0),
+    ("mJ", ENERGY, 1.0, 1e3),
+    ("kJ", ENERGY, 1e3, 1.0),
+    ("MJ", ENERGY, 1e6, 1.0),
     ("Pa", PRESSURE, 1.0, 1.0),
     ("kPa", PRESSURE, 1e3, 1.0),
     ("MPa", PRESSURE, 1e6, 1.0),
     ("GPa", PRESSURE, 1e9, 1.0),
     ("bar", PRESSURE, 1e5, 1.0),
 ];
+
+/// Compounds that messages propose; others mean as much.
+const COMPOUNDS: &[&str] = &["mm2", "cm2", "mm4", "cm4", "g/cm3", "N/mm2", "1/mm", "s/mm"];
 
 /// A text that is no quantity of the wanted kind.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,7 +115,8 @@ pub fn alternatives(unit: &str) -> Vec<&str> {
         .iter()
         .filter(|(symbol, of, ..)| *of == dimension && *symbol != unit && symbol.is_ascii())
         .map(|(symbol, ..)| *symbol);
-    std::iter::once(unit).chain(others).collect()
+    let fits = |compound: &&str| *compound != unit && parse(compound).is_ok_and(|(of, ..)| of == dimension);
+    std::iter::once(unit).chain(others).chain(COMPOUNDS.iter().copied().filter(fits)).collect()
 }
 
 /// The longest finite number that a text begins with, and the rest.
@@ -154,7 +164,7 @@ fn in_symbol(c: char) -> bool {
 
 /// Twice the exponent at the beginning of a text (1 if there is none), and the rest.
 fn exponent(text: &str) -> (i32, &str) {
-    for (digits, doubled) in [("1.5", 3), ("2", 4), ("²", 4), ("3", 6), ("³", 6)] {
+    for (digits, doubled) in [("1.5", 3), ("2", 4), ("²", 4), ("3", 6), ("³", 6), ("4", 8), ("⁴", 8)] {
         if let Some(rest) = text.strip_prefix(digits) {
             return (doubled, rest);
         }

@@ -22,6 +22,8 @@ pub fn write(file: &SceneFile) -> String {
     for parameter in PARAMETERS {
         let value = match parameter.kind {
             Kind::Real { get, .. } => format!("{:?}", get(&file.scene)),
+            Kind::Integer { get, .. } => get(&file.scene).to_string(),
+            Kind::Boolean { get, .. } => get(&file.scene).to_string(),
             Kind::Enumeration { items, get, .. } => {
                 let item = items.iter().find(|(_, value)| *value == get(&file.scene));
                 quoted(item.map_or("", |(name, _)| *name))

@@ -1,14 +1,21 @@
 //! Chooses the compiled mechanism and method that a scene calls for.
 
 use super::run::{Motion, Run};
+use crate::integrator::ROOM;
 use crate::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
+use crate::model::bristles::bristled_contacts;
 use crate::model::closed::Closed;
 use crate::model::drive::InputSignal;
+use crate::model::flexible::{Flexible, state_count};
 use crate::model::mechanism::Topology;
 use crate::model::open::Open;
 use crate::model::plant::Plant;
+use crate::model::rod::Rod;
 use crate::model::start::StartPose;
 use crate::scene::{Method, Scene};
+
+/// Room for every mechanism: 9 rigid freedoms, 16 modes, 7 bristles, an audit.
+const LARGE: usize = 64;
 
 /// Starts the mechanism of `scene` at `time` [s] from `pose`.
 pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) -> Box<dyn Motion> {
@@ -16,14 +23,38 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
     macro_rules! open {
         ($a:literal, $b:literal, $c:literal, $t:literal, $speed:literal) => {{
             const N: usize = 2 * Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed }.freedoms();
-            let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
-            with_method::<N, _>(scene, time, pose, signal, plant)
+            if has_extra_states(scene) {
+                let plant = Open::<$a, $b, $c, $t, $speed, ROOM>::assemble(scene, time);
+                with_method::<ROOM, _>(scene, time, pose, signal, plant)
+            } else {
+                let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
+                with_method::<N, _>(scene, time, pose, signal, plant)
+            }
         }};
     }
     /// Both drives.
     macro_rules! driven {
         ($speed:expr, $a:literal, $b:literal, $c:literal, $t:literal) => {
             if $speed { open!($a, $b, $c, $t, true) } else { open!($a, $b, $c, $t, false) }
+        };
+    }
+    if let Some(rod) = Rod::new(scene) {
+        return if state_count(scene, &rod) <= ROOM {
+            with_method::<ROOM, _>(
+                scene,
+                time,
+                pose,
+                signal,
+                Flexible::<ROOM, { ROOM / 2 }>::assemble(scene, time, rod),
+            )
+        } else {
+            with_method::<LARGE, _>(
+                scene,
+                time,
+                pose,
+                signal,
+                Flexible::<LARGE, { LARGE / 2 }>::assemble(scene, time, rod),
+            )
         };
     }
     let Topology { a, b, c, t, speed } = Topology::of(scene);
@@ -52,6 +83,11 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
         (false, false, false, true) => driven!(speed, false, false, false, true),
         (false, false, false, false) => driven!(speed, false, false, false, false),
     }
+}
+
+/// The scene calls for states beside positions and rates.
+fn has_extra_states(scene: &Scene) -> bool {
+    !bristled_contacts(scene).is_empty()
 }
 
 /// A method is compiled once for every number of states and calls the mechanism through a table of

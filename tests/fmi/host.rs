@@ -144,6 +144,19 @@ impl Slave {
         value
     }
 
+    pub fn set_boolean(&self, name: &str, value: i32) -> Status {
+        // SAFETY: live component, arrays of one entry.
+        unsafe { (self.api.SetBoolean)(self.c, &vr(name), 1, &value) }
+    }
+
+    pub fn get_boolean(&self, name: &str) -> i32 {
+        let mut value = i32::MIN;
+        // SAFETY: live component, arrays of one entry.
+        let status = unsafe { (self.api.GetBoolean)(self.c, &vr(name), 1, &mut value) };
+        assert_eq!(status, Status::Ok);
+        value
+    }
+
     pub fn set_rate(&self, name: &str, order: i32, rate: f64) -> Status {
         // SAFETY: live component, arrays of one entry.
         unsafe { (self.api.SetRealInputDerivatives)(self.c, &vr(name), 1, &order, &rate) }

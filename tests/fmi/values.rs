@@ -15,8 +15,14 @@ fn inputs_and_parameters_read_back_in_every_state() {
                 Access::Parameter(Parameter { kind: Kind::Real { start, .. }, .. }) => {
                     assert_eq!(slave.get(variable.name), *start);
                 }
-                Access::Parameter(Parameter { kind: Kind::Enumeration { start, .. }, .. }) => {
+                Access::Parameter(Parameter {
+                    kind: Kind::Enumeration { start, .. } | Kind::Integer { start, .. },
+                    ..
+                }) => {
                     assert_eq!(slave.get_integer(variable.name), *start);
+                }
+                Access::Parameter(Parameter { kind: Kind::Boolean { start, .. }, .. }) => {
+                    assert_eq!(slave.get_boolean(variable.name), i32::from(*start));
                 }
                 _ => {}
             }
@@ -135,6 +141,23 @@ fn every_parameter_refuses_what_is_outside_its_range_and_says_the_range() {
                 }
                 assert_eq!(slave.set(variable.name, before), Status::Ok);
             }
+            Kind::Integer { min, max, .. } => {
+                for limit in [min, max] {
+                    assert_eq!(slave.set_integer(variable.name, limit), Status::Ok);
+                    assert_eq!(slave.get_integer(variable.name), limit);
+                }
+                for beyond in [min - 1, max + 1, i32::MAX, i32::MIN] {
+                    refused(variable.name, slave.set_integer(variable.name, beyond));
+                }
+                assert_eq!(slave.get_integer(variable.name), max);
+            }
+            Kind::Boolean { start, .. } => {
+                // Every number is a Boolean: C's.
+                for value in [i32::from(!start), i32::from(start)] {
+                    assert_eq!(slave.set_boolean(variable.name, value), Status::Ok);
+                    assert_eq!(slave.get_boolean(variable.name), value);
+                }
+            }
             Kind::Enumeration { items, .. } => {
                 for value in [0, -1, items.len() as i32 + 1, i32::MAX, i32::MIN] {
                     refused(variable.name, slave.set_integer(variable.name, value));
@@ -142,6 +165,29 @@ fn every_parameter_refuses_what_is_outside_its_range_and_says_the_range() {
             }
         }
     }
+}
+
+#[test]
+fn integers_and_booleans_are_fixed_parameters_of_their_own_types() {
+    let slave = Slave::new();
+    assert_eq!(slave.set_integer("rod.flexible.bending_modes", 9), Status::Error);
+    let text = slave.log.only().text;
+    assert!(text.ends_with("rod.flexible.bending_modes = 9 is out of range; allowed: 0 to 8"), "{text}");
+    assert_eq!(slave.set("rod.flexible.axial_modes", 1.0), Status::Error);
+    assert!(slave.log.only().text.contains("rod.flexible.axial_modes is of type Integer, not Real"));
+    assert_eq!(slave.set_integer("energy.audit", 1), Status::Error);
+    assert!(slave.log.only().text.contains("energy.audit is of type Boolean, not Integer"));
+    assert_eq!(slave.set_boolean("rod.flexible.bending_modes", 1), Status::Error);
+    assert!(slave.log.only().text.contains("rod.flexible.bending_modes is of type Integer, not Boolean"));
+    assert_eq!(slave.set_boolean("energy.audit", 1), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    for status in [slave.set_integer("rod.flexible.bending_modes", 1), slave.set_boolean("energy.audit", 0)] {
+        assert_eq!(status, Status::Error);
+    }
+    assert!(slave.log.take().iter().all(|line| line.text.contains("(fixed parameter) cannot be set")));
+    assert_eq!((slave.get_boolean("energy.audit"), slave.get_integer("rod.flexible.bending_modes")), (1, 0));
+    assert_eq!(slave.reset(), Status::Ok);
+    assert_eq!(slave.get_boolean("energy.audit"), 0);
 }
 
 #[test]

@@ -7,6 +7,7 @@ use rules::problems;
 use slidercrank::fmi::description::{declared_experiment, documentation, model_description};
 use slidercrank::fmi::variables::{Access, LogCategory, VARIABLES};
 use slidercrank::model_description::rows::read;
+use slidercrank::scene::parameter::Kind;
 use slidercrank::scene::{PARAMETERS, Scene, slot};
 use std::{env, fs};
 
@@ -32,9 +33,13 @@ fn the_description_breaks_no_rule() {
     let mut scene = Scene::default();
     for parameter in PARAMETERS {
         // Edges of the ranges are legal start values too.
-        if let slidercrank::scene::parameter::Kind::Real { max, .. } = parameter.kind {
-            parameter.write(&mut scene, max).expect("the greatest legal value");
-        }
+        let edge = match parameter.kind {
+            Kind::Real { max, .. } => max,
+            Kind::Integer { max, .. } => f64::from(max),
+            Kind::Boolean { start, .. } => f64::from(u8::from(!start)),
+            Kind::Enumeration { items, .. } => items.len() as f64,
+        };
+        parameter.write(&mut scene, edge).expect("a legal value");
     }
     let dated = model_description(&scene, None, Some(1_767_225_599)).expect("a description");
     assert_eq!(problems(&dated), Vec::<String>::new());
@@ -42,7 +47,7 @@ fn the_description_breaks_no_rule() {
 }
 
 /// What stands in the description, what replaces it, and a word of the complaint.
-const SEEDS: [(&str, &str, &str); 22] = [
+const SEEDS: [(&str, &str, &str); 25] = [
     ("unit=\"N.m\" nominal", "unit=\"N.mm\" nominal", "unit"),
     ("<Unit name=\"rad\">", "<Unit name=\"m\">", "twice"),
     ("displayUnit=\"mm\" nominal", "displayUnit=\"inch\" nominal", "displayUnit"),
@@ -54,6 +59,9 @@ const SEEDS: [(&str, &str, &str); 22] = [
     ("<InitialUnknowns>", "<InitialUnknowns><Unknown index=\"1\"/>", "InitialUnknowns"),
     ("valueReference=\"7\"", "valueReference=\"6\"", "valueReference"),
     ("min=\"0.0001\" max=\"100.0\" start=\"0.05\"", "min=\"0.06\" max=\"100.0\" start=\"0.05\"", "start"),
+    ("<Integer min=\"0\" max=\"8\" start=\"0\"/>", "<Integer min=\"0\" max=\"8\" start=\"9\"/>", "start"),
+    ("<Integer min=\"0\" max=\"8\" start=\"0\"/>", "<Integer min=\"0\" max=\"8\"/>", "start"),
+    ("<Boolean start=\"true\"/>", "<Boolean/>", "start"),
     ("name=\"slider.y\"", "name=\"slider.x\"", "twice"),
     ("name=\"slider.y\"", "name=\"slider.2y\"", "structured"),
     ("dependencies=\"1 2\"", "dependencies=\"1 2000\"", "dependencies"),
@@ -109,6 +117,31 @@ fn value_references_and_tables_are_those_of_the_description() {
     assert_eq!(names, LogCategory::ALL.iter().map(|category| category.name()).collect::<Vec<_>>());
 }
 
+/// Outputs that tell what the modes and the audit reckon, and a dependency of theirs at the start.
+#[test]
+fn modes_and_energies_feel_no_input_at_once() {
+    let xml = made();
+    let document = roxmltree::Document::parse(&xml).expect("well-formed XML");
+    let index = |name: &str| (1 + VARIABLES.iter().position(|row| row.name == name).expect("declared")).to_string();
+    let entry = |list: &str, name: &str| {
+        let list = document.descendants().find(|node| node.has_tag_name(list)).expect("the list");
+        let found = list.children().find(|node| node.attribute("index") == Some(&index(name))).expect("an entry");
+        let dependencies = found.attribute("dependencies").expect("told one by one");
+        dependencies.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let energies = VARIABLES.iter().filter(|row| row.name.starts_with("energy.") && row.name != "energy.audit");
+    let names: Vec<&str> = energies.map(|row| row.name).chain(["rod.deflection", "rod.stretch"]).collect();
+    assert_eq!(names.len(), 16);
+    for name in names {
+        assert_eq!(entry("Outputs", name), Vec::<String>::new(), "{name}");
+        let at_start = entry("InitialUnknowns", name);
+        let counts = ["energy.kinetic", "energy.potential", "energy.gravity", "energy.contact"].contains(&name);
+        assert_eq!(at_start.contains(&index("energy.audit")), counts, "{name}");
+        assert_eq!(at_start.contains(&index("gravity")), ["energy.potential", "energy.gravity"].contains(&name));
+        assert_eq!(at_start.contains(&index("crank.speed_start")), name == "energy.kinetic");
+    }
+}
+
 #[test]
 fn start_values_and_guid_follow_the_scene() {
     let mut scene = Scene::default();
@@ -137,7 +170,7 @@ fn the_page_names_every_variable_and_leaves_no_place_unfilled() {
 }
 
 /// What stands in the declaration, what replaces it, and the complaint.
-const WRONG_ROWS: [(&str, &str, &str); 9] = [
+const WRONG_ROWS: [(&str, &str, &str); 15] = [
     ("causality = \"input\"", "causality = \"local\"", "cannot be local, continuous and Torque"),
     ("type = \"Boolean\", field", "type = \"Torque\", field", "cannot be output, discrete and Torque"),
     ("start = 0.05, min = 1e-4", "start = 0.05, min = 0.1", "not min <= start <= max and nominal > 0"),
@@ -146,6 +179,12 @@ const WRONG_ROWS: [(&str, &str, &str); 9] = [
     ("name = \"slider.v\"", "name = \"slider.x\"", "`slider.x` is declared twice"),
     ("name = \"slider.v\"", "name = \"slider v\"", "`slider v` is not a structured name"),
     ("at_start = [\"crank.angle_start\"]", "at_start = [\"crank.angel\"]", "`crank.angel` is not declared"),
+    ("start = 0, min = 0, max = 8", "start = 9, min = 0, max = 8", "not min <= start <= max and nominal > 0"),
+    ("start = 0, min = 0, max = 8", "start = 0.5, min = 0, max = 8", "0.5 is no integer"),
+    ("start = 0, min = 0, max = 8", "start = 0, min = 0, max = 8.5", "8.5 is no integer"),
+    ("start = 0, min = 0, max = 8", "start = 0, min = 0", "`max` is missing"),
+    ("start = true, field", "start = 1, field", "`start` is missing"),
+    ("start = true, field", "start = true, min = 0, field", "`min, max` has no meaning here"),
     ("start = \"verner7\"", "start = \"verner9\"", "`verner9` is not declared"),
 ];
 

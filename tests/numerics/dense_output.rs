@@ -3,7 +3,7 @@
 use super::free::{Free, distance, kepler, orbit, power};
 use slidercrank::integrator::dense_output::{Correction, Step};
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Integrator, Method, Problem, Settings};
+use slidercrank::integrator::{Extent, Integrator, Method, Problem, Settings};
 
 /// Coefficients of powers of t, of no particular kind.
 const POLYNOMIAL: [f64; 9] = [0.3, -1.1, 0.7, 1.9, -0.8, 0.45, -0.6, 0.35, 0.52];
@@ -33,6 +33,7 @@ fn error_inside(degree: usize, tolerance: f64) -> (f64, bool) {
         f0: &[start[1], start[2]],
         y1: &[end[0], end[1]],
         f1: &[end[1], end[2]],
+        extent: Extent::second_order(2),
     };
     let correction = step.correction(&problem, &(), tolerance);
     let mut error = 0.0f64;
@@ -76,7 +77,7 @@ fn ends_are_met_to_the_bit() {
     let (mut f0, mut f1) = ([0.0; 4], [0.0; 4]);
     problem.rates(&(), 1.0, &y0, &mut f0);
     problem.rates(&(), 1.5, &y1, &mut f1);
-    let step = Step { t: 1.0, h: 0.5, y0: &y0, f0: &f0, y1: &y1, f1: &f1 };
+    let step = Step { t: 1.0, h: 0.5, y0: &y0, f0: &f0, y1: &y1, f1: &f1, extent: Extent::second_order(4) };
     for tolerance in [1e-14, 1.0] {
         let correction = step.correction(&problem, &(), tolerance);
         assert_eq!(step.state(0.0, &correction), y0);
@@ -96,7 +97,7 @@ fn between_exact_ends_of_an_orbit_the_error_falls_with_the_degree() {
             let (mut f0, mut f1) = ([0.0; 4], [0.0; 4]);
             problem.rates(&(), 0.7, &y0, &mut f0);
             problem.rates(&(), 0.7 + h, &y1, &mut f1);
-            let step = Step { t: 0.7, h, y0: &y0, f0: &f0, y1: &y1, f1: &f1 };
+            let step = Step { t: 0.7, h, y0: &y0, f0: &f0, y1: &y1, f1: &f1, extent: Extent::second_order(4) };
             let correction: Correction<4> = step.correction(&problem, &(), tolerance);
             let error = (1..40).map(|i| f64::from(i) / 40.0);
             let error = error.map(|s| distance(&step.state(s, &correction), &orbit(0.1, 0.7 + s * h)));

@@ -90,7 +90,7 @@ impl Problem<2> for Stuck {
         1.0
     }
 
-    fn cross(&self, (): &(), _: f64, _: &[f64; 2], _: &Crossed) -> Reset<()> {
+    fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
         Reset { modes: (), step: None }
     }
 }

@@ -39,7 +39,7 @@ impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Problem<N> for Free
         1.0
     }
 
-    fn cross(&self, (): &(), _: f64, _: &[f64; N], _: &Crossed) -> Reset<()> {
+    fn cross(&self, (): &(), _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<()> {
         Reset { modes: (), step: None }
     }
 }

@@ -3,6 +3,7 @@
 mod dense_output;
 mod events;
 mod failures;
+mod first_order;
 mod free;
 mod order;
 mod polynomials;

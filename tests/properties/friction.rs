@@ -13,7 +13,9 @@ fn parameters(law: FrictionLaw) -> Friction {
         v0: 0.5,
         v1: 4.0,
         v_stribeck: 1.5,
-        ..Friction::default()
+        sigma0: 1e5,
+        sigma1: 300.0,
+        sigma2: 0.0,
     }
 }
 
@@ -35,10 +37,10 @@ const LAWS: [FrictionLaw; 4] = [FrictionLaw::None, FrictionLaw::Ambrosio, Fricti
 fn library_ratio(f: &Friction, v: f64) -> f64 {
     let p = FrictionParameters::new(f);
     match f.law {
-        FrictionLaw::None | FrictionLaw::Lugre => Frictionless::ratio(&p, v),
-        FrictionLaw::Ambrosio => Ambrosio::ratio(&p, v),
-        FrictionLaw::Tanh => Tanh::ratio(&p, v),
-        FrictionLaw::Stribeck => Stribeck::ratio(&p, v),
+        FrictionLaw::None | FrictionLaw::Lugre => Frictionless::rub(&p, v, 0.0).ratio,
+        FrictionLaw::Ambrosio => Ambrosio::rub(&p, v, 0.0).ratio,
+        FrictionLaw::Tanh => Tanh::rub(&p, v, 0.0).ratio,
+        FrictionLaw::Stribeck => Stribeck::rub(&p, v, 0.0).ratio,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the importer reads: each error in one line, with what was asked and what is allowed.
 
 use super::*;
+use crate::model_description::number::number;
 use std::fmt;
 
 impl fmt::Display for Error {
@@ -49,7 +50,7 @@ impl fmt::Display for VariableError {
             }
             Self::NotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
             Self::Refused(Refusal { name, found, allowed }) => {
-                write!(f, "{name} = {found:?} is out of range; allowed: {allowed}")
+                write!(f, "{name} = {} is out of range; allowed: {allowed}", number(*found))
             }
             Self::Order(name, order) => write!(f, "derivative of order {order} of {name}: only order 1 is known"),
             Self::Kind(name, needed) => write!(f, "{name} is not {needed}"),

@@ -21,8 +21,12 @@ impl Type {
             Access::Input { .. } | Access::RealOutput(_) => Self::Real,
             Access::IntegerOutput(_) => Self::Integer,
             Access::BooleanOutput(_) => Self::Boolean,
-            Access::Parameter(Parameter { kind: Kind::Real { .. }, .. }) => Self::Real,
-            Access::Parameter(Parameter { kind: Kind::Enumeration { .. }, .. }) => Self::Enumeration,
+            Access::Parameter(Parameter { kind, .. }) => match kind {
+                Kind::Real { .. } => Self::Real,
+                Kind::Integer { .. } => Self::Integer,
+                Kind::Boolean { .. } => Self::Boolean,
+                Kind::Enumeration { .. } => Self::Enumeration,
+            },
         }
     }
 
@@ -135,19 +139,25 @@ impl Instance {
 
     /// Writes variables of one type: into drafts first, which count once every value is legal.
     fn set<T: Copy>(&mut self, asked: Type, references: &[u32], values: &[T], into: fn(T) -> f64) -> Result<(), Error> {
-        let (mut scene, mut inputs, time) = (self.scene.clone(), self.inputs, self.time());
+        // Inputs are set every step: the scene is copied only where one of its parameters is.
+        let (mut scene, mut inputs, time) = (None, self.inputs, self.time());
         for (&reference, &value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;
             check(variable, self.state, true)?;
             let value = finite(variable, into(value))?;
             match &variable.access {
                 Access::Input { get, set, .. } => inputs.set_value(*set, *get, time, value),
-                Access::Parameter(parameter) => parameter.write(&mut scene, value)?,
+                Access::Parameter(parameter) => {
+                    parameter.write(scene.get_or_insert_with(|| self.scene.clone()), value)?;
+                }
                 // `check` lets no write to an output pass.
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => {}
             }
         }
-        (self.scene, self.inputs) = (scene, inputs);
+        self.inputs = inputs;
+        if let Some(scene) = scene {
+            self.scene = scene;
+        }
         self.inputs_or_scene_changed();
         Ok(())
     }

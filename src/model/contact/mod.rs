@@ -9,7 +9,7 @@ mod elastic;
 
 pub use elastic::{Elastic, HertzThreeHalves, Liu, Power};
 
-use super::friction::{Friction, FrictionParameters};
+use super::friction::{Friction, FrictionParameters, Rubbing};
 use crate::math;
 
 /// Numbers of one contact, ready for the inner loop.
@@ -76,25 +76,37 @@ impl Damped for Undamped {
     }
 }
 
-/// [N] (f_n, f_t) at the penetration `depth` [m], its `rate` [m/s] and the sliding speed that
-/// `sliding` gives [m/s]. Both are 0 while f_n would pull: no adhesion.
+/// Forces in a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Forces {
+    /// [N] f_n.
+    pub normal: f64,
+    /// [N] f_t.
+    pub tangential: f64,
+    /// [m/s] Rate of the bristles' deflection.
+    pub bristle_rate: f64,
+}
+
+/// Forces at the penetration `depth` [m], its `rate` [m/s], the bristles' deflection `z` [m] and the
+/// sliding speed that `sliding` gives [m/s]. They are 0 while f_n would pull: no adhesion.
 #[inline(always)]
 pub fn force<E: Elastic, D: Damped, F: Friction>(
     parameters: &ContactParameters,
     per_approach: f64,
     depth: f64,
     rate: f64,
+    z: f64,
     sliding: impl FnOnce() -> f64,
-) -> (f64, f64) {
-    if depth <= 0.0 {
-        return (0.0, 0.0);
+) -> Forces {
+    let mut normal = 0.0;
+    if depth > 0.0 {
+        normal = f64::max(E::force(parameters, depth) * D::factor(parameters, rate, per_approach), 0.0);
     }
-    let normal = E::force(parameters, depth) * D::factor(parameters, rate, per_approach);
-    if normal <= 0.0 {
-        return (0.0, 0.0);
+    if !F::PRESENT || (!F::BRISTLES && normal == 0.0) {
+        return Forces { normal, ..Forces::default() };
     }
-    let tangential = if F::PRESENT { normal * F::ratio(&parameters.friction, sliding()) } else { 0.0 };
-    (normal, tangential)
+    let Rubbing { ratio, bristle_rate } = F::rub(&parameters.friction, sliding(), z);
+    Forces { normal, tangential: normal * ratio, bristle_rate }
 }
 
 impl ContactParameters {

@@ -1,4 +1,7 @@
 //! Friction: f_t = f_n·ratio(v_t), odd in the sliding speed.
+//!
+//! Lugre alone has a state, the mean deflection of bristles between the surfaces, which a contact
+//! starts anew each time that it closes.
 
 use crate::math;
 use crate::scene;
@@ -16,14 +19,35 @@ pub struct FrictionParameters {
     pub per_width: f64,
     /// [s/m] 1/v_s.
     pub per_stribeck: f64,
+    /// [1/m] σ0.
+    pub sigma0: f64,
+    /// [s/m] σ1.
+    pub sigma1: f64,
+    /// [s/m] σ2.
+    pub sigma2: f64,
 }
 
-/// A friction law without a state of its own.
+/// What sliding does to a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rubbing {
+    /// f_t/f_n.
+    pub ratio: f64,
+    /// [m/s] Rate of the bristles' deflection; 0 of a law without them.
+    pub bristle_rate: f64,
+}
+
+/// A friction law.
 pub trait Friction {
     /// There is friction.
     const PRESENT: bool;
-    /// f_t/f_n at the sliding speed `v` [m/s].
-    fn ratio(parameters: &FrictionParameters, v: f64) -> f64;
+    /// It has bristles, which move whatever the normal force.
+    const BRISTLES: bool = false;
+    /// At the sliding speed `v` [m/s], with the bristles deflected by `z` [m].
+    fn rub(parameters: &FrictionParameters, v: f64, z: f64) -> Rubbing;
+}
+
+fn ratio(ratio: f64) -> Rubbing {
+    Rubbing { ratio, bristle_rate: 0.0 }
 }
 
 /// No friction, no friction term.
@@ -39,38 +63,52 @@ pub struct Tanh;
 /// (μ_k + (μ_s − μ_k)·exp(−(v/v_s)²))·tanh(v/v1).
 pub struct Stribeck;
 
+/// σ0·z + σ1·exp(−(v/v_s)²)·ż + σ2·v with ż = v − σ0·|v|·z/g(v),
+/// g(v) = μ_k + (μ_s − μ_k)·exp(−(v/v_s)²): C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky,
+/// IEEE Trans. Autom. Control 40 (1995) 419, with the damping that fades with the sliding speed.
+pub struct Lugre;
+
 impl Friction for Frictionless {
     const PRESENT: bool = false;
     #[inline(always)]
-    fn ratio(_: &FrictionParameters, _: f64) -> f64 {
-        0.0
+    fn rub(_: &FrictionParameters, _: f64, _: f64) -> Rubbing {
+        Rubbing::default()
     }
 }
 
 impl Friction for Ambrosio {
     const PRESENT: bool = true;
     #[inline(always)]
-    fn ratio(p: &FrictionParameters, v: f64) -> f64 {
+    fn rub(p: &FrictionParameters, v: f64, _: f64) -> Rubbing {
         let ramp = ((v.abs() - p.v0) * p.per_width).clamp(0.0, 1.0);
-        (p.kinetic * ramp).copysign(v)
+        ratio((p.kinetic * ramp).copysign(v))
     }
 }
 
 impl Friction for Tanh {
     const PRESENT: bool = true;
     #[inline(always)]
-    fn ratio(p: &FrictionParameters, v: f64) -> f64 {
-        p.kinetic * math::tanh(v * p.per_width)
+    fn rub(p: &FrictionParameters, v: f64, _: f64) -> Rubbing {
+        ratio(p.kinetic * math::tanh(v * p.per_width))
     }
 }
 
 impl Friction for Stribeck {
     const PRESENT: bool = true;
     #[inline(always)]
-    fn ratio(p: &FrictionParameters, v: f64) -> f64 {
-        let share = v * p.per_stribeck;
-        let coefficient = p.kinetic + (p.static_ - p.kinetic) * math::exp(-share * share);
-        coefficient * math::tanh(v * p.per_width)
+    fn rub(p: &FrictionParameters, v: f64, _: f64) -> Rubbing {
+        ratio(p.falling(p.fading(v)) * math::tanh(v * p.per_width))
+    }
+}
+
+impl Friction for Lugre {
+    const PRESENT: bool = true;
+    const BRISTLES: bool = true;
+    #[inline(always)]
+    fn rub(p: &FrictionParameters, v: f64, z: f64) -> Rubbing {
+        let fading = p.fading(v);
+        let rate = v - p.sigma0 * v.abs() * z / p.falling(fading);
+        Rubbing { ratio: p.sigma0 * z + p.sigma1 * fading * rate + p.sigma2 * v, bristle_rate: rate }
     }
 }
 
@@ -87,6 +125,27 @@ impl FrictionParameters {
             v0: friction.v0,
             per_width: 1.0 / width,
             per_stribeck: 1.0 / friction.v_stribeck,
+            sigma0: friction.sigma0,
+            sigma1: friction.sigma1,
+            sigma2: friction.sigma2,
         }
+    }
+
+    /// exp(−(v/v_s)²).
+    #[inline(always)]
+    fn fading(&self, v: f64) -> f64 {
+        let share = v * self.per_stribeck;
+        math::exp(-share * share)
+    }
+
+    /// μ_k + (μ_s − μ_k)·`fading`.
+    #[inline(always)]
+    fn falling(&self, fading: f64) -> f64 {
+        self.kinetic + (self.static_ - self.kinetic) * fading
+    }
+
+    /// [m] The deflection at which bristles at rest let go, μ_s/σ0.
+    pub fn greatest_deflection(&self) -> f64 {
+        self.static_ / self.sigma0
     }
 }

@@ -6,7 +6,7 @@
 
 use super::{KernelFamily, choose, compliance, parameters};
 use crate::integrator::Guard;
-use crate::model::contact::{ContactMode, ContactParameters, Damped, Elastic, force};
+use crate::model::contact::{ContactMode, ContactParameters, Damped, Elastic, Forces, force};
 use crate::model::friction::Friction;
 use crate::model::joint::revolute::guard;
 use crate::model::plane::{Rotation, Vec2, cross};
@@ -37,6 +37,14 @@ pub struct Load {
     pub couple: f64,
 }
 
+/// Most contacts of the slider with the guide.
+pub const GUIDE_CONTACTS: usize = CORNERS;
+
+/// How many contacts the slider of a scene has with the guide.
+pub fn guide_contacts(_: &scene::Scene) -> usize {
+    CORNERS
+}
+
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     /// [m] From the pin, in the slider's axes.
@@ -55,7 +63,7 @@ struct CornerState {
     sliding: f64,
 }
 
-type Kernel = fn(&ContactParameters, f64, &CornerState) -> (f64, f64);
+type Kernel = fn(&ContactParameters, f64, &CornerState, f64) -> Forces;
 
 /// The guide with clearance.
 #[derive(Clone, Copy, Debug)]
@@ -71,8 +79,8 @@ struct Family;
 impl KernelFamily for Family {
     type Kernel = Kernel;
     fn kernel<E: Elastic, D: Damped, F: Friction>() -> Kernel {
-        |contact, per_approach, corner| {
-            force::<E, D, F>(contact, per_approach, corner.depth, corner.rate, || corner.sliding)
+        |contact, per_approach, corner, z| {
+            force::<E, D, F>(contact, per_approach, corner.depth, corner.rate, z, || corner.sliding)
         }
     }
 }
@@ -129,14 +137,23 @@ impl Guide {
         guard(mode, corner.depth, corner.rate)
     }
 
-    /// The load of the closed corners.
+    /// The load of the closed corners, whose bristles are deflected by `z` [m] and move at `bristle_rate`
+    /// [m/s].
     #[inline(always)]
-    pub fn load(&self, modes: &[ContactMode], pose: &SliderPose) -> Load {
+    pub fn load(
+        &self,
+        modes: &[ContactMode],
+        pose: &SliderPose,
+        z: &[f64; GUIDE_CONTACTS],
+        bristle_rate: &mut [f64; GUIDE_CONTACTS],
+    ) -> Load {
         let mut load = Load::default();
         for (k, mode) in modes.iter().enumerate().take(CORNERS) {
             if mode.closed {
                 let state = self.corner(k, pose);
-                let (normal, tangential) = (self.kernel)(&self.contact, mode.per_approach, &state);
+                let Forces { normal, tangential, bristle_rate: rate } =
+                    (self.kernel)(&self.contact, mode.per_approach, &state, z[k]);
+                bristle_rate[k] = rate;
                 let force = Vec2::new(-tangential, self.corners[k].normal * normal);
                 load.force += force;
                 load.couple += cross(state.arm, force);

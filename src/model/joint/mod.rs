@@ -4,7 +4,7 @@ pub mod guide;
 pub mod revolute;
 
 use super::contact::{ContactParameters, Damped, Elastic, HertzThreeHalves, Hysteresis, Liu, Power, Undamped, damping};
-use super::friction::{Ambrosio, Friction, FrictionParameters, Frictionless, Stribeck, Tanh};
+use super::friction::{Ambrosio, Friction, FrictionParameters, Frictionless, Lugre, Stribeck, Tanh};
 use crate::scene::{Contact, DampingLaw, Elasticity, FrictionLaw};
 
 /// Compiles a contact kernel for every combination of laws and hands out the scene's.
@@ -38,7 +38,7 @@ fn with_friction<K: KernelFamily, E: Elastic, D: Damped>(contact: &Contact) -> K
         FrictionLaw::Ambrosio => K::kernel::<E, D, Ambrosio>(),
         FrictionLaw::Tanh => K::kernel::<E, D, Tanh>(),
         FrictionLaw::Stribeck => K::kernel::<E, D, Stribeck>(),
-        FrictionLaw::Lugre => K::kernel::<E, D, Frictionless>(),
+        FrictionLaw::Lugre => K::kernel::<E, D, Lugre>(),
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::{KernelFamily, choose, compliance, parameters};
 use crate::integrator::Guard;
-use crate::model::contact::{ContactMode, ContactParameters, Damped, Elastic, force};
+use crate::model::contact::{ContactMode, ContactParameters, Damped, Elastic, Forces, force};
 use crate::model::friction::Friction;
 use crate::model::plane::{Vec2, perp};
 use crate::scene::{self, Elasticity};
@@ -34,9 +34,11 @@ pub struct Load {
     pub journal_couple: f64,
     /// [N·m] On the bearing's body, about the bearing centre.
     pub bearing_couple: f64,
+    /// [m/s] Rate of the bristles' deflection.
+    pub bristle_rate: f64,
 }
 
-type Kernel = fn(&Revolute, f64, &Play) -> Load;
+type Kernel = fn(&Revolute, f64, &Play, f64) -> Load;
 
 /// A revolute joint with clearance.
 #[derive(Clone, Copy, Debug)]
@@ -59,10 +61,10 @@ impl KernelFamily for Family {
     }
 }
 
-fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64, play: &Play) -> Load {
+fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64, play: &Play, z: f64) -> Load {
     let epsilon = play.eccentricity.norm();
     let depth = epsilon - joint.clearance;
-    if depth <= 0.0 {
+    if depth <= 0.0 && !(F::BRISTLES && epsilon > 0.0) {
         return Load::default();
     }
     let n = play.eccentricity / epsilon;
@@ -70,12 +72,14 @@ fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64,
     let rate = play.rate.dot(&n);
     let to_contact = joint.radius - epsilon;
     let sliding = || play.rate.dot(&t) + to_contact * play.journal_speed - joint.radius * play.bearing_speed;
-    let (normal, tangential) = force::<E, D, F>(&joint.contact, per_approach, depth, rate, sliding);
+    let Forces { normal, tangential, bristle_rate } =
+        force::<E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding);
     if F::PRESENT {
         Load {
             force: -normal * n - tangential * t,
             journal_couple: -to_contact * tangential,
             bearing_couple: joint.radius * tangential,
+            bristle_rate,
         }
     } else {
         Load { force: -normal * n, ..Load::default() }
@@ -123,10 +127,10 @@ impl Revolute {
         guard(mode, self.penetration(play), self.penetration_rate(play))
     }
 
-    /// The load of the closed contact.
+    /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
-    pub fn load(&self, mode: &ContactMode, play: &Play) -> Load {
-        (self.kernel)(self, mode.per_approach, play)
+    pub fn load(&self, mode: &ContactMode, play: &Play, z: f64) -> Load {
+        (self.kernel)(self, mode.per_approach, play, z)
     }
 }
 

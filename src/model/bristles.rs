@@ -1,0 +1,40 @@
+//! Which contacts have bristles: those whose friction law is lugre. Each costs one first-order state.
+
+use super::friction::FrictionParameters;
+use super::joint::guide::{GUIDE_CONTACTS, guide_contacts};
+use crate::scene::{FrictionLaw, JointModel, Scene};
+
+/// One number for the bristles of each contact: their deflection [m] or its rate [m/s].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bristles {
+    /// Of the joints A, B, C.
+    pub revolute: [f64; 3],
+    /// Of the guide's contacts.
+    pub guide: [f64; GUIDE_CONTACTS],
+}
+
+impl Bristles {
+    /// Of one of all contacts.
+    #[inline(always)]
+    pub fn of(&mut self, contact: usize) -> &mut f64 {
+        if contact < 3 { &mut self.revolute[contact] } else { &mut self.guide[contact - 3] }
+    }
+}
+
+/// The contacts with bristles, by their index among all contacts, and the deflection [m] at which
+/// bristles at rest let go.
+pub fn bristled_contacts(scene: &Scene) -> Vec<(usize, f64)> {
+    let joint = &scene.joint;
+    let mut all = Vec::new();
+    let mut add = |model: JointModel, friction: &crate::scene::Friction, contacts: std::ops::Range<usize>| {
+        if model == JointModel::Clearance && friction.law == FrictionLaw::Lugre {
+            let deflection = FrictionParameters::new(friction).greatest_deflection();
+            all.extend(contacts.map(|contact| (contact, deflection)));
+        }
+    };
+    for (index, revolute) in [&joint.a, &joint.b, &joint.c].into_iter().enumerate() {
+        add(revolute.model, &revolute.contact.friction, index..index + 1);
+    }
+    add(joint.t.model, &joint.t.contact.friction, 3..3 + guide_contacts(scene));
+    all
+}

@@ -1,0 +1,178 @@
+//! The joints with clearance of one mechanism: their forces, their event functions, their memory.
+//!
+//! `clear` says of A, B, C and T which have clearance: a constant of the mechanism's type.
+
+use super::bristles::{Bristles, bristled_contacts};
+use super::contact::{ContactMode, ContactParameters};
+use super::dynamics::Loads;
+use super::joint::guide::{CORNERS, Guide};
+use super::joint::revolute::Revolute;
+use super::mechanism::{CRANK, ROD, SLIDER, bodies};
+use super::state::{CONTACTS, Contacts, Pose};
+use crate::integrator::{Crossed, GUARDS, Guard, Reset};
+use crate::scene::Scene;
+
+/// Share of a contact's duration for the first step into it.
+const FIRST_SHARE: f64 = 0.03;
+
+/// The joints of a scene as contacts.
+#[derive(Clone, Debug)]
+pub struct Clearances {
+    revolute: [Revolute; 3],
+    guide: Guide,
+    /// [kg] Of crank, rod and slider.
+    mass: [f64; 3],
+    /// The contacts with bristles, in the order of their states.
+    pub bristles: Vec<usize>,
+}
+
+impl Clearances {
+    /// Of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let joint = &scene.joint;
+        Self {
+            revolute: [&joint.a, &joint.b, &joint.c].map(Revolute::new),
+            guide: Guide::new(scene),
+            mass: bodies(scene).map(|body| body.mass),
+            bristles: bristled_contacts(scene).into_iter().map(|(contact, _)| contact).collect(),
+        }
+    }
+
+    /// Adds the forces of the closed contacts, whose bristles are deflected by `deflections` [m].
+    #[inline(always)]
+    pub fn add_loads(
+        &self,
+        clear: [bool; 4],
+        contacts: &Contacts,
+        pose: &Pose,
+        deflections: &[f64],
+        loads: &mut Loads,
+    ) {
+        let z = self.deflections(deflections);
+        for (joint, revolute) in self.revolute.iter().enumerate() {
+            if clear[joint] && contacts[joint].closed {
+                loads.add_contact(joint, &revolute.load(&contacts[joint], &pose.play(joint), z.revolute[joint]));
+            }
+        }
+        if clear[3] {
+            let load = self.guide.load(&contacts[3..], &pose.slider(), &z.guide, &mut loads.bristle_rate.guide);
+            loads.add_guide(&load);
+        }
+    }
+
+    /// Each contact's share in the states of bristles; 0 for those that have none.
+    #[inline(always)]
+    fn deflections(&self, states: &[f64]) -> Bristles {
+        let mut z = Bristles::default();
+        for (&deflection, &contact) in states.iter().zip(&self.bristles) {
+            *z.of(contact) = deflection;
+        }
+        z
+    }
+
+    /// Writes the rates of the bristles' states.
+    #[inline(always)]
+    pub fn write_bristle_rates(&self, rate: &Bristles, rates: &mut [f64]) {
+        let mut rate = *rate;
+        for (place, &contact) in rates.iter_mut().zip(&self.bristles) {
+            *place = *rate.of(contact);
+        }
+    }
+
+    /// Penetration and its rate of every contact; far open for a joint without clearance.
+    #[inline(always)]
+    pub fn penetrations(&self, clear: [bool; 4], pose: &Pose) -> [(f64, f64); CONTACTS] {
+        let mut all = [(f64::NEG_INFINITY, 0.0); CONTACTS];
+        for (joint, revolute) in self.revolute.iter().enumerate() {
+            if clear[joint] {
+                let play = pose.play(joint);
+                all[joint] = (revolute.penetration(&play), revolute.penetration_rate(&play));
+            }
+        }
+        if clear[3] {
+            let slider = pose.slider();
+            for k in 0..CORNERS {
+                all[3 + k] = (self.guide.penetration(k, &slider), self.guide.penetration_rate(k, &slider));
+            }
+        }
+        all
+    }
+
+    /// How many event functions there are.
+    #[inline(always)]
+    pub fn guard_count(&self, clear: [bool; 4]) -> usize {
+        if clear[3] { 3 + CORNERS } else { 3 }
+    }
+
+    /// Writes the event functions; an ideal joint's never falls.
+    #[inline(always)]
+    pub fn guards(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
+        for joint in 0..3 {
+            guards[joint] = if clear[joint] {
+                self.revolute[joint].guard(&contacts[joint], &pose.play(joint))
+            } else {
+                Guard { value: 1.0, rate: 0.0 }
+            };
+        }
+        if clear[3] {
+            let slider = pose.slider();
+            for k in 0..CORNERS {
+                guards[3 + k] = self.guide.guard(k, &contacts[3 + k], &slider);
+            }
+        }
+    }
+
+    /// The contacts after the `crossed` ones have closed or opened; `bristles` of those that open are
+    /// straight again.
+    pub fn cross(
+        &self,
+        clear: [bool; 4],
+        contacts: &Contacts,
+        pose: &Pose,
+        crossed: &Crossed,
+        bristles: &mut [f64],
+    ) -> Reset<Contacts> {
+        let penetrations = self.penetrations(clear, pose);
+        let mut reset = Reset { modes: *contacts, step: None };
+        for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
+            if mode.closed {
+                *mode = ContactMode::default();
+                for (deflection, _) in bristles.iter_mut().zip(&self.bristles).filter(|(_, c)| **c == index) {
+                    *deflection = 0.0;
+                }
+                continue;
+            }
+            let contact = self.contact(index);
+            *mode = ContactMode::closing(penetrations[index].1, contact.speed_floor);
+            let time = contact.contact_time(self.lighter_mass(index), mode.approach);
+            let step = FIRST_SHARE * time;
+            reset.step = Some(reset.step.map_or(step, |shorter: f64| shorter.min(step)));
+        }
+        reset
+    }
+
+    /// The contacts of a pose that no motion has led to: those that penetrate are closed.
+    pub fn start(&self, clear: [bool; 4], pose: &Pose) -> Contacts {
+        let mut contacts = Contacts::default();
+        for (index, (mode, (depth, rate))) in contacts.iter_mut().zip(self.penetrations(clear, pose)).enumerate() {
+            if depth > 0.0 {
+                *mode = ContactMode::closing(rate, self.contact(index).speed_floor);
+            }
+        }
+        contacts
+    }
+
+    fn contact(&self, index: usize) -> &ContactParameters {
+        if index < 3 { &self.revolute[index].contact } else { &self.guide.contact }
+    }
+
+    /// [kg] The lighter of the bodies that meet in a contact.
+    fn lighter_mass(&self, index: usize) -> f64 {
+        match index {
+            0 => self.mass[CRANK],
+            1 => self.mass[CRANK].min(self.mass[ROD]),
+            2 => self.mass[ROD].min(self.mass[SLIDER]),
+            _ => self.mass[SLIDER],
+        }
+    }
+}

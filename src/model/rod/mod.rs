@@ -1,0 +1,379 @@
+//! The flexible rod: inertia, elasticity and ends of a floating frame on the chord.
+//!
+//! In the chord's frame a point of the rod lies at (X, Y) = (Σ_k B_k(x)·ξ_k, Σ_i φ_i(x)·q_i): B holds x,
+//! the axial modes and the foreshortenings Γ_ij, ξ their amplitudes 1, p_j and −σ_ij, where σ_ij is
+//! q_i² or 2·q_i·q_j. All of the kinetic energy then follows from constant integrals over products of
+//! B and φ ([`ModalTable`]) and from how ξ depends on the modal coordinates η = (q, p); nothing is
+//! dropped. See A. A. Shabana, Dynamics of Multibody Systems, 5.3, for the floating frame.
+
+pub mod beam;
+
+use super::mechanism::Body;
+use super::plane::Vec2;
+use crate::scene::modal::{MOST_MODES, ModalTable, pairs};
+use crate::scene::{Flexible, Scene};
+
+/// Most modal coordinates.
+pub const MOST: usize = 2 * MOST_MODES;
+/// Most functions along x.
+const FUNCTIONS: usize = 1 + MOST_MODES + pairs(MOST_MODES);
+
+/// The rod's modes, as the scene calls for them.
+#[derive(Clone, Debug)]
+pub struct Rod {
+    bending: usize,
+    axial: usize,
+    /// Pairs i ≤ j that foreshorten; none without geometric stiffness.
+    pairs: Vec<(usize, usize)>,
+    /// [m] Undeformed.
+    length: f64,
+    /// [kg]
+    mass: f64,
+    /// [kg·m] ∫B dm.
+    first: Vec<f64>,
+    /// [kg·m²] ∫B·Bᵀ dm, row by row.
+    second: Vec<f64>,
+    /// [kg·m] ∫B·φᵀ dm, row by row.
+    coupling: Vec<f64>,
+    /// [kg] ∫φ dm.
+    moment: Vec<f64>,
+    /// φ(l/2), φ'(0), φ'(l).
+    middle: Vec<f64>,
+    slope: [Vec<f64>; 2],
+    /// B(l).
+    end: Vec<f64>,
+    /// [kg] Modal masses of η.
+    modal_mass: Vec<f64>,
+    /// [rad/s] Frequencies of η.
+    pub frequency: Vec<f64>,
+    damping_ratio: f64,
+}
+
+/// The deformed rod in its own frame, and how it deforms.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// [m] Chord length L = l + stretch.
+    pub chord: f64,
+    /// [m/s] Its rate.
+    pub chord_rate: f64,
+    /// [m/s²] L̈ at η̈ = 0.
+    pub chord_bias: f64,
+    /// ∂L/∂η.
+    pub chord_slope: [f64; MOST],
+    /// [rad/s] Rates of the end slopes.
+    pub slope_rate: [f64; 2],
+    xi: [f64; FUNCTIONS],
+    /// ξ̈ at η̈ = 0; its foreshortenings' places, the others are 0.
+    xi_bias: [f64; FUNCTIONS],
+}
+
+/// Inertia of the rod in its own frame, for the acceleration of its origin, its angle and η, and what
+/// its motion asks for besides.
+#[derive(Clone, Copy, Debug)]
+pub struct Inertia {
+    /// [kg·m] First moment D.
+    pub first: Vec2,
+    /// [kg·m²] About the origin.
+    pub about_origin: f64,
+    /// [kg] ∂D/∂η.
+    pub first_slope: [Vec2; MOST],
+    /// [kg·m] Of the angle with η.
+    pub turning: [f64; MOST],
+    /// [kg] Of η with η.
+    pub modal: [[f64; MOST]; MOST],
+    /// [N] What centrifugal and Coriolis accelerations ask for: force along the frame's axes,
+    pub force: Vec2,
+    /// [N·m] moment about the origin,
+    pub couple: f64,
+    /// [N] and force on η.
+    pub modal_force: [f64; MOST],
+}
+
+/// What outputs tell of the rod's elasticity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elastic {
+    /// [m] At mid-span.
+    pub deflection: f64,
+    /// [m] From end to end.
+    pub stretch: f64,
+    /// [J]
+    pub energy: f64,
+    /// [W] That modal damping takes.
+    pub modal_loss: f64,
+}
+
+impl Rod {
+    /// Of a scene; `None` of a rigid rod.
+    pub fn new(scene: &Scene) -> Option<Self> {
+        let Flexible { bending_modes, axial_modes, damping_ratio, geometric_stiffness, table, .. } =
+            &scene.rod.flexible;
+        let count = |modes: i32| usize::try_from(modes).unwrap_or(0).min(MOST_MODES);
+        let (bending, axial) = (count(*bending_modes), count(*axial_modes));
+        if bending + axial == 0 {
+            return None;
+        }
+        let built_in;
+        let table = match table {
+            Some(table) => table,
+            None => {
+                built_in = beam::table(scene);
+                &built_in
+            }
+        };
+        Some(Self::of(table, bending, axial, scene.rod.length, *damping_ratio, *geometric_stiffness))
+    }
+
+    /// The first `bending` and `axial` modes of a table.
+    fn of(table: &ModalTable, bending: usize, axial: usize, length: f64, damping_ratio: f64, shortens: bool) -> Self {
+        let all = table.bending.len();
+        let mut kept: Vec<usize> = (0..=axial).collect();
+        let mut kept_pairs = Vec::new();
+        let mut place = 1 + table.axial.len();
+        for i in 0..all {
+            for j in i..all {
+                if shortens && j < bending {
+                    kept.push(place);
+                    kept_pairs.push((i, j));
+                }
+                place += 1;
+            }
+        }
+        let (bend, stretch) = (&table.bending[..bending], &table.axial[..axial]);
+        let mut end = vec![length];
+        end.extend(stretch.iter().map(|mode| mode.end));
+        end.extend(kept[1 + axial..].iter().map(|&k| table.shortening[k - 1 - table.axial.len()]));
+        let of_modes = |of_bending: &dyn Fn(usize) -> f64, of_axial: &dyn Fn(usize) -> f64| {
+            (0..bending).map(of_bending).chain((0..axial).map(of_axial)).collect::<Vec<f64>>()
+        };
+        Self {
+            bending,
+            axial,
+            pairs: kept_pairs,
+            length,
+            mass: table.mass,
+            first: kept.iter().map(|&k| table.first[k]).collect(),
+            second: kept.iter().flat_map(|&k| kept.iter().map(move |&m| table.second[k][m])).collect(),
+            coupling: kept.iter().flat_map(|&k| table.coupling[k][..bending].iter().copied()).collect(),
+            moment: bend.iter().map(|mode| mode.moment).collect(),
+            middle: bend.iter().map(|mode| mode.middle).collect(),
+            slope: [
+                bend.iter().map(|mode| mode.slope_start).collect(),
+                bend.iter().map(|mode| mode.slope_end).collect(),
+            ],
+            end,
+            modal_mass: of_modes(&|i| bend[i].mass, &|j| stretch[j].mass),
+            frequency: of_modes(&|i| bend[i].frequency, &|j| stretch[j].frequency),
+            damping_ratio,
+        }
+    }
+
+    /// The rod as a rigid body.
+    pub fn undeformed(&self) -> Body {
+        let com = Vec2::new(self.first[0] / self.mass, 0.0);
+        let inertia = self.second[0] - self.mass * com.x * com.x;
+        Body { mass: self.mass, inertia, com, length: self.length }
+    }
+
+    /// Number of modal coordinates.
+    pub fn modes(&self) -> usize {
+        self.bending + self.axial
+    }
+
+    /// [kg]
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
+    pub fn shape(&self, eta: &[f64], rate: &[f64]) -> Shape {
+        let Self { bending, axial, .. } = *self;
+        let mut shape = Shape {
+            chord: 0.0,
+            chord_rate: 0.0,
+            chord_bias: 0.0,
+            chord_slope: [0.0; MOST],
+            slope_rate: [0.0; 2],
+            xi: [0.0; FUNCTIONS],
+            xi_bias: [0.0; FUNCTIONS],
+        };
+        let (q, dq) = (&eta[..bending], &rate[..bending]);
+        shape.xi[0] = 1.0;
+        for j in 0..axial {
+            shape.xi[1 + j] = eta[bending + j];
+            shape.chord_slope[bending + j] = self.end[1 + j];
+            shape.chord_rate += self.end[1 + j] * rate[bending + j];
+        }
+        for (k, &(i, j)) in self.pairs.iter().enumerate() {
+            let place = 1 + axial + k;
+            let twice = if i == j { 1.0 } else { 2.0 };
+            shape.xi[place] = -twice * q[i] * q[j];
+            shape.xi_bias[place] = -2.0 * twice * dq[i] * dq[j];
+            let end = self.end[place] * twice;
+            shape.chord_slope[i] -= end * q[j];
+            shape.chord_slope[j] -= end * q[i];
+            shape.chord_rate -= end * (q[i] * dq[j] + dq[i] * q[j]);
+            shape.chord_bias += self.end[place] * shape.xi_bias[place];
+        }
+        shape.chord = self.length + self.stretch(&shape.xi);
+        for (end, slope) in self.slope.iter().enumerate() {
+            shape.slope_rate[end] = slope.iter().zip(dq).map(|(slope, rate)| slope * rate).sum();
+        }
+        shape
+    }
+
+    fn stretch(&self, xi: &[f64; FUNCTIONS]) -> f64 {
+        self.end.iter().zip(xi).skip(1).map(|(end, xi)| end * xi).sum()
+    }
+
+    /// The inertia of a shape whose frame turns at `speed` [rad/s].
+    pub fn inertia(&self, shape: &Shape, eta: &[f64], rate: &[f64], speed: f64) -> Inertia {
+        let Self { bending: n, axial, .. } = *self;
+        let count = self.first.len();
+        let (q, dq) = (&eta[..n], &rate[..n]);
+        let (xi, xi_bias) = (&shape.xi[..count], &shape.xi_bias[..count]);
+        let mut inertia = Inertia {
+            first: Vec2::zeros(),
+            about_origin: 0.0,
+            first_slope: [Vec2::zeros(); MOST],
+            turning: [0.0; MOST],
+            modal: [[0.0; MOST]; MOST],
+            force: Vec2::zeros(),
+            couple: 0.0,
+            modal_force: [0.0; MOST],
+        };
+        // Rates of ξ, and K·ξ, K·ξ_bias, C·q, C·q̇ over the functions; Cᵀ·ξ, Cᵀ·ξ̇ over the modes.
+        let mut dxi = [0.0; FUNCTIONS];
+        dxi[1..=axial].copy_from_slice(&rate[n..n + axial]);
+        for (k, &(i, j)) in self.pairs.iter().enumerate() {
+            let twice = if i == j { 1.0 } else { 2.0 };
+            dxi[1 + axial + k] = -twice * (q[i] * dq[j] + dq[i] * q[j]);
+        }
+        let (mut kxi, mut kbias) = ([0.0; FUNCTIONS], [0.0; FUNCTIONS]);
+        let (mut cq, mut cdq) = ([0.0; FUNCTIONS], [0.0; FUNCTIONS]);
+        let (mut ctxi, mut ctdxi) = ([0.0; MOST_MODES], [0.0; MOST_MODES]);
+        for k in 0..count {
+            let row = &self.second[k * count..(k + 1) * count];
+            kxi[k] = dot(row, xi);
+            kbias[k] = if self.pairs.is_empty() { 0.0 } else { dot(&row[1 + axial..], &xi_bias[1 + axial..]) };
+            let row = &self.coupling[k * n..(k + 1) * n];
+            (cq[k], cdq[k]) = (dot(row, q), dot(row, dq));
+            for (i, c) in row.iter().enumerate() {
+                ctxi[i] += c * xi[k];
+                ctdxi[i] += c * dxi[k];
+            }
+        }
+        let dxi = &dxi[..count];
+        let modal = &self.modal_mass[..n];
+        let along = dot(&self.first, xi);
+        let across = dot(&self.moment, q);
+        let spread: f64 = modal.iter().zip(q).map(|(m, q)| m * q * q).sum();
+        let opening: f64 = modal.iter().zip(q).zip(dq).map(|((m, q), dq)| m * q * dq).sum();
+        inertia.first = Vec2::new(along, across);
+        inertia.about_origin = dot(&kxi[..count], xi) + spread;
+        let first_rate = Vec2::new(dot(&self.first, dxi), dot(&self.moment, dq));
+        let square = speed * speed;
+        inertia.force = -square * inertia.first
+            + 2.0 * speed * Vec2::new(-first_rate.y, first_rate.x)
+            + Vec2::new(dot(&self.first, xi_bias), 0.0);
+        inertia.couple = 2.0 * speed * (dot(&kxi[..count], dxi) + opening) - dot(&cq[..count], xi_bias);
+
+        // Columns of ∂ξ/∂η: one place of an axial mode, the pairs of a bending mode.
+        for j in 0..axial {
+            let (a, k) = (n + j, 1 + j);
+            inertia.first_slope[a] = Vec2::new(self.first[k], 0.0);
+            inertia.turning[a] = -cq[k];
+            inertia.modal_force[a] = -square * kxi[k] - 2.0 * speed * cdq[k] + kbias[k];
+            for i in 0..axial {
+                inertia.modal[a][n + i] = self.second[k * count + 1 + i];
+            }
+        }
+        for i in 0..n {
+            inertia.first_slope[i] = Vec2::new(0.0, self.moment[i]);
+            inertia.turning[i] = ctxi[i];
+            inertia.modal_force[i] = -square * modal[i] * q[i] + 2.0 * speed * ctdxi[i];
+            inertia.modal[i][i] = modal[i];
+        }
+        self.add_foreshortening(&mut inertia, q, speed, &kxi, &kbias, &cq, &cdq);
+        inertia
+    }
+
+    /// What ∂ξ/∂q adds: each pair (i, j) moves with q_i by −2·q_j and with q_j by −2·q_i (with q_i by
+    /// −2·q_i where they are the same).
+    #[allow(clippy::too_many_arguments)]
+    fn add_foreshortening(
+        &self,
+        inertia: &mut Inertia,
+        q: &[f64],
+        speed: f64,
+        kxi: &[f64; FUNCTIONS],
+        kbias: &[f64; FUNCTIONS],
+        cq: &[f64; FUNCTIONS],
+        cdq: &[f64; FUNCTIONS],
+    ) {
+        let Self { bending: n, axial, .. } = *self;
+        let count = self.first.len();
+        let square = speed * speed;
+        // K·∂ξ/∂q_i, column by column.
+        let mut moved = [[0.0; FUNCTIONS]; MOST_MODES];
+        for (k, &(i, j)) in self.pairs.iter().enumerate() {
+            let place = 1 + axial + k;
+            let row = &self.second[place * count..(place + 1) * count];
+            let ends = [(i, -2.0 * q[j]), (j, -2.0 * q[i])];
+            for &(mode, slope) in &ends[..if i == j { 1 } else { 2 }] {
+                inertia.first_slope[mode].x += slope * self.first[place];
+                inertia.turning[mode] -= slope * cq[place];
+                inertia.modal_force[mode] += slope * (kbias[place] - square * kxi[place] - 2.0 * speed * cdq[place]);
+                for (moved, element) in moved[mode].iter_mut().zip(row) {
+                    *moved += slope * element;
+                }
+            }
+        }
+        if self.pairs.is_empty() {
+            return;
+        }
+        for (k, &(i, j)) in self.pairs.iter().enumerate() {
+            let place = 1 + axial + k;
+            let ends = [(i, -2.0 * q[j]), (j, -2.0 * q[i])];
+            for &(mode, slope) in &ends[..if i == j { 1 } else { 2 }] {
+                for (other, moved) in moved.iter().enumerate().take(n) {
+                    inertia.modal[mode][other] += slope * moved[place];
+                }
+            }
+        }
+        for (i, moved) in moved.iter().enumerate().take(n) {
+            for j in 0..axial {
+                inertia.modal[i][n + j] = moved[1 + j];
+                inertia.modal[n + j][i] = moved[1 + j];
+            }
+        }
+    }
+
+    /// [N] Adds what elasticity, modal damping and the couples [N·m] on the end sections do to η.
+    pub fn add_modal_forces(&self, eta: &[f64], rate: &[f64], couple: &[f64; 2], force: &mut [f64]) {
+        for k in 0..self.modes() {
+            let (m, omega) = (self.modal_mass[k], self.frequency[k]);
+            force[k] -= m * omega * (omega * eta[k] + 2.0 * self.damping_ratio * rate[k]);
+        }
+        for (slope, couple) in self.slope.iter().zip(couple) {
+            for (force, slope) in force.iter_mut().zip(slope) {
+                *force += slope * couple;
+            }
+        }
+    }
+
+    /// Deflection, stretch and elastic energy.
+    pub fn elastic(&self, shape: &Shape, eta: &[f64], rate: &[f64]) -> Elastic {
+        let mut elastic = Elastic { stretch: self.stretch(&shape.xi), ..Elastic::default() };
+        elastic.deflection = dot(&self.middle, &eta[..self.bending]);
+        for k in 0..self.modes() {
+            let (m, omega) = (self.modal_mass[k], self.frequency[k]);
+            elastic.energy += 0.5 * m * omega * omega * eta[k] * eta[k];
+            elastic.modal_loss += 2.0 * self.damping_ratio * m * omega * rate[k] * rate[k];
+        }
+        elastic
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
