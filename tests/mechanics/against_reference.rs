@@ -44,7 +44,6 @@ fn product_agrees_with_the_reference_on_every_scene() {
 }
 
 #[test]
-#[ignore = "the product has no flexible rod yet"]
 fn product_agrees_with_the_reference_on_a_flexible_rod() {
     agree_on(flexible_cases());
 }
@@ -56,7 +55,6 @@ fn product_agrees_with_the_reference_on_elastic_faces() {
 }
 
 #[test]
-#[ignore = "the product has no lugre yet"]
 fn product_agrees_with_the_reference_on_bristles() {
     agree_on(lugre_cases());
 }
