@@ -110,6 +110,11 @@ impl ModalTable {
         for row in 0..self.second.len() {
             above_zero(&place("second", row, row), square(row))?;
         }
+        // First row: of x itself, the rod's length.
+        let (about_end, first) = (square(0), self.first[0]);
+        let least = first * first / self.mass;
+        let allowed = || format!("above {}, what the mass would have at its centre", number(least));
+        value(about_end > least, || place("second", 0, 0), about_end, allowed)?;
         for (index, mode) in self.axial.iter().enumerate() {
             let row = 1 + index;
             let agrees = (square(row) - mode.mass).abs() <= ROUNDING * mode.mass;
@@ -240,7 +245,11 @@ mod tests {
         assert_eq!(told, "row 2, column 2 of second = 1.1 is not allowed: the mass of axial mode 1, 1");
         assert!(refused(|t| t.second[0][0] = 0.0).starts_with("row 1, column 1 of second = 0 is not allowed: above 0"));
         // Millimetres in one place and metres in the others.
-        assert!(refused(|t| t.first[0] = 500.0).starts_with("number 1 of first = 500 is not allowed: -0.57"));
+        let told = refused(|t| t.first[0] = 500.0);
+        let wanted =
+            "row 1, column 1 of second = 0.33 is not allowed: above 2.5e5, what the mass would have at its centre";
+        assert_eq!(told, wanted);
+        assert!(refused(|t| t.first[2] = 500.0).starts_with("number 3 of first = 500 is not allowed: -1.41"));
         assert!(refused(|t| t.bending[0].moment = 900.0).starts_with("moment of bending mode 1 = 900 is not allowed"));
         assert!(refused(|t| t.coupling[2][0] = 1.5).starts_with("row 3, column 1 of coupling = 1.5 is not allowed"));
         assert!(refused(|t| t.second[0][2] = f64::NAN).starts_with("row 1, column 3 of second = NaN is not allowed"));

@@ -2,6 +2,11 @@
 
 use crate::host::Slave;
 use slidercrank::fmi::Status;
+use slidercrank::fmi::experiment::Experiment;
+use slidercrank::fmi::fmu_state::FmuState;
+use slidercrank::fmi::inputs::InputLines;
+use slidercrank::fmi::lifecycle::State;
+use slidercrank::scene::Scene;
 use std::ptr::null_mut;
 
 const H: f64 = 1e-4;
@@ -165,12 +170,36 @@ fn cut_bytes_and_bytes_of_others_are_refused_in_their_own_words() {
         assert!(text.contains(words), "{text}");
     };
     refused(|bytes| bytes[0] = b'X', "not a state of this FMU");
-    refused(|bytes| bytes[8] += 1, "version 2; this FMU reads version 1");
+    refused(|bytes| bytes[8] += 1, "version 3; this FMU reads version 2");
+    refused(|bytes| bytes[8] = 1, "version 1; this FMU reads version 2");
     refused(|bytes| bytes.push(1), "instead of");
     refused(|bytes| bytes.truncate(bytes.len() - 1), "instead of");
     refused(|bytes| *bytes.last_mut().expect("bytes") ^= 1, "checksum");
     refused(|bytes| reseal(bytes, |sealed| sealed[12] ^= 1), "other variables");
     refused(|bytes| reseal(bytes, |sealed| sealed[48] = 99), "contradicts itself");
+}
+
+#[test]
+fn a_scene_s_modes_are_part_of_its_states() {
+    let mut scene = Scene::default();
+    (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (8, 8);
+    scene.rod.flexible.table = Some(slidercrank::model::rod::beam::table(&scene));
+    scene.energy.audit = true;
+    let state = FmuState {
+        state: State::InitializationMode,
+        scene,
+        experiment: Experiment::default(),
+        inputs: InputLines::default(),
+        last_step: Status::Ok,
+        snapshot: None,
+    };
+    let bytes = state.to_bytes().expect("bytes");
+    // A master that saves each step and frees none pays this for each.
+    assert!(bytes.len() < 1 << 15, "{} bytes", bytes.len());
+    assert_eq!(FmuState::from_bytes(&bytes), Ok(state));
+    let mut torn = bytes.clone();
+    torn[bytes.len() / 2] ^= 1;
+    assert!(FmuState::from_bytes(&torn).is_err());
 }
 
 /// Changes the sealed part and mends the checksum.
