@@ -4,6 +4,7 @@ mod audit;
 mod clearance_to_zero;
 mod conservation;
 mod consistency;
+mod finite_elements;
 mod first_impact;
 mod flexible;
 mod friction;
