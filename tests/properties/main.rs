@@ -10,6 +10,7 @@ mod flexible;
 mod friction;
 mod ideal;
 mod ivp_slider_crank;
+mod lugre;
 mod motion;
 mod restitution;
 mod restitution_laws;
