@@ -29,6 +29,11 @@ pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
 
+/// Inverse hyperbolic sine.
+pub fn asinh(x: f64) -> f64 {
+    libm::asinh(x)
+}
+
 /// Angle in (−π/2, π/2] of the point (x, y), x ≥ 0.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)

@@ -109,8 +109,9 @@ impl<const N: usize> Step<'_, N> {
         if good && states == 2 * p {
             return None;
         }
+        let bent = if good { 0 } else { p };
         let mut e = [[0.0; 3]; N];
-        for i in 0..p {
+        for i in 0..bent {
             e[i][0] = -8.0 / 3.0 * half[i];
         }
         for i in 2 * p..states {
@@ -119,7 +120,7 @@ impl<const N: usize> Step<'_, N> {
         let sextic = Some(e);
         let before = self.defect(problem, modes, 0.25, &sextic);
         let after = self.defect(problem, modes, 0.75, &sextic);
-        for i in 0..p {
+        for i in 0..bent {
             let even = 0.5 * (after[i] + before[i]);
             let odd = 0.5 * (after[i] - before[i]);
             e[i][0] = -(32.0 * half[i] + 256.0 / 9.0 * even) / 10.0;

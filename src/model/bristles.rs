@@ -35,6 +35,6 @@ pub fn bristled_contacts(scene: &Scene) -> Vec<(usize, f64)> {
     for (index, revolute) in [&joint.a, &joint.b, &joint.c].into_iter().enumerate() {
         add(revolute.model, &revolute.contact.friction, index..index + 1);
     }
-    add(joint.t.model, &joint.t.contact.friction, 3..3 + guide_contacts(scene));
+    add(joint.t.model, &joint.t.contact.friction, 3..3 + guide_contacts(joint.t.surface));
     all
 }

@@ -3,7 +3,7 @@
 //! `clear` says of A, B, C and T which have clearance: a constant of the mechanism's type.
 
 use super::bristles::{Bristles, bristled_contacts};
-use super::contact::{ContactMode, ContactParameters};
+use super::contact::{Account, ContactMode, ContactParameters};
 use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, Guide};
 use super::joint::revolute::Revolute;
@@ -60,6 +60,21 @@ impl Clearances {
         }
     }
 
+    /// Elastic energy of the closed contacts, and the powers that they take.
+    pub fn account(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, deflections: &[f64]) -> Account {
+        let z = self.deflections(deflections);
+        let mut account = Account::default();
+        for (joint, revolute) in self.revolute.iter().enumerate() {
+            if clear[joint] && contacts[joint].closed {
+                account += revolute.account(&contacts[joint], &pose.play(joint), z.revolute[joint]);
+            }
+        }
+        if clear[3] {
+            account += self.guide.account(&contacts[3..], &pose.slider(), &z.guide);
+        }
+        account
+    }
+
     /// Each contact's share in the states of bristles; 0 for those that have none.
     #[inline(always)]
     fn deflections(&self, states: &[f64]) -> Bristles {
@@ -79,7 +94,7 @@ impl Clearances {
         }
     }
 
-    /// Penetration and its rate of every contact; far open for a joint without clearance.
+    /// Penetration and approach speed of every contact; far open for a joint without clearance.
     #[inline(always)]
     pub fn penetrations(&self, clear: [bool; 4], pose: &Pose) -> [(f64, f64); CONTACTS] {
         let mut all = [(f64::NEG_INFINITY, 0.0); CONTACTS];
@@ -90,12 +105,18 @@ impl Clearances {
             }
         }
         if clear[3] {
-            let slider = pose.slider();
-            for k in 0..CORNERS {
-                all[3 + k] = (self.guide.penetration(k, &slider), self.guide.penetration_rate(k, &slider));
-            }
+            all[3..].copy_from_slice(&self.guide.approaches(&pose.slider()));
         }
         all
+    }
+
+    /// [m] Penetration in the joints A, B, C and of the guide's corners; −∞ in an ideal joint.
+    pub fn depths(&self, clear: [bool; 4], pose: &Pose) -> [f64; 3 + CORNERS] {
+        let mut depths = self.penetrations(clear, pose).map(|(depth, _)| depth);
+        if clear[3] {
+            depths[3..].copy_from_slice(&self.guide.penetrations(&pose.slider()));
+        }
+        depths
     }
 
     /// How many event functions there are.
@@ -115,10 +136,7 @@ impl Clearances {
             };
         }
         if clear[3] {
-            let slider = pose.slider();
-            for k in 0..CORNERS {
-                guards[3 + k] = self.guide.guard(k, &contacts[3 + k], &slider);
-            }
+            guards[3..3 + CORNERS].copy_from_slice(&self.guide.guards(&contacts[3..], &pose.slider()));
         }
     }
 
@@ -134,6 +152,7 @@ impl Clearances {
     ) -> Reset<Contacts> {
         let penetrations = self.penetrations(clear, pose);
         let mut reset = Reset { modes: *contacts, step: None };
+        let crossed = self.guide.contacts_of(crossed);
         for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if mode.closed {
                 *mode = ContactMode::default();

@@ -11,7 +11,7 @@ use super::plant::Plant;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, GUARDS, Guard, Problem, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
 use crate::math;
 use crate::scene::Scene;
 
@@ -30,9 +30,12 @@ pub struct Closed<const SPEED: bool, const N: usize> {
 }
 
 impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
+    /// Number of positions.
+    const P: usize = if SPEED { 0 } else { 1 };
+
     /// Assembles the mechanism of a scene that starts at `time` [s].
     pub fn assemble(scene: &Scene, time: f64) -> Self {
-        const { assert!(N == if SPEED { 0 } else { 2 }) };
+        const { assert!(N == 2 * Self::P || N >= ROOM) };
         let scale = Scale::of(scene);
         let mut scales = [0.0; N];
         for (weight, of) in scales.iter_mut().zip([scale.length, scale.length * scale.frequency]) {
@@ -53,7 +56,7 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
 
     #[inline(always)]
     fn crank(&self, t: f64, y: &[f64; N]) -> (f64, f64) {
-        if SPEED { (self.rotor.at(t), self.rotor.speed) } else { (y[0], y[N - 1]) }
+        if SPEED { (self.rotor.at(t), self.rotor.speed) } else { (y[0], y[Self::P]) }
     }
 
     #[inline(always)]
@@ -100,6 +103,10 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
 impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
     type Modes = Contacts;
 
+    fn extent(&self) -> Extent {
+        Extent::second_order(2 * Self::P)
+    }
+
     fn rates(&self, _: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         if SPEED {
             return;
@@ -110,7 +117,7 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
         let speeds = [speed, motion.rod_ratio * speed, 0.0];
         let loads = self.loads(t, &speeds, motion.x_ratio * speed);
         rates[0] = speed;
-        rates[N - 1] = self.acceleration(crank, speed, &motion, &loads);
+        rates[Self::P] = self.acceleration(crank, speed, &motion, &loads);
     }
 
     fn scales(&self) -> &[f64; N] {
@@ -139,7 +146,7 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
 impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
     fn start(&self, pose: &StartPose) -> [f64; N] {
         let mut y = [0.0; N];
-        for (state, start) in y.iter_mut().zip([pose.angle[CRANK], pose.speed[CRANK]]) {
+        for (state, start) in y.iter_mut().take(2 * Self::P).zip([pose.angle[CRANK], pose.speed[CRANK]]) {
             *state = start;
         }
         y

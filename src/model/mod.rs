@@ -6,6 +6,7 @@
 //! `open` and `closed` (the two kinds of mechanism), `joint` and `contact` (forces), `reactions` and
 //! `outputs`.
 
+pub mod audit;
 pub mod bristles;
 pub mod clearances;
 pub mod closed;

@@ -5,6 +5,7 @@
 
 use super::bristles::bristled_contacts;
 use super::clearances::Clearances;
+use super::contact::Account;
 use super::coordinates::Layout;
 use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::{Accelerations, Loads, accelerate};
@@ -231,6 +232,10 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
-        self.clearances.penetrations(Self::CLEAR, pose).map(|(depth, _)| depth)
+        self.clearances.depths(Self::CLEAR, pose)
+    }
+
+    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
+        self.clearances.account(Self::CLEAR, contacts, pose, self.extra(y))
     }
 }

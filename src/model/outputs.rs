@@ -1,7 +1,7 @@
 //! Outputs of one instant.
 
 use super::ideal::IdealMechanism;
-use super::joint::guide::CORNERS;
+use super::joint::guide::{CORNERS, contact_of_corner};
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};
@@ -10,7 +10,7 @@ use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
 use super::state::{Contacts, Instant};
-use crate::scene::Scene;
+use crate::scene::{Scene, Surface};
 
 /// Makes outputs of instants.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +19,7 @@ pub struct Observer {
     bodies: Bodies,
     gravity: f64,
     ideal: IdealMechanism,
+    surface: Surface,
 }
 
 impl Observer {
@@ -29,6 +30,7 @@ impl Observer {
             bodies: bodies(scene),
             gravity: scene.gravity,
             ideal: IdealMechanism::new(scene),
+            surface: scene.joint.t.surface,
         }
     }
 
@@ -106,11 +108,14 @@ impl Observer {
 
     fn guide(&self, ideal: bool, r: &Reactions, contacts: &Contacts, penetration: &[f64; 3 + CORNERS]) -> GuideOutputs {
         let deepest = penetration[3..].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let touching = penetration[3..].iter().zip(contact_of_corner(self.surface)).filter(|(depth, contact)| {
+            contacts[3 + contact].closed && (self.surface == Surface::Corner || **depth > 0.0)
+        });
         GuideOutputs {
             force: r.t.into(),
             moment: r.moment,
             penetration: if ideal { 0.0 } else { deepest },
-            contacts: contacts[3..].iter().map(|contact| i32::from(contact.closed)).sum(),
+            contacts: touching.map(|_| 1).sum(),
         }
     }
 

@@ -1,7 +1,9 @@
 //! What a simulation asks of a mechanism besides its rates.
 
+use super::contact::Account;
 use super::drive::InputSignal;
 use super::joint::guide::CORNERS;
+use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
 use crate::integrator::Problem;
@@ -29,6 +31,16 @@ pub trait Plant<const N: usize>: Problem<N, Modes = Contacts> + Send {
     /// Everything about one instant.
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant;
 
-    /// [m] Penetration of every contact of a pose, −∞ where there is none.
+    /// [m] Penetration in the joints A, B, C and of the guide's corners at a pose, −∞ in an ideal joint.
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];
+
+    /// Elastic energy of the closed contacts, and the powers that they take.
+    fn account(&self, _: &Contacts, _: &Pose, _: &[f64; N]) -> Account {
+        Account::default()
+    }
+
+    /// Energies, works and losses; 0 without an audit.
+    fn energies(&self, _: &Contacts, _: &Instant, _: &[f64; N]) -> EnergyOutputs {
+        EnergyOutputs::default()
+    }
 }

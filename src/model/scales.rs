@@ -20,7 +20,7 @@ const ANGLE: f64 = 0.05;
 /// [1/s] Slowest motion that is still weighed as motion.
 const SLOWEST: f64 = 1.0;
 /// [rad] Most that a prescribed or started crank turns within a step.
-const TURN: f64 = 0.4;
+const TURN: f64 = 0.1;
 /// [s] Longest step of all.
 const LONGEST: f64 = 0.02;
 

@@ -10,7 +10,7 @@ use super::plane::Rotation;
 use super::reactions::Demand;
 use super::rod::Elastic;
 
-/// Contacts of the joints A, B, C and of the guide's corners.
+/// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.
 pub const CONTACTS: usize = 3 + CORNERS;
 
 /// The discrete state: every contact's memory.
@@ -85,6 +85,10 @@ pub struct FlexibleInstant {
     pub demand: Demand,
     /// Its elasticity.
     pub elastic: Elastic,
+    /// [J] Its kinetic energy.
+    pub kinetic: f64,
+    /// [kg·m] ∫y dm.
+    pub mass_height: f64,
 }
 
 /// Turning from angles and rates; the slider on an ideal guide does not turn.

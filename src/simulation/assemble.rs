@@ -3,6 +3,7 @@
 use super::run::{Motion, Run};
 use crate::integrator::ROOM;
 use crate::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
+use crate::model::audit::{self, Audited};
 use crate::model::bristles::bristled_contacts;
 use crate::model::closed::Closed;
 use crate::model::drive::InputSignal;
@@ -25,7 +26,7 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
             const N: usize = 2 * Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed }.freedoms();
             if has_extra_states(scene) {
                 let plant = Open::<$a, $b, $c, $t, $speed, ROOM>::assemble(scene, time);
-                with_method::<ROOM, _>(scene, time, pose, signal, plant)
+                with_audit::<ROOM, _>(scene, time, pose, signal, plant)
             } else {
                 let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
                 with_method::<N, _>(scene, time, pose, signal, plant)
@@ -39,16 +40,11 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
         };
     }
     if let Some(rod) = Rod::new(scene) {
-        return if state_count(scene, &rod) <= ROOM {
-            with_method::<ROOM, _>(
-                scene,
-                time,
-                pose,
-                signal,
-                Flexible::<ROOM, { ROOM / 2 }>::assemble(scene, time, rod),
-            )
+        let audit = if scene.energy.audit { audit::STATES } else { 0 };
+        return if state_count(scene, &rod) + audit <= ROOM {
+            with_audit::<ROOM, _>(scene, time, pose, signal, Flexible::<ROOM, { ROOM / 2 }>::assemble(scene, time, rod))
         } else {
-            with_method::<LARGE, _>(
+            with_audit::<LARGE, _>(
                 scene,
                 time,
                 pose,
@@ -59,6 +55,12 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
     }
     let Topology { a, b, c, t, speed } = Topology::of(scene);
     match (a, b, c, t) {
+        (true, true, true, true) if scene.energy.audit && speed => {
+            with_audit::<ROOM, _>(scene, time, pose, signal, Closed::<true, ROOM>::assemble(scene, time))
+        }
+        (true, true, true, true) if scene.energy.audit => {
+            with_audit::<ROOM, _>(scene, time, pose, signal, Closed::<false, ROOM>::assemble(scene, time))
+        }
         (true, true, true, true) if speed => {
             let plant = Closed::<true, 0>::assemble(scene, time);
             with_method::<0, _>(scene, time, pose, signal, plant)
@@ -87,7 +89,22 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
 
 /// The scene calls for states beside positions and rates.
 fn has_extra_states(scene: &Scene) -> bool {
-    !bristled_contacts(scene).is_empty()
+    scene.energy.audit || !bristled_contacts(scene).is_empty()
+}
+
+/// Reckons the energy up where the scene asks for it.
+fn with_audit<const N: usize, P: Plant<N> + 'static>(
+    scene: &Scene,
+    time: f64,
+    pose: &StartPose,
+    signal: InputSignal,
+    plant: P,
+) -> Box<dyn Motion> {
+    if scene.energy.audit {
+        with_method::<N, _>(scene, time, pose, signal, Audited::new(scene, Box::new(plant)))
+    } else {
+        with_method::<N, _>(scene, time, pose, signal, plant)
+    }
 }
 
 /// A method is compiled once for every number of states and calls the mechanism through a table of

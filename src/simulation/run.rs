@@ -54,7 +54,9 @@ impl<const N: usize, M: Method> Run<N, M> {
         let instant = self.plant.instant(contacts, t, y);
         let penetration = self.plant.penetration(&instant.pose);
         let torque = self.plant.signal().at(t).crank_torque;
-        self.observer.outputs(&instant, contacts, &penetration, torque)
+        let mut outputs = self.observer.outputs(&instant, contacts, &penetration, torque);
+        outputs.energy = self.plant.energies(contacts, &instant, y);
+        outputs
     }
 
     /// Outputs under other inputs, the state held.

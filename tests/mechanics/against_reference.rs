@@ -2,6 +2,7 @@
 
 use crate::chance::drawn;
 use crate::comparison::{Distance, distances, flags};
+use crate::elastic_scenes::{audit_cases, face_cases, flexible_cases, lugre_cases};
 use crate::reference::{Crossing, Reference};
 use crate::scenes::{Case, cases};
 use slidercrank::model::signals::{Inputs, Outputs};
@@ -20,8 +21,6 @@ const COARSE: f64 = 1e-12;
 const ROUGH: f64 = 1e-8;
 /// Runs end with this contact, or at the longest time where there are fewer.
 const CLOSINGS: usize = 6;
-/// [s]
-const LONGEST: f64 = 0.02;
 const OUTPUT_TIMES: usize = 50;
 /// [s] A flag may differ this close to its event.
 const EVENT_WINDOW: f64 = 1e-9;
@@ -41,8 +40,33 @@ struct Verdict {
 
 #[test]
 fn product_agrees_with_the_reference_on_every_scene() {
+    agree_on(cases());
+}
+
+#[test]
+fn product_agrees_with_the_reference_on_a_flexible_rod() {
+    agree_on(flexible_cases());
+}
+
+#[test]
+fn product_agrees_with_the_reference_on_elastic_faces() {
+    agree_on(face_cases());
+}
+
+#[test]
+fn product_agrees_with_the_reference_on_bristles() {
+    agree_on(lugre_cases());
+}
+
+#[test]
+fn product_agrees_with_the_reference_on_energy() {
+    agree_on(audit_cases());
+}
+
+/// Those whose name has the environment's CASE in it.
+fn agree_on(cases: Vec<Case>) {
     let only = std::env::var("CASE").unwrap_or_default();
-    agree(&cases().into_iter().filter(|case| case.name.contains(&only)).collect::<Vec<_>>());
+    agree(&cases.into_iter().filter(|case| case.name.contains(&only)).collect::<Vec<_>>());
 }
 
 /// Some come close to grazing, where no tolerance is small enough: to look at, not to pass.
@@ -118,13 +142,13 @@ fn farthest(all: Vec<Distance>) -> Distance {
 fn end_of_run(case: &Case) -> f64 {
     let mut reference = begin(case, ROUGH);
     for k in 1..=500 {
-        reference.advance_to(LONGEST * f64::from(k) / 500.0);
+        reference.advance_to(case.longest * f64::from(k) / 500.0);
         let mut closings = reference.crossings().iter().filter(|crossing| crossing.closed);
         if let Some(last) = closings.nth(CLOSINGS - 1) {
             return 1.01 * last.time;
         }
     }
-    LONGEST
+    case.longest
 }
 
 fn begin(case: &Case, tolerance: f64) -> Reference {

@@ -1,8 +1,8 @@
 //! Mechanisms drawn by lot: combinations of effects that nobody thought of.
 
-use crate::scenes::Case;
+use crate::scenes::{Case, LONGEST};
 use slidercrank::model::signals::Inputs;
-use slidercrank::scene::{Contact, DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Point, Scene};
+use slidercrank::scene::{Contact, DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Point, Scene, Surface};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 struct Lot(u64);
@@ -53,12 +53,20 @@ impl Lot {
             contact.stiffness = 5e10 * 1e-5_f64.powf(1.5 - contact.exponent);
         }
         let friction = &mut contact.friction;
-        friction.law =
-            self.one_of(&[FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck]);
-        friction.coefficient = self.between(0.0, 0.2);
+        friction.law = self.one_of(&[
+            FrictionLaw::None,
+            FrictionLaw::Ambrosio,
+            FrictionLaw::Tanh,
+            FrictionLaw::Stribeck,
+            FrictionLaw::Lugre,
+        ]);
+        friction.coefficient = self.between(0.01, 0.2);
         friction.static_coefficient = friction.coefficient + self.between(0.0, 0.1);
         (friction.v0, friction.v1) = self.one_of(&[(1e-3, 1e-2), (0.01, 0.1), (0.1, 0.5)]);
         friction.v_stribeck = self.one_of(&[0.01, 0.1, 1.0]);
+        friction.sigma0 = self.one_of(&[1e3, 1e4, 3e4]);
+        friction.sigma1 = self.one_of(&[0.0, 1.0, 30.0]);
+        friction.sigma2 = self.one_of(&[0.0, 1e-3]);
     }
 }
 
@@ -94,11 +102,25 @@ pub fn drawn(number: u64) -> Case {
     guide.clearance = 2e-5 * 15_f64.powf(lot.share());
     guide.offset_start = lot.about(0.9) * guide.clearance;
     lot.contact(&mut guide.contact);
+    guide.surface = lot.one_of(&[Surface::Corner, Surface::Foundation]);
+    guide.foundation_stiffness = lot.one_of(&[0.0, 1e8, 2e9]);
+    guide.contact.width = lot.between(0.01, 0.1);
+    s.energy.audit = lot.chance(0.5);
+    if lot.chance(0.5) {
+        let f = &mut s.rod.flexible;
+        f.bending_modes = lot.one_of(&[0, 1, 2, 3]);
+        f.axial_modes = lot.one_of(&[0, 1, 2]);
+        f.young = 1e10 * 20_f64.powf(lot.share());
+        f.area = lot.between(1e-4, 3e-4);
+        f.second_moment = lot.between(1e-9, 5e-9);
+        f.damping_ratio = lot.one_of(&[0.0, 0.01, 0.3]);
+        f.geometric_stiffness = lot.chance(0.7);
+    }
     let inputs = Inputs { crank_torque: lot.about(50.0), slider_load: lot.about(2000.0) };
     let rates = if lot.chance(0.7) {
         Inputs::default()
     } else {
         Inputs { crank_torque: lot.about(1e4), slider_load: lot.about(1e5) }
     };
-    Case { name: format!("drawn {number}"), scene: s, inputs, rates }
+    Case { name: format!("drawn {number}"), scene: s, inputs, rates, longest: LONGEST }
 }

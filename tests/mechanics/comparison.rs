@@ -1,6 +1,6 @@
 //! Outputs by name, and how far two runs of them lie apart.
 
-use slidercrank::model::signals::{Outputs, RevoluteOutputs};
+use slidercrank::model::signals::{EnergyOutputs, Outputs, RevoluteOutputs};
 use slidercrank::scene::Scene;
 
 /// What an output measures: outputs of one kind share the scale below which they count as 0.
@@ -14,6 +14,9 @@ pub enum Kind {
     AngularAcceleration,
     Force,
     Moment,
+    Energy,
+    /// What should be 0 of the energy that turns over.
+    Residual,
 }
 
 /// An output's name, kind and value.
@@ -32,6 +35,8 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
         ("crank.acceleration", Kind::AngularAcceleration, o.crank.acceleration),
         ("rod.angle", Kind::Angle, o.rod.angle),
         ("rod.speed", Kind::AngularSpeed, o.rod.speed),
+        ("rod.deflection", Kind::Length, o.rod.deflection),
+        ("rod.stretch", Kind::Length, o.rod.stretch),
         ("joint.T.force.x", Kind::Force, o.joint_t.force[0]),
         ("joint.T.force.y", Kind::Force, o.joint_t.force[1]),
         ("joint.T.moment", Kind::Moment, o.joint_t.moment),
@@ -73,7 +78,28 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
             (name[4], Kind::Length, joint.penetration),
         ]);
     }
+    all.extend(energies(&o.energy));
     all
+}
+
+fn energies(e: &EnergyOutputs) -> [Signal; 14] {
+    let energy = |name, value| (name, Kind::Energy, value);
+    [
+        energy("energy.kinetic", e.kinetic),
+        energy("energy.potential", e.potential),
+        energy("energy.input", e.input),
+        energy("energy.dissipated", e.dissipated),
+        ("energy.residual", Kind::Residual, e.residual),
+        energy("energy.gravity", e.gravity),
+        energy("energy.elastic", e.elastic),
+        energy("energy.contact", e.contact),
+        energy("energy.torque_work", e.torque_work),
+        energy("energy.load_work", e.load_work),
+        energy("energy.contact_loss", e.contact_loss),
+        energy("energy.friction_loss", e.friction_loss),
+        energy("energy.viscous_loss", e.viscous_loss),
+        energy("energy.modal_loss", e.modal_loss),
+    ]
 }
 
 /// Contacts of A, B, C (0 or 1) and the number of corners in contact.
@@ -137,6 +163,9 @@ fn negligible(kind: Kind, scene: &Scene, run: &[Vec<Signal>]) -> f64 {
         Kind::AngularAcceleration => greatest(&[kind]).max(greatest(&[Kind::Acceleration]) / length),
         Kind::Force => force,
         Kind::Moment => force * length,
+        // Without an audit all are 0 on both sides.
+        Kind::Energy => greatest(&[kind]).max(1.0),
+        Kind::Residual => return greatest(&[Kind::Energy]).max(1.0),
     };
     1e-6 * size
 }

@@ -6,16 +6,21 @@ use slidercrank::scene::{
 };
 
 /// A mechanism with its inputs.
+#[derive(Clone)]
 pub struct Case {
     pub name: String,
     pub scene: Scene,
     pub inputs: Inputs,
     /// Rates of the inputs.
     pub rates: Inputs,
+    /// [s] The run ends here at the latest.
+    pub longest: f64,
 }
 
 /// The joints with clearance.
 pub type Play = [bool; 4];
+/// [s]
+pub const LONGEST: f64 = 0.02;
 pub const NONE: Play = [false; 4];
 pub const C: Play = [false, false, true, false];
 pub const T: Play = [false, false, false, true];
@@ -63,13 +68,13 @@ pub fn cases() -> Vec<Case> {
     cases
 }
 
-fn case(name: impl Into<String>, mut scene: Scene, change: impl FnOnce(&mut Scene)) -> Case {
+pub fn case(name: impl Into<String>, mut scene: Scene, change: impl FnOnce(&mut Scene)) -> Case {
     change(&mut scene);
     scene.solver.tolerance = 1e-10;
-    Case { name: name.into(), scene, inputs: Inputs::default(), rates: Inputs::default() }
+    Case { name: name.into(), scene, inputs: Inputs::default(), rates: Inputs::default(), longest: LONGEST }
 }
 
-fn loaded(mut case: Case, inputs: Inputs, rates: Inputs) -> Case {
+pub fn loaded(mut case: Case, inputs: Inputs, rates: Inputs) -> Case {
     (case.inputs, case.rates) = (inputs, rates);
     case
 }

@@ -1,11 +1,16 @@
 //! What must hold of the mechanism whatever computes it: closed forms, balances, limits, symmetries.
 
+mod audit;
 mod clearance_to_zero;
 mod conservation;
 mod consistency;
+mod finite_elements;
 mod first_impact;
+mod flexible;
 mod friction;
 mod ideal;
+mod ivp_slider_crank;
+mod lugre;
 mod motion;
 mod restitution;
 mod restitution_laws;

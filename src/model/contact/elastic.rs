@@ -7,6 +7,8 @@ use crate::math;
 pub trait Elastic {
     /// [N] at the penetration `depth` [m].
     fn force(parameters: &ContactParameters, depth: f64) -> f64;
+    /// [J] ∫F dδ from 0 to `depth` [m].
+    fn energy(parameters: &ContactParameters, depth: f64) -> f64;
 }
 
 /// K·δ^(3/2): Hertz's exponent without a power function.
@@ -14,6 +16,9 @@ pub struct HertzThreeHalves;
 
 /// K·δ^p for any p.
 pub struct Power;
+
+/// K·δ: a bed of springs of the stiffness K, pressed in by δ on average.
+pub struct Linear;
 
 /// Conformal cylinders: F = (π/2)·E*·L·δ·√(δ/(2(c + δ))); C. Liu, K. Zhang, R. Yang, The FEM
 /// analysis and approximate model for cylindrical joints with clearances, Mech. Mach. Theory 42
@@ -25,6 +30,9 @@ impl Elastic for HertzThreeHalves {
     fn force(parameters: &ContactParameters, depth: f64) -> f64 {
         parameters.stiffness * depth * depth.sqrt()
     }
+    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
+        0.4 * depth * Self::force(parameters, depth)
+    }
 }
 
 impl Elastic for Power {
@@ -32,11 +40,43 @@ impl Elastic for Power {
     fn force(parameters: &ContactParameters, depth: f64) -> f64 {
         parameters.stiffness * math::powf(depth, parameters.exponent)
     }
+    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
+        depth * Self::force(parameters, depth) / (parameters.exponent + 1.0)
+    }
+}
+
+impl Elastic for Linear {
+    #[inline(always)]
+    fn force(parameters: &ContactParameters, depth: f64) -> f64 {
+        parameters.stiffness * depth
+    }
+    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
+        0.5 * depth * Self::force(parameters, depth)
+    }
 }
 
 impl Elastic for Liu {
     #[inline(always)]
     fn force(parameters: &ContactParameters, depth: f64) -> f64 {
         parameters.stiffness * depth * (depth / (2.0 * (parameters.clearance + depth))).sqrt()
+    }
+    /// With u = δ/c: K·c²/√2·∫u^(3/2)/√(1 + u) du; a series where the closed form is a small difference.
+    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
+        let c = parameters.clearance;
+        let u = depth / c;
+        let integral = if u < 0.1 {
+            // Coefficients of (1 + u)^(−1/2), each divided by its power + 5/2.
+            let mut coefficient = 1.0;
+            let mut sum = 0.0;
+            for k in 0..20 {
+                let k = f64::from(k);
+                sum += coefficient / (k + 2.5);
+                coefficient *= -u * (k + 0.5) / (k + 1.0);
+            }
+            sum * u * u * u.sqrt()
+        } else {
+            0.25 * (u * (1.0 + u)).sqrt() * (2.0 * u - 3.0) + 0.75 * math::asinh(u.sqrt())
+        };
+        parameters.stiffness * c * c * std::f64::consts::FRAC_1_SQRT_2 * integral
     }
 }

@@ -7,7 +7,7 @@
 pub mod damping;
 mod elastic;
 
-pub use elastic::{Elastic, HertzThreeHalves, Liu, Power};
+pub use elastic::{Elastic, HertzThreeHalves, Linear, Liu, Power};
 
 use super::friction::{Friction, FrictionParameters, Rubbing};
 use crate::math;
@@ -107,6 +107,45 @@ pub fn force<E: Elastic, D: Damped, F: Friction>(
     }
     let Rubbing { ratio, bristle_rate } = F::rub(&parameters.friction, sliding(), z);
     Forces { normal, tangential: normal * ratio, bristle_rate }
+}
+
+/// What a contact does to energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Account {
+    /// [J] Elastic energy.
+    pub energy: f64,
+    /// [W] That hysteresis takes.
+    pub contact_loss: f64,
+    /// [W] That friction takes, bristles included.
+    pub friction_loss: f64,
+}
+
+impl std::ops::AddAssign for Account {
+    fn add_assign(&mut self, other: Self) {
+        self.energy += other.energy;
+        self.contact_loss += other.contact_loss;
+        self.friction_loss += other.friction_loss;
+    }
+}
+
+/// The account of the [`force`] of the same arguments, with the power-law's energy: what the bodies
+/// lose to it, f_n·δ̇ + f_t·v_t, less the rate of the elastic energy.
+pub fn account<E: Elastic, D: Damped, F: Friction>(
+    parameters: &ContactParameters,
+    per_approach: f64,
+    depth: f64,
+    rate: f64,
+    z: f64,
+    sliding: f64,
+) -> Account {
+    let Forces { normal, tangential, .. } = force::<E, D, F>(parameters, per_approach, depth, rate, z, || sliding);
+    let depth = depth.max(0.0);
+    let elastic = E::force(parameters, depth);
+    Account {
+        energy: E::energy(parameters, depth),
+        contact_loss: (normal - elastic) * rate,
+        friction_loss: tangential * sliding,
+    }
 }
 
 impl ContactParameters {

@@ -160,6 +160,32 @@ pub struct Moving<'a, const Q: usize> {
 }
 
 impl<const Q: usize> Moving<'_, Q> {
+    /// [J] Kinetic energy at the modal `rate` [m/s].
+    pub fn kinetic(&self, rate: &[f64]) -> f64 {
+        let Self { rod, inertia, configuration, .. } = self;
+        let heading = &configuration.heading[ROD];
+        let (velocity, speed) = (configuration.big_end.velocity, heading.speed);
+        let mut opening = Vec2::zeros();
+        let (mut turning, mut modal) = (0.0, 0.0);
+        for (a, rate_a) in rate.iter().enumerate() {
+            opening += *rate_a * inertia.first_slope[a];
+            turning += rate_a * inertia.turning[a];
+            modal += rate_a * inertia.modal[a].iter().zip(rate).map(|(m, rate)| m * rate).sum::<f64>();
+        }
+        let first_rate = speed * perp(heading.rotation.apply(inertia.first)) + heading.rotation.apply(opening);
+        0.5 * rod.mass() * velocity.norm_squared()
+            + velocity.dot(&first_rate)
+            + 0.5 * inertia.about_origin * speed * speed
+            + speed * turning
+            + 0.5 * modal
+    }
+
+    /// [kg·m] ∫y dm.
+    pub fn mass_height(&self) -> f64 {
+        let Self { rod, inertia, configuration, .. } = self;
+        rod.mass() * configuration.big_end.place.y + configuration.heading[ROD].rotation.apply(inertia.first).y
+    }
+
     /// What the rod's motion needs of forces and of moments about its big end, gravity subtracted.
     pub fn demand(&self, forced: &[f64; Q], gravity: f64) -> Demand {
         let Self { rod, inertia, configuration, modes } = self;

@@ -9,6 +9,7 @@ mod equations;
 
 use super::bristles::bristled_contacts;
 use super::clearances::Clearances;
+use super::contact::Account;
 use super::coordinates::Layout;
 use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::Loads;
@@ -238,11 +239,17 @@ impl<const N: usize, const Q: usize> Plant<N> for Flexible<N, Q> {
             flexible: Some(FlexibleInstant {
                 demand: moving.demand(&forced, self.gravity),
                 elastic: moving.rod.elastic(&configuration.shape, eta, rate),
+                kinetic: moving.kinetic(rate),
+                mass_height: moving.mass_height(),
             }),
         }
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
-        self.clearances.penetrations(self.clear, pose).map(|(depth, _)| depth)
+        self.clearances.depths(self.clear, pose)
+    }
+
+    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
+        self.clearances.account(self.clear, contacts, pose, &y[2 * self.extent.positions..])
     }
 }

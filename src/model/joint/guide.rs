@@ -1,19 +1,25 @@
-//! The guide with clearance: four corners of the slider between two lines.
+//! The guide with clearance: a rectangle, the slider, between two lines.
 //!
 //! Corner k is at the offsets (±a, ±b) from the rectangle's centre. An upper one penetrates by
-//! y_k − (h + b + c_T), a lower one by (h − b − c_T) − y_k. Each is a contact of its own; faces and
-//! jamming follow.
+//! y_k − (h + b + c_T), a lower one by (h − b − c_T) − y_k. What touches a line is a [`Surface`]: each
+//! corner as a contact of its own ([`Corners`], from which faces and jamming follow), or each face on
+//! an elastic foundation ([`Faces`]). Which it is, and by which laws, is chosen once.
 
-use super::{KernelFamily, choose, compliance, parameters};
-use crate::integrator::Guard;
-use crate::model::contact::{ContactMode, ContactParameters, Damped, Elastic, Forces, force};
+use super::foundation::{self, Faces};
+use super::{KernelFamily, choose, compliance, parameters, with_damping};
+use crate::integrator::{Crossed, Guard};
+use crate::math;
+use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, Linear, force};
 use crate::model::friction::Friction;
 use crate::model::joint::revolute::guard;
 use crate::model::plane::{Rotation, Vec2, cross};
 use crate::scene::{self, Elasticity};
+use std::marker::PhantomData;
 
 /// How many corners the slider has.
 pub const CORNERS: usize = 4;
+/// Most contacts of the slider with the guide.
+pub const GUIDE_CONTACTS: usize = CORNERS;
 
 /// Where the slider is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,52 +43,182 @@ pub struct Load {
     pub couple: f64,
 }
 
-/// Most contacts of the slider with the guide.
-pub const GUIDE_CONTACTS: usize = CORNERS;
-
-/// How many contacts the slider of a scene has with the guide.
-pub fn guide_contacts(_: &scene::Scene) -> usize {
-    CORNERS
-}
-
+/// A point of the slider and the line that it may touch.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+pub(super) struct Mark {
     /// [m] From the pin, in the slider's axes.
-    offset: Vec2,
+    pub offset: Vec2,
     /// Of the line's inner normal: −1 for the upper line, +1 for the lower.
-    normal: f64,
+    pub normal: f64,
     /// [m] Height of the line.
-    line: f64,
+    pub line: f64,
 }
 
-/// Penetration, its rate and the sliding speed of one corner.
-struct CornerState {
-    arm: Vec2,
-    depth: f64,
-    rate: f64,
-    sliding: f64,
+/// Where a contact's force acts, and the motion of the slider's material there.
+pub(super) struct Touch {
+    /// [m] From the pin.
+    pub arm: Vec2,
+    /// Of the line's inner normal, as in [`Mark`].
+    pub normal: f64,
+    /// [m] Penetration; a face's mean.
+    pub depth: f64,
+    /// [m/s] Into the line.
+    pub rate: f64,
+    /// [m/s] Along the line.
+    pub sliding: f64,
 }
 
-type Kernel = fn(&ContactParameters, f64, &CornerState, f64) -> Forces;
+/// What the slider touches its lines with.
+pub(super) trait Surface {
+    /// The contact that each corner is part of.
+    const CONTACT_OF_CORNER: [usize; CORNERS];
+    /// How many contacts there are.
+    const CONTACTS: usize = Self::CONTACT_OF_CORNER[CORNERS - 1] + 1;
+    /// Contact `k` as its force law needs it.
+    fn touch(guide: &Guide, k: usize, pose: &SliderPose) -> Touch;
+    /// [m], [m/s] Greatest penetration in contact `k`, and the approach speed if it closes now.
+    fn approach(guide: &Guide, k: usize, pose: &SliderPose) -> (f64, f64);
+    /// The events at which contacts change, each at the place of a corner.
+    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS];
+    /// [J] Elastic energy of contact `k`.
+    fn energy(guide: &Guide, k: usize, pose: &SliderPose) -> f64;
+}
+
+/// Each corner is a contact of its own.
+pub(super) struct Corners;
+
+impl Surface for Corners {
+    const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 1, 2, 3];
+
+    #[inline(always)]
+    fn touch(guide: &Guide, k: usize, pose: &SliderPose) -> Touch {
+        guide.corners[k].touch(pose)
+    }
+
+    fn approach(guide: &Guide, k: usize, pose: &SliderPose) -> (f64, f64) {
+        let Touch { depth, rate, .. } = guide.corners[k].touch(pose);
+        (depth, rate)
+    }
+
+    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
+        std::array::from_fn(|k| {
+            let Touch { depth, rate, .. } = guide.corners[k].touch(pose);
+            guard(&modes[k], depth, rate)
+        })
+    }
+
+    fn energy(guide: &Guide, k: usize, pose: &SliderPose) -> f64 {
+        // ∫K·δ^p dδ.
+        let depth = guide.corners[k].touch(pose).depth.max(0.0);
+        let ContactParameters { stiffness, exponent, .. } = guide.contact;
+        stiffness * math::powf(depth, exponent + 1.0) / (exponent + 1.0)
+    }
+}
+
+impl Mark {
+    /// The contact of this point alone.
+    #[inline(always)]
+    pub fn touch(&self, pose: &SliderPose) -> Touch {
+        let arm = pose.rotation.apply(self.offset);
+        Touch {
+            arm,
+            normal: self.normal,
+            depth: self.normal * (self.line - (pose.pin.y + arm.y)),
+            rate: -self.normal * (pose.pin_velocity.y + pose.speed * arm.x),
+            sliding: pose.pin_velocity.x - pose.speed * arm.y,
+        }
+    }
+}
 
 /// The guide with clearance.
 #[derive(Clone, Copy, Debug)]
 pub struct Guide {
-    corners: [Corner; CORNERS],
-    /// The contact's numbers, the same for every corner.
+    pub(super) corners: [Mark; CORNERS],
+    /// Middles of the upper and of the lower face.
+    pub(super) middles: [Mark; 2],
+    /// [m] a.
+    pub(super) half_length: f64,
+    /// The contact's numbers, the same for every contact.
     pub contact: ContactParameters,
-    kernel: Kernel,
+    kernels: Kernels,
 }
 
-struct Family;
+/// What is compiled for each surface.
+#[derive(Clone, Copy, Debug)]
+struct Kernels {
+    contact_of_corner: [usize; CORNERS],
+    by_laws: ByLaws,
+    approaches: fn(&Guide, &SliderPose) -> [(f64, f64); CORNERS],
+    guards: fn(&Guide, &[ContactMode], &SliderPose) -> [Guard; CORNERS],
+}
 
-impl KernelFamily for Family {
-    type Kernel = Kernel;
-    fn kernel<E: Elastic, D: Damped, F: Friction>() -> Kernel {
-        |contact, per_approach, corner, z| {
-            force::<E, D, F>(contact, per_approach, corner.depth, corner.rate, z, || corner.sliding)
+/// One number for the bristles of each contact.
+type Bristles = [f64; GUIDE_CONTACTS];
+
+/// What is compiled for each combination of laws.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ByLaws {
+    load: fn(&Guide, &[ContactMode], &SliderPose, &Bristles, &mut Bristles) -> Load,
+    account: fn(&Guide, &[ContactMode], &SliderPose, &Bristles) -> Account,
+}
+
+impl Kernels {
+    fn new<S: Surface>(by_laws: ByLaws) -> Self {
+        let contact_of_corner = S::CONTACT_OF_CORNER;
+        Self { contact_of_corner, by_laws, approaches: approaches::<S>, guards: S::guards }
+    }
+}
+
+/// The load kernels of a surface.
+pub(super) struct Family<S>(PhantomData<S>);
+
+impl<S: Surface> KernelFamily for Family<S> {
+    type Kernel = ByLaws;
+    fn kernel<E: Elastic, D: Damped, F: Friction>() -> ByLaws {
+        ByLaws { load: load::<S, E, D, F>, account: account::<S, E, D, F> }
+    }
+}
+
+fn load<S: Surface, E: Elastic, D: Damped, F: Friction>(
+    g: &Guide,
+    modes: &[ContactMode],
+    pose: &SliderPose,
+    z: &Bristles,
+    bristle_rate: &mut Bristles,
+) -> Load {
+    let mut load = Load::default();
+    for (k, mode) in modes.iter().enumerate().take(S::CONTACTS) {
+        if mode.closed {
+            let Touch { arm, normal, depth, rate, sliding } = S::touch(g, k, pose);
+            let Forces { normal: pressure, tangential, bristle_rate: moving } =
+                force::<E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], || sliding);
+            bristle_rate[k] = moving;
+            let force = Vec2::new(-tangential, normal * pressure);
+            load.force += force;
+            load.couple += cross(arm, force);
         }
     }
+    load
+}
+
+fn approaches<S: Surface>(guide: &Guide, pose: &SliderPose) -> [(f64, f64); CORNERS] {
+    let none = (f64::NEG_INFINITY, 0.0);
+    std::array::from_fn(|k| if k < S::CONTACTS { S::approach(guide, k, pose) } else { none })
+}
+
+fn account<S: Surface, E: Elastic, D: Damped, F: Friction>(
+    g: &Guide,
+    modes: &[ContactMode],
+    pose: &SliderPose,
+    z: &Bristles,
+) -> Account {
+    let mut sum = Account::default();
+    for (k, mode) in modes.iter().enumerate().take(S::CONTACTS).filter(|(_, mode)| mode.closed) {
+        let Touch { depth, rate, sliding, .. } = S::touch(g, k, pose);
+        let account = contact::account::<E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], sliding);
+        sum += Account { energy: S::energy(g, k, pose), ..account };
+    }
+    sum
 }
 
 impl Guide {
@@ -92,53 +228,62 @@ impl Guide {
         let slider = &scene.slider;
         let (a, b) = (0.5 * slider.length, 0.5 * slider.height);
         let reach = b + joint.clearance;
-        let corner = |x: f64, side: f64| Corner {
+        let mark = |x: f64, side: f64| Mark {
             offset: Vec2::new(slider.centre.x + x, slider.centre.y + side * b),
             normal: -side,
             line: scene.guide.offset + side * reach,
         };
         let contact = &joint.contact;
-        // Sphere on plane.
-        let hertz = 4.0 / (3.0 * compliance(contact)) * joint.corner_radius.sqrt();
-        let stiffness = if contact.stiffness > 0.0 { contact.stiffness } else { hertz };
+        let (stiffness, exponent, kernels) = match joint.surface {
+            scene::Surface::Corner => {
+                // Sphere on plane.
+                let hertz = 4.0 / (3.0 * compliance(contact)) * joint.corner_radius.sqrt();
+                let stiffness = if contact.stiffness > 0.0 { contact.stiffness } else { hertz };
+                let load = choose::<Family<Corners>>(Elasticity::Hertz, contact);
+                (stiffness, contact.exponent, Kernels::new::<Corners>(load))
+            }
+            scene::Surface::Foundation => {
+                let load = with_damping::<Family<Faces>, Linear>(contact);
+                (foundation::stiffness(scene), 1.0, Kernels::new::<Faces>(load))
+            }
+        };
         Self {
-            corners: [corner(a, 1.0), corner(-a, 1.0), corner(a, -1.0), corner(-a, -1.0)],
-            contact: parameters(contact, stiffness, 0.0),
-            kernel: choose::<Family>(Elasticity::Hertz, contact),
+            corners: [mark(a, 1.0), mark(-a, 1.0), mark(a, -1.0), mark(-a, -1.0)],
+            middles: [mark(0.0, 1.0), mark(0.0, -1.0)],
+            half_length: a,
+            contact: ContactParameters { exponent, ..parameters(contact, stiffness, 0.0) },
+            kernels,
         }
     }
 
-    #[inline(always)]
-    fn corner(&self, k: usize, pose: &SliderPose) -> CornerState {
-        let corner = &self.corners[k];
-        let arm = pose.rotation.apply(corner.offset);
-        CornerState {
-            arm,
-            depth: corner.normal * (corner.line - (pose.pin.y + arm.y)),
-            rate: -corner.normal * (pose.pin_velocity.y + pose.speed * arm.x),
-            sliding: pose.pin_velocity.x - pose.speed * arm.y,
+    /// [m] Penetration of every corner, negative when open.
+    pub fn penetrations(&self, pose: &SliderPose) -> [f64; CORNERS] {
+        self.corners.map(|corner| corner.touch(pose).depth)
+    }
+
+    /// [m], [m/s] Greatest penetration in every contact, and the approach speed if it closes now; far
+    /// open where there is no contact.
+    pub fn approaches(&self, pose: &SliderPose) -> [(f64, f64); CORNERS] {
+        (self.kernels.approaches)(self, pose)
+    }
+
+    /// The events at which the contacts change.
+    pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
+        (self.kernels.guards)(self, modes, pose)
+    }
+
+    /// Which of the joints' and the guide's contacts change when these guards have fallen.
+    pub fn contacts_of(&self, crossed: &Crossed) -> Crossed {
+        let mut contacts = *crossed;
+        contacts[3..].fill(false);
+        for (corner, contact) in self.kernels.contact_of_corner.into_iter().enumerate() {
+            contacts[3 + contact] |= crossed[3 + corner];
         }
+        contacts
     }
 
-    /// [m] Penetration of corner `k`, negative when open.
-    pub fn penetration(&self, k: usize, pose: &SliderPose) -> f64 {
-        self.corner(k, pose).depth
-    }
-
-    /// [m/s] Its rate.
-    pub fn penetration_rate(&self, k: usize, pose: &SliderPose) -> f64 {
-        self.corner(k, pose).rate
-    }
-
-    /// The event at which corner `k` changes.
-    #[inline(always)]
-    pub fn guard(&self, k: usize, mode: &ContactMode, pose: &SliderPose) -> Guard {
-        let corner = self.corner(k, pose);
-        guard(mode, corner.depth, corner.rate)
-    }
-
-    /// The load of the closed corners, whose bristles are deflected by `z` [m] and move at `bristle_rate`
-    /// [m/s].
+    /// The load of the closed contacts, whose bristles are deflected by `z` [m] and move at
+    /// `bristle_rate` [m/s].
     #[inline(always)]
     pub fn load(
         &self,
@@ -147,18 +292,28 @@ impl Guide {
         z: &[f64; GUIDE_CONTACTS],
         bristle_rate: &mut [f64; GUIDE_CONTACTS],
     ) -> Load {
-        let mut load = Load::default();
-        for (k, mode) in modes.iter().enumerate().take(CORNERS) {
-            if mode.closed {
-                let state = self.corner(k, pose);
-                let Forces { normal, tangential, bristle_rate: rate } =
-                    (self.kernel)(&self.contact, mode.per_approach, &state, z[k]);
-                bristle_rate[k] = rate;
-                let force = Vec2::new(-tangential, self.corners[k].normal * normal);
-                load.force += force;
-                load.couple += cross(state.arm, force);
-            }
+        if modes.iter().any(|mode| mode.closed) {
+            (self.kernels.by_laws.load)(self, modes, pose, z, bristle_rate)
+        } else {
+            Load::default()
         }
-        load
+    }
+
+    /// Energy and losses of the closed contacts, whose bristles are deflected by `z` [m].
+    pub fn account(&self, modes: &[ContactMode], pose: &SliderPose, z: &[f64; GUIDE_CONTACTS]) -> Account {
+        (self.kernels.by_laws.account)(self, modes, pose, z)
+    }
+}
+
+/// How many contacts the slider has with the guide.
+pub fn guide_contacts(surface: scene::Surface) -> usize {
+    contact_of_corner(surface)[CORNERS - 1] + 1
+}
+
+/// The contact of the guide that each corner is part of.
+pub fn contact_of_corner(surface: scene::Surface) -> [usize; CORNERS] {
+    match surface {
+        scene::Surface::Corner => Corners::CONTACT_OF_CORNER,
+        scene::Surface::Foundation => Faces::CONTACT_OF_CORNER,
     }
 }

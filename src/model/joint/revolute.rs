@@ -6,7 +6,7 @@
 
 use super::{KernelFamily, choose, compliance, parameters};
 use crate::integrator::Guard;
-use crate::model::contact::{ContactMode, ContactParameters, Damped, Elastic, Forces, force};
+use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, force};
 use crate::model::friction::Friction;
 use crate::model::plane::{Vec2, perp};
 use crate::scene::{self, Elasticity};
@@ -38,7 +38,12 @@ pub struct Load {
     pub bristle_rate: f64,
 }
 
-type Kernel = fn(&Revolute, f64, &Play, f64) -> Load;
+/// What is compiled for each combination of laws.
+#[derive(Clone, Copy, Debug)]
+struct Kernels {
+    load: fn(&Revolute, f64, &Play, f64) -> Load,
+    account: fn(&Revolute, f64, &Play, f64) -> Account,
+}
 
 /// A revolute joint with clearance.
 #[derive(Clone, Copy, Debug)]
@@ -49,15 +54,15 @@ pub struct Revolute {
     clearance: f64,
     /// The contact's numbers.
     pub contact: ContactParameters,
-    kernel: Kernel,
+    kernels: Kernels,
 }
 
 struct Family;
 
 impl KernelFamily for Family {
-    type Kernel = Kernel;
-    fn kernel<E: Elastic, D: Damped, F: Friction>() -> Kernel {
-        load::<E, D, F>
+    type Kernel = Kernels;
+    fn kernel<E: Elastic, D: Damped, F: Friction>() -> Kernels {
+        Kernels { load: load::<E, D, F>, account: account::<E, D, F> }
     }
 }
 
@@ -71,7 +76,7 @@ fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64,
     let t = perp(n);
     let rate = play.rate.dot(&n);
     let to_contact = joint.radius - epsilon;
-    let sliding = || play.rate.dot(&t) + to_contact * play.journal_speed - joint.radius * play.bearing_speed;
+    let sliding = || joint.sliding(play, epsilon, t);
     let Forces { normal, tangential, bristle_rate } =
         force::<E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding);
     if F::PRESENT {
@@ -84,6 +89,17 @@ fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64,
     } else {
         Load { force: -normal * n, ..Load::default() }
     }
+}
+
+fn account<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64, play: &Play, z: f64) -> Account {
+    let epsilon = play.eccentricity.norm();
+    if epsilon == 0.0 {
+        return Account::default();
+    }
+    let n = play.eccentricity / epsilon;
+    let sliding = joint.sliding(play, epsilon, perp(n));
+    let (depth, rate) = (epsilon - joint.clearance, play.rate.dot(&n));
+    contact::account::<E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding)
 }
 
 impl Revolute {
@@ -105,7 +121,7 @@ impl Revolute {
         if joint.elasticity == Elasticity::Liu {
             contact.exponent = 1.5; // of small penetrations; the law itself has none
         }
-        Self { radius: bearing, clearance, contact, kernel: choose::<Family>(joint.elasticity, &joint.contact) }
+        Self { radius: bearing, clearance, contact, kernels: choose::<Family>(joint.elasticity, &joint.contact) }
     }
 
     /// [m] δ, negative when open.
@@ -127,10 +143,21 @@ impl Revolute {
         guard(mode, self.penetration(play), self.penetration_rate(play))
     }
 
+    /// [m/s] v_t at the contact point, ε from the bearing's centre along the normal of tangent `t`.
+    #[inline(always)]
+    fn sliding(&self, play: &Play, epsilon: f64, t: Vec2) -> f64 {
+        play.rate.dot(&t) + (self.radius - epsilon) * play.journal_speed - self.radius * play.bearing_speed
+    }
+
+    /// Energy and losses of the closed contact with its bristles deflected by `z` [m].
+    pub fn account(&self, mode: &ContactMode, play: &Play, z: f64) -> Account {
+        (self.kernels.account)(self, mode.per_approach, play, z)
+    }
+
     /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
     pub fn load(&self, mode: &ContactMode, play: &Play, z: f64) -> Load {
-        (self.kernel)(self, mode.per_approach, play, z)
+        (self.kernels.load)(self, mode.per_approach, play, z)
     }
 }
 

@@ -40,7 +40,7 @@ impl Bodies {
         let on_slider = |x, y| mark(SLIDER, slider.com, slider.centre.x + x, slider.centre.y + y);
         let (a, b) = (slider.length / 2.0, slider.height / 2.0);
         let beam = Beam::new(scene, points);
-        let ends = match &beam {
+        let [big_end, small_end] = match &beam {
             None => [mark(ROD, rod.com, 0.0, 0.0), mark(ROD, rod.com, rod.length, 0.0)],
             Some(beam) => [Mark::on_beam(beam.big_end), Mark::on_beam(beam.small_end)],
         };
@@ -59,7 +59,7 @@ impl Bodies {
             beam,
             gravity: scene.gravity,
             crank: mark(CRANK, crank.com, crank.com.x, crank.com.y),
-            bearings: [Mark::fixed(GROUND, 0.0, 0.0), ends[0], ends[1]],
+            bearings: [Mark::fixed(GROUND, 0.0, 0.0), big_end, small_end],
             journals: [
                 mark(CRANK, crank.com, 0.0, 0.0),
                 mark(CRANK, crank.com, crank.length, 0.0),

@@ -98,7 +98,8 @@ impl Contact {
                 Touch { depths, rates, rate, sliding: velocity.x, elastic, normal, tangent, point }
             }
             &Surface::Bed { ref corners, face, height, side } => {
-                let (points, velocities) = (corners.map(|c| c.position(motion)), corners.map(|c| c.velocity(motion)));
+                let (points, velocities) =
+                    (corners.each_ref().map(|c| c.position(motion)), corners.each_ref().map(|c| c.velocity(motion)));
                 let depths = points.map(|point| side * (point.y - height));
                 let rates = velocities.map(|velocity| side * velocity.y);
                 let pressure = face.pressure(depths, phase.inside);
@@ -140,12 +141,16 @@ pub fn eccentricity(bearing: &Mark, journal: &Mark, motion: &Motion) -> Vector {
 
 /// A, B, C, then the corners or the faces of the guide; `None` where the joint is ideal.
 pub fn contacts(scene: &Scene, bodies: &Bodies) -> [Option<Contact>; CONTACTS] {
-    let (joint, corners) = (&scene.joint, bodies.corners);
-    let revolute = |joint: &Revolute, k: usize| Contact::of_revolute(joint, bodies.bearings[k], bodies.journals[k]);
+    let (joint, corners) = (&scene.joint, &bodies.corners);
+    let revolute = |joint: &Revolute, k: usize| {
+        Contact::of_revolute(joint, bodies.bearings[k].clone(), bodies.journals[k].clone())
+    };
     let half = scene.slider.height / 2.0 + joint.t.clearance;
     let height = |side: f64| scene.guide.offset + side * half;
-    let corner = |k: usize, side: f64| Some(Contact::of_corner(&joint.t, corners[k], height(side), side));
-    let face = |k: usize, side: f64| Some(Contact::of_face(scene, [corners[k], corners[k + 1]], height(side), side));
+    let corner = |k: usize, side: f64| Some(Contact::of_corner(&joint.t, corners[k].clone(), height(side), side));
+    let face = |k: usize, side: f64| {
+        Some(Contact::of_face(scene, [corners[k].clone(), corners[k + 1].clone()], height(side), side))
+    };
     let guide = match (joint.t.model, joint.t.surface) {
         (JointModel::Ideal, _) => [None, None, None, None],
         (JointModel::Clearance, Kind::Corner) => [corner(0, 1.0), corner(1, 1.0), corner(2, -1.0), corner(3, -1.0)],

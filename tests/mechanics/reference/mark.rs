@@ -9,18 +9,18 @@ use nalgebra::SMatrix;
 pub type Jacobian = SMatrix<f64, 2, COORDINATES>;
 
 /// A point that moves with a body.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Mark {
     pub body: usize,
     place: Place,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 enum Place {
     /// [m] From the body's origin in body axes; on the ground, from the inertial origin.
     Arm(Vector),
     /// Middle of a flexible rod's cross-section.
-    Section(Section),
+    Section(Box<Section>),
 }
 
 impl Mark {
@@ -29,7 +29,7 @@ impl Mark {
     }
 
     pub fn on_beam(section: Section) -> Self {
-        Self { body: ROD, place: Place::Section(section) }
+        Self { body: ROD, place: Place::Section(Box::new(section)) }
     }
 
     /// [m] From the body's origin, in inertial axes.

@@ -44,8 +44,9 @@ impl Reference {
     /// and 1e-2 rad times it in position, 1 m/s and 10 rad/s times it in velocity, a tenth of that
     /// in the rod's modes.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs, tolerance: f64) -> Self {
-        // The fastest product along the rod, of four shapes, has as many half waves as 4·modes.
-        let points = 20 + 6 * mode_count(&scene.rod.flexible);
+        // Products of four shapes have up to 4·modes half waves. From the points where the sum meets
+        // them at all, some more bring it to round-off.
+        let points = 14 + 3 * mode_count(&scene.rod.flexible);
         Self::start_with(scene, time, inputs, tolerance, points)
     }
 

@@ -1,0 +1,227 @@
+//! The energy audit: works and losses integrated beside the motion.
+//!
+//! An [`Audited`] mechanism has seven first-order states more: the works of torque and load, the losses
+//! of contacts, friction, viscous and modal damping, and, constant, the energy that it started with.
+//! They follow from the motion and are not weighed by the error norm: an audit changes no bit of it.
+
+use super::contact::Account;
+use super::drive::InputSignal;
+use super::joint::guide::CORNERS;
+use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
+use super::plane::perp;
+use super::plant::Plant;
+use super::reactions::reactions;
+use super::signals::EnergyOutputs;
+use super::start::StartPose;
+use super::state::{Contacts, Instant, Pose};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, Reset};
+use crate::scene::Scene;
+
+/// Number of states of an audit.
+pub const STATES: usize = 7;
+
+/// A mechanism whose energy is reckoned up.
+pub struct Audited<const N: usize> {
+    plant: Box<dyn Plant<N>>,
+    topology: Topology,
+    bodies: Bodies,
+    gravity: f64,
+    viscous: Viscous,
+}
+
+/// Viscous friction of all joints.
+struct Viscous {
+    /// [N·m·s/rad] Of A, B, C.
+    revolute: [f64; 3],
+    /// [N·s/m]
+    guide: f64,
+}
+
+impl Viscous {
+    /// [W]
+    fn loss(&self, pose: &Pose) -> f64 {
+        let Pose { turning, section_speed, velocity, .. } = pose;
+        let relative =
+            [turning.speed[CRANK], turning.speed[CRANK] - section_speed[0], turning.speed[SLIDER] - section_speed[1]];
+        let rotary: f64 = self.revolute.iter().zip(relative).map(|(damping, speed)| damping * speed * speed).sum();
+        rotary + self.guide * velocity.pin.x * velocity.pin.x
+    }
+}
+
+impl<const N: usize> Audited<N> {
+    /// `plant` of a scene, which must have room for the audit.
+    pub fn new(scene: &Scene, plant: Box<dyn Plant<N>>) -> Self {
+        let joint = &scene.joint;
+        Self {
+            plant,
+            topology: Topology::of(scene),
+            bodies: bodies(scene),
+            gravity: scene.gravity,
+            viscous: Viscous { revolute: [joint.a.damping, joint.b.damping, joint.c.damping], guide: joint.t.damping },
+        }
+    }
+
+    /// Where the audit's states begin.
+    fn first(&self) -> usize {
+        self.plant.extent().states
+    }
+
+    /// [J] Kinetic energy, and Σ m·g·y.
+    fn mechanical(&self, instant: &Instant) -> (f64, f64) {
+        let Pose { turning, place, velocity, .. } = &instant.pose;
+        let points = [(place.crank, velocity.crank), (place.big_end, velocity.big_end), (place.pin, velocity.pin)];
+        let (mut kinetic, mut moment) = (0.0, 0.0);
+        for k in [CRANK, ROD, SLIDER] {
+            if let (ROD, Some(flexible)) = (k, &instant.flexible) {
+                kinetic += flexible.kinetic;
+                moment += flexible.mass_height;
+                continue;
+            }
+            let body = &self.bodies[k];
+            let arm = turning.rotation[k].apply(body.com);
+            let speed = turning.speed[k];
+            let moving = points[k].1 + speed * perp(arm);
+            kinetic += 0.5 * (body.mass * moving.norm_squared() + body.inertia * speed * speed);
+            moment += body.mass * (points[k].0.y + arm.y);
+        }
+        (kinetic, self.gravity * moment)
+    }
+
+    /// Kinetic and potential energies alone.
+    fn stored(&self, instant: &Instant, account: &Account) -> EnergyOutputs {
+        let (kinetic, gravity) = self.mechanical(instant);
+        let elastic = instant.flexible.map_or(0.0, |flexible| flexible.elastic.energy);
+        let contact = account.energy;
+        EnergyOutputs {
+            kinetic,
+            gravity,
+            elastic,
+            contact,
+            potential: gravity + elastic + contact,
+            ..EnergyOutputs::default()
+        }
+    }
+}
+
+impl<const N: usize> Problem<N> for Audited<N> {
+    type Modes = Contacts;
+
+    fn extent(&self) -> Extent {
+        let Extent { positions, weighed, states } = self.plant.extent();
+        Extent { positions, weighed, states: states + STATES }
+    }
+
+    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+        self.plant.rates(contacts, t, y, rates);
+        let instant = self.plant.instant(contacts, t, y);
+        let Instant { pose, loads, flexible, .. } = &instant;
+        let account = self.plant.account(contacts, pose, y);
+        let inputs = self.plant.signal().at(t);
+        let torque = if self.topology.speed {
+            reactions(self.topology, &self.bodies, self.gravity, &instant).torque
+        } else {
+            inputs.crank_torque
+        };
+        let powers = [
+            torque * pose.turning.speed[CRANK],
+            loads.slider_load * pose.velocity.pin.x,
+            account.contact_loss,
+            account.friction_loss,
+            self.viscous.loss(pose),
+            flexible.map_or(0.0, |flexible| flexible.elastic.modal_loss),
+            0.0,
+        ];
+        rates[self.first()..][..STATES].copy_from_slice(&powers);
+    }
+
+    fn scales(&self) -> &[f64; N] {
+        self.plant.scales()
+    }
+
+    fn longest_step(&self) -> f64 {
+        self.plant.longest_step()
+    }
+
+    fn guard_count(&self) -> usize {
+        self.plant.guard_count()
+    }
+
+    fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
+        self.plant.guards(contacts, t, y, guards);
+    }
+
+    fn guard_scale(&self) -> f64 {
+        self.plant.guard_scale()
+    }
+
+    fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
+        self.plant.cross(contacts, t, y, crossed)
+    }
+}
+
+impl<const N: usize> Plant<N> for Audited<N> {
+    fn start(&self, pose: &StartPose) -> [f64; N] {
+        let mut y = self.plant.start(pose);
+        let t = self.plant.start_time();
+        let contacts = self.plant.start_contacts(t, &y);
+        let instant = self.plant.instant(&contacts, t, &y);
+        let stored = self.stored(&instant, &self.plant.account(&contacts, &instant.pose, &y));
+        y[self.first() + STATES - 1] = stored.kinetic + stored.potential;
+        y
+    }
+
+    fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
+        self.plant.start_contacts(t, y)
+    }
+
+    fn set_signal(&mut self, signal: InputSignal) {
+        self.plant.set_signal(signal);
+    }
+
+    fn signal(&self) -> &InputSignal {
+        self.plant.signal()
+    }
+
+    fn start_time(&self) -> f64 {
+        self.plant.start_time()
+    }
+
+    fn set_start_time(&mut self, time: f64) {
+        self.plant.set_start_time(time);
+    }
+
+    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
+        self.plant.instant(contacts, t, y)
+    }
+
+    fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
+        self.plant.penetration(pose)
+    }
+
+    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
+        self.plant.account(contacts, pose, y)
+    }
+
+    fn energies(&self, contacts: &Contacts, instant: &Instant, y: &[f64; N]) -> EnergyOutputs {
+        let account = self.plant.account(contacts, &instant.pose, y);
+        let stored = self.stored(instant, &account);
+        let first = self.first();
+        let mut sums = [0.0; STATES];
+        sums.copy_from_slice(&y[first..first + STATES]);
+        let [torque_work, load_work, contact_loss, friction_loss, viscous_loss, modal_loss, start] = sums;
+        let input = torque_work + load_work;
+        let dissipated = contact_loss + friction_loss + viscous_loss + modal_loss;
+        EnergyOutputs {
+            input,
+            dissipated,
+            residual: stored.kinetic + stored.potential - start - input + dissipated,
+            torque_work,
+            load_work,
+            contact_loss,
+            friction_loss,
+            viscous_loss,
+            modal_loss,
+            ..stored
+        }
+    }
+}

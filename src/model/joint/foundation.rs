@@ -1,0 +1,154 @@
+//! The slider's faces on elastic foundations: a bed of springs, k_w·max(0, δ(x)) per length.
+//!
+//! A face is straight, so that δ(x) is linear along it: the resulting force K·(mean of max(0, δ)),
+//! with K = k_w·2a, its centre and its energy have closed forms. One corner in contact, the whole face
+//! in contact and what lies between is one law, with one continuous derivative.
+//!
+//! The damping is one factor for the whole face, made from the rate at the centre of the undamped
+//! pressure: force times that rate is just the rate of the elastic energy, so that damping never gives
+//! energy back. Force and friction act there.
+
+use super::compliance;
+use super::guide::{CORNERS, Guide, SliderPose, Surface, Touch};
+use crate::integrator::Guard;
+use crate::math;
+use crate::model::contact::ContactMode;
+use crate::scene::Scene;
+use std::f64::consts::PI;
+
+/// The penetration of a face: δ(x) = middle + slope·x, |x| ≤ half.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bed {
+    /// [m] a, half the face's length.
+    pub half: f64,
+    /// [m] δ in the middle.
+    pub middle: f64,
+    /// dδ/dx.
+    pub slope: f64,
+}
+
+/// The part of a bed that is pressed in.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pressed {
+    /// [m] ∫max(0, δ)dx/(2a).
+    pub mean: f64,
+    /// [m] x of the centre of pressure, ∫x·max(0, δ)dx/∫max(0, δ)dx.
+    pub centre: f64,
+}
+
+impl Bed {
+    /// δ at the end that lies deeper and at the other.
+    #[inline(always)]
+    fn ends(&self) -> (f64, f64) {
+        let rise = self.half * self.slope.abs();
+        (self.middle + rise, self.middle - rise)
+    }
+
+    /// Mean penetration and centre of pressure; 0 where nothing is pressed in.
+    #[inline(always)]
+    pub fn pressed(&self) -> Pressed {
+        let Self { half, middle, slope } = *self;
+        let (deep, shallow) = self.ends();
+        if deep <= 0.0 {
+            Pressed::default()
+        } else if shallow >= 0.0 {
+            // A trapezoid. Parallel faces make no difference of large numbers here.
+            Pressed { mean: middle, centre: half / 3.0 * (half * slope / middle) }
+        } else {
+            // A triangle of this length at the deeper end.
+            let length = deep / slope.abs();
+            Pressed { mean: deep * length / (4.0 * half), centre: (half - length / 3.0).copysign(slope) }
+        }
+    }
+
+    /// [m²] Mean of max(0, δ)²: the energy is half the face's stiffness K times this.
+    pub fn mean_square(&self) -> f64 {
+        let Self { half, middle, slope } = *self;
+        let (deep, shallow) = self.ends();
+        if deep <= 0.0 {
+            0.0
+        } else if shallow >= 0.0 {
+            middle * middle + (half * slope).powi(2) / 3.0
+        } else {
+            deep * deep * (deep / slope.abs()) / (6.0 * half)
+        }
+    }
+}
+
+/// [N/m] K = k_w·2a of a face that is pressed in evenly.
+pub fn stiffness(scene: &Scene) -> f64 {
+    let joint = &scene.joint.t;
+    let length = scene.slider.length;
+    if joint.foundation_stiffness > 0.0 {
+        joint.foundation_stiffness * length
+    } else {
+        half_space_stiffness(length, joint.contact.width, compliance(&joint.contact))
+    }
+}
+
+/// [N/m] Of a rectangle on elastic half-spaces whose compliances (1 − ν²)/E add up to `compliance`
+/// [1/Pa]: √A/(m·compliance), m from the mean displacement under even pressure (S. P. Timoshenko,
+/// J. N. Goodier, Theory of Elasticity, § 139: 0.95 for a square).
+pub fn half_space_stiffness(length: f64, width: f64, compliance: f64) -> f64 {
+    let r = length.max(width) / length.min(width);
+    // 1 + r³ − (1 + r²)^1.5 without the difference of two large cubes.
+    let s = (1.0 + r * r).sqrt();
+    let cubes = 1.0 - (s * s + s * r + r * r) / (s + r);
+    let sum = 2.0 * r * math::asinh(r) + 2.0 * r * r * math::asinh(1.0 / r) + 2.0 / 3.0 * cubes;
+    let m = sum / (PI * r * r.sqrt());
+    (length * width).sqrt() / (m * compliance)
+}
+
+/// Each face is a contact.
+pub(super) struct Faces;
+
+impl Faces {
+    #[inline(always)]
+    fn bed(guide: &Guide, face: usize, pose: &SliderPose) -> Bed {
+        let middle = &guide.middles[face];
+        Bed { half: guide.half_length, middle: middle.touch(pose).depth, slope: -middle.normal * pose.rotation.sin }
+    }
+
+    /// The two ends of a face.
+    #[inline(always)]
+    fn ends(guide: &Guide, face: usize, pose: &SliderPose) -> [Touch; 2] {
+        [guide.corners[2 * face].touch(pose), guide.corners[2 * face + 1].touch(pose)]
+    }
+}
+
+impl Surface for Faces {
+    const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 0, 1, 1];
+
+    #[inline(always)]
+    fn touch(guide: &Guide, face: usize, pose: &SliderPose) -> Touch {
+        let Pressed { mean, centre } = Self::bed(guide, face, pose).pressed();
+        let mut mark = guide.middles[face];
+        mark.offset.x += centre;
+        Touch { depth: mean, ..mark.touch(pose) }
+    }
+
+    fn approach(guide: &Guide, face: usize, pose: &SliderPose) -> (f64, f64) {
+        let [front, rear] = Self::ends(guide, face, pose);
+        (front.depth.max(rear.depth), front.rate.max(rear.rate))
+    }
+
+    /// An open face closes with either of its corners and has a guard for each; a closed one opens
+    /// with the deeper one.
+    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
+        let mut guards = [Guard { value: 1.0, rate: 0.0 }; CORNERS];
+        for (face, pair) in guards.chunks_exact_mut(2).enumerate() {
+            let [front, rear] = Self::ends(guide, face, pose).map(|end| Guard { value: end.depth, rate: end.rate });
+            if modes[face].closed {
+                let front_is_deeper = (front.value, front.rate) > (rear.value, rear.rate);
+                pair[0] = if front_is_deeper { front } else { rear };
+            } else {
+                pair.copy_from_slice(&[front, rear].map(|end| Guard { value: -end.value, rate: -end.rate }));
+            }
+        }
+        guards
+    }
+
+    fn energy(guide: &Guide, face: usize, pose: &SliderPose) -> f64 {
+        0.5 * guide.contact.stiffness * Self::bed(guide, face, pose).mean_square()
+    }
+}
