@@ -1,8 +1,12 @@
 //! The energy audit: works and losses integrated beside the motion.
 //!
-//! An [`Audited`] mechanism has seven first-order states more: the works of torque and load, the losses
-//! of contacts, friction, viscous and modal damping, and, constant, the energy that it started with.
-//! They follow from the motion and are not weighed by the error norm: an audit changes no bit of it.
+//! An [`Audited`] mechanism has seven first-order states more: the works of torque, load and normal
+//! forces, the losses of friction, viscous and modal damping, and, constant, the energy that it started
+//! with. They follow from the motion and are not weighed by the error norm: an audit changes no bit of it.
+//!
+//! What contacts lose is the work that normal forces take less the elastic energy that it leaves in them.
+//! That power is 0 while a contact that has no adhesion lets go, where the loss itself has corners that
+//! steps of a smooth motion would step over.
 
 use super::contact::Account;
 use super::drive::InputSignal;
@@ -19,6 +23,8 @@ use crate::scene::Scene;
 
 /// Number of states of an audit.
 pub const STATES: usize = 7;
+/// Place of the normal forces' work, which begins with the elastic energy of the start.
+const NORMAL_WORK: usize = 2;
 
 /// A mechanism whose energy is reckoned up.
 pub struct Audited<const N: usize> {
@@ -125,7 +131,7 @@ impl<const N: usize> Problem<N> for Audited<N> {
         let powers = [
             torque * pose.turning.speed[CRANK],
             loads.slider_load * pose.velocity.pin.x,
-            account.contact_loss,
+            account.normal_power,
             account.friction_loss,
             self.viscous.loss(pose),
             flexible.map_or(0.0, |flexible| flexible.elastic.modal_loss),
@@ -166,7 +172,9 @@ impl<const N: usize> Plant<N> for Audited<N> {
         let contacts = self.plant.start_contacts(t, &y);
         let instant = self.plant.instant(&contacts, t, &y);
         let stored = self.stored(&instant, &self.plant.account(&contacts, &instant.pose, &y));
-        y[self.first() + STATES - 1] = stored.kinetic + stored.potential;
+        let first = self.first();
+        y[first + NORMAL_WORK] = stored.contact;
+        y[first + STATES - 1] = stored.kinetic + stored.potential;
         y
     }
 
@@ -208,7 +216,8 @@ impl<const N: usize> Plant<N> for Audited<N> {
         let first = self.first();
         let mut sums = [0.0; STATES];
         sums.copy_from_slice(&y[first..first + STATES]);
-        let [torque_work, load_work, contact_loss, friction_loss, viscous_loss, modal_loss, start] = sums;
+        let [torque_work, load_work, normal_work, friction_loss, viscous_loss, modal_loss, start] = sums;
+        let contact_loss = normal_work - stored.contact;
         let input = torque_work + load_work;
         let dissipated = contact_loss + friction_loss + viscous_loss + modal_loss;
         EnergyOutputs {

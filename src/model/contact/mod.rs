@@ -114,8 +114,8 @@ pub fn force<E: Elastic, D: Damped, F: Friction>(
 pub struct Account {
     /// [J] Elastic energy.
     pub energy: f64,
-    /// [W] That hysteresis takes.
-    pub contact_loss: f64,
+    /// [W] That normal forces take, f_n·δ̇: the rate of `energy` and what hysteresis loses.
+    pub normal_power: f64,
     /// [W] That friction takes, bristles included.
     pub friction_loss: f64,
 }
@@ -123,13 +123,12 @@ pub struct Account {
 impl std::ops::AddAssign for Account {
     fn add_assign(&mut self, other: Self) {
         self.energy += other.energy;
-        self.contact_loss += other.contact_loss;
+        self.normal_power += other.normal_power;
         self.friction_loss += other.friction_loss;
     }
 }
 
-/// The account of the [`force`] of the same arguments, with the power-law's energy: what the bodies
-/// lose to it, f_n·δ̇ + f_t·v_t, less the rate of the elastic energy.
+/// The account of the [`force`] of the same arguments: what the bodies lose to it is f_n·δ̇ + f_t·v_t.
 pub fn account<E: Elastic, D: Damped, F: Friction>(
     parameters: &ContactParameters,
     per_approach: f64,
@@ -139,11 +138,9 @@ pub fn account<E: Elastic, D: Damped, F: Friction>(
     sliding: f64,
 ) -> Account {
     let Forces { normal, tangential, .. } = force::<E, D, F>(parameters, per_approach, depth, rate, z, || sliding);
-    let depth = depth.max(0.0);
-    let elastic = E::force(parameters, depth);
     Account {
-        energy: E::energy(parameters, depth),
-        contact_loss: (normal - elastic) * rate,
+        energy: E::energy(parameters, depth.max(0.0)),
+        normal_power: normal * rate,
         friction_loss: tangential * sliding,
     }
 }
