@@ -18,6 +18,11 @@ impl Input {
     pub fn wants_angle(&self) -> bool {
         matches!(self.profile, Profile::Points { against: Against::CrankAngle, .. })
     }
+
+    /// Whether it never changes.
+    pub fn is_constant(&self) -> bool {
+        matches!(self.profile, Profile::Constant(_))
+    }
 }
 
 /// The inputs of a scene.

@@ -1,6 +1,7 @@
 //! Builds, packages, loads and runs FMUs of FMI 2.0 co-simulation.
 
 pub mod command;
+pub mod effects;
 pub mod host;
 pub mod inputs;
 pub mod inspect;

@@ -1,7 +1,7 @@
 //! The command line: without a command it packages a scene, runs it through the packaged file and reports.
 
 use clap::{Parser, Subcommand};
-use fmu_harness::command::{Inspect, Package, Run};
+use fmu_harness::command::{Effects, Inspect, Package, Run};
 use std::process::ExitCode;
 
 /// Builds, packages and runs the slider-crank FMU.
@@ -25,6 +25,8 @@ enum Command {
     Run(Run),
     /// Prints what an FMU declares
     Inspect(Inspect),
+    /// Prices every effect
+    Effects(Effects),
 }
 
 fn main() -> ExitCode {
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         Some(Command::Package(package)) => package.execute(),
         Some(Command::Run(run)) => run.execute(),
         Some(Command::Inspect(inspect)) => inspect.execute(),
+        Some(Command::Effects(effects)) => effects.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -30,12 +30,23 @@ impl Scenario {
 
 /// The file of a shipped scene.
 fn shipped(name: &str) -> Result<PathBuf> {
-    let directory = workspace().join("fmu-harness").join("scenes");
+    let directory = directory();
     let file = directory.join(format!("{name}.toml"));
     if file.is_file() {
         return Ok(file);
     }
-    bail!("no scene `{name}`: shipped are {}; or give a file that ends in .toml", names(&directory).join(", "))
+    let shipped = [names(&directory), ladder()].concat().join(", ");
+    bail!("no scene `{name}`: shipped are {shipped}; or give a file that ends in .toml")
+}
+
+/// Where the shipped scenes are.
+pub fn directory() -> PathBuf {
+    workspace().join("fmu-harness").join("scenes")
+}
+
+/// The ladder of effects: names of shipped scenes, each of which has one effect more than the one before.
+pub fn ladder() -> Vec<String> {
+    names(&directory().join("effects")).into_iter().map(|name| format!("effects/{name}")).collect()
 }
 
 /// Names of the scenes in a directory, sorted.

@@ -119,24 +119,21 @@ impl Clearances {
         depths
     }
 
-    /// How many event functions there are.
+    /// How many event functions there are; an ideal joint has none.
     #[inline(always)]
     pub fn guard_count(&self, clear: [bool; 4]) -> usize {
-        if clear[3] { 3 + CORNERS } else { 3 }
+        guard_place(clear, 3) + if clear[3] { CORNERS } else { 0 }
     }
 
-    /// Writes the event functions; an ideal joint's never falls.
+    /// Writes the event functions.
     #[inline(always)]
     pub fn guards(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
-        for joint in 0..3 {
-            guards[joint] = if clear[joint] {
-                self.revolute[joint].guard(&contacts[joint], &pose.play(joint))
-            } else {
-                Guard { value: 1.0, rate: 0.0 }
-            };
+        for joint in (0..3).filter(|&joint| clear[joint]) {
+            guards[guard_place(clear, joint)] = self.revolute[joint].guard(&contacts[joint], &pose.play(joint));
         }
         if clear[3] {
-            guards[3..3 + CORNERS].copy_from_slice(&self.guide.guards(&contacts[3..], &pose.slider()));
+            let place = guard_place(clear, 3);
+            guards[place..place + CORNERS].copy_from_slice(&self.guide.guards(&contacts[3..], &pose.slider()));
         }
     }
 
@@ -152,7 +149,7 @@ impl Clearances {
     ) -> Reset<Contacts> {
         let penetrations = self.penetrations(clear, pose);
         let mut reset = Reset { modes: *contacts, step: None };
-        let crossed = self.guide.contacts_of(crossed);
+        let crossed = self.guide.contacts_of(&by_joint(clear, crossed));
         for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if mode.closed {
                 *mode = ContactMode::default();
@@ -194,4 +191,22 @@ impl Clearances {
             _ => self.mass[SLIDER],
         }
     }
+}
+
+/// Where the event functions of a joint begin.
+#[inline(always)]
+fn guard_place(clear: [bool; 4], joint: usize) -> usize {
+    clear.into_iter().take(joint).filter(|&clear| clear).count()
+}
+
+/// The same, where A, B, C and the guide's corners have places whether they have clearance or not.
+fn by_joint(clear: [bool; 4], crossed: &Crossed) -> Crossed {
+    let mut all = [false; GUARDS];
+    for joint in (0..3).filter(|&joint| clear[joint]) {
+        all[joint] = crossed[guard_place(clear, joint)];
+    }
+    if clear[3] {
+        all[3..3 + CORNERS].copy_from_slice(&crossed[guard_place(clear, 3)..][..CORNERS]);
+    }
+    all
 }

@@ -23,6 +23,17 @@ pub struct Simulation {
     time: f64,
 }
 
+/// How large the equations of motion are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Size {
+    /// Degrees of freedom; a prescribed crank angle is none.
+    pub degrees_of_freedom: usize,
+    /// States: positions, their rates, and what else is integrated.
+    pub states: usize,
+    /// Event functions: one of each joint A, B, C with clearance, and four of the guide.
+    pub event_functions: usize,
+}
+
 /// Why a simulation cannot start or go on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SimulationError {
@@ -107,6 +118,16 @@ impl Simulation {
     /// integers and Booleans are without meaning.
     pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.motion.output_sensitivity(self.time, seed)
+    }
+
+    /// How large its equations of motion are.
+    pub fn size(&self) -> Size {
+        self.motion.size()
+    }
+
+    /// Evaluates the equations of motion so many times, for nothing: where the next step starts, to be timed.
+    pub fn evaluate(&self, times: usize) {
+        self.motion.evaluate(times);
     }
 
     /// All that is needed to go on from here.

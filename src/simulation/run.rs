@@ -1,7 +1,8 @@
 //! One mechanism under one method.
 
+use super::Size;
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics};
+use crate::integrator::{Extent, Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -10,6 +11,7 @@ use crate::model::signals::{Inputs, Outputs, SolverOutputs};
 use crate::model::start::StartPose;
 use crate::model::state::{CONTACTS, Contacts};
 use crate::scene::Scene;
+use std::hint::black_box;
 
 /// A mechanism in motion, whatever its size.
 pub trait Motion: Send {
@@ -23,6 +25,10 @@ pub trait Motion: Send {
     fn output_rates(&mut self, t: f64) -> Outputs;
     /// Their derivatives with respect to the inputs, along `seed`.
     fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs;
+    /// How large it is.
+    fn size(&self) -> Size;
+    /// Evaluates the right-hand side where the next step starts.
+    fn evaluate(&self, times: usize);
     /// Appends all that it remembers.
     fn save(&self, snapshot: &mut Snapshot);
     /// Takes back what `save` appended; `None` if it does not fit.
@@ -116,6 +122,20 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         let one = self.observe_under(t, seed);
         let other = self.observe_under(t, Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
         one.combined(&other, |one, other| 0.5 * (one - other))
+    }
+
+    fn size(&self) -> Size {
+        let Extent { positions, states, .. } = Extent::of(self.plant.as_ref());
+        Size { degrees_of_freedom: positions, states, event_functions: self.plant.guard_count() }
+    }
+
+    fn evaluate(&self, times: usize) {
+        let Front { t, y, modes, .. } = &self.integrator.memory().front;
+        let mut rates = [0.0; N];
+        for _ in 0..times {
+            self.plant.rates(black_box(modes), *t, black_box(y), &mut rates);
+            black_box(&rates);
+        }
     }
 
     fn save(&self, snapshot: &mut Snapshot) {

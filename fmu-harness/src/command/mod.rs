@@ -1,9 +1,11 @@
 //! The subcommands.
 
+mod effects;
 mod inspect;
 mod package;
 mod run;
 
+pub use effects::Effects;
 pub use inspect::Inspect;
 pub use package::Package;
 pub use run::Run;

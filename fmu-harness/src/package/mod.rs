@@ -34,14 +34,55 @@ pub struct Package {
     pub glibc: Option<String>,
 }
 
+/// What packages of all scenes have in common.
+pub struct Stock {
+    library: Vec<u8>,
+    third_party: String,
+}
+
+impl Stock {
+    /// Builds the library.
+    pub fn build() -> Result<Self> {
+        let path = build::library()?;
+        let library = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        Ok(Self { library, third_party: licences::third_party()? })
+    }
+
+    /// Packages the library with the scenario's values as start values.
+    pub fn package(&self, scenario: &Scenario) -> Result<Package> {
+        let parts = self.parts(scenario)?;
+        let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
+        Ok(Package { bytes: archive::write(&parts)?, glibc })
+    }
+
+    /// Everything that goes into the archive, in its order.
+    fn parts(&self, scenario: &Scenario) -> Result<Vec<Part>> {
+        let scene = &scenario.file.scene;
+        let declaration = model_description::load().context("the declaration of the variables")?;
+        let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
+        let mut library = self.library.clone();
+        slot::write(&mut library, scene)?;
+        let identifier = &declaration.model.identifier;
+        let mut parts = vec![
+            Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
+            Part::new("model.png", PICTURE),
+            Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
+            Part::new("documentation/index.html", page(scenario)?),
+            Part::new("documentation/scene.toml", scenario.text.as_str()),
+            Part::new("documentation/licenses/license.txt", licences::own()),
+            Part::new("documentation/licenses/third-party.txt", self.third_party.as_str()),
+        ];
+        if let Some(table) = &scene.rod.flexible.table {
+            parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
+        }
+        Ok(parts)
+    }
+}
+
 impl Package {
     /// Builds the library and packages it with the scenario's values as start values.
     pub fn make(scenario: &Scenario) -> Result<Self> {
-        let path = build::library()?;
-        let library = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
-        let parts = parts(scenario, library)?;
-        let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
-        Ok(Self { bytes: archive::write(&parts)?, glibc })
+        Stock::build()?.package(scenario)
     }
 
     /// Writes the file, making its directory if need be.
@@ -50,28 +91,6 @@ impl Package {
         fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).with_context(context)?;
         fs::write(file, &self.bytes).with_context(context)
     }
-}
-
-/// Everything that goes into the archive, in its order.
-fn parts(scenario: &Scenario, mut library: Vec<u8>) -> Result<Vec<Part>> {
-    let scene = &scenario.file.scene;
-    let declaration = model_description::load().context("the declaration of the variables")?;
-    let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
-    slot::write(&mut library, scene)?;
-    let identifier = &declaration.model.identifier;
-    let mut parts = vec![
-        Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
-        Part::new("model.png", PICTURE),
-        Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
-        Part::new("documentation/index.html", page(scenario)?),
-        Part::new("documentation/scene.toml", scenario.text.as_str()),
-        Part::new("documentation/licenses/license.txt", licences::own()),
-        Part::new("documentation/licenses/third-party.txt", licences::third_party()?),
-    ];
-    if let Some(table) = &scene.rod.flexible.table {
-        parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
-    }
-    Ok(parts)
 }
 
 /// modelDescription.xml: the scene's values are the start values, its run the default experiment.

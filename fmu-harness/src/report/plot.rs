@@ -1,4 +1,4 @@
-//! Panels of curves on one sheet, as SVG: the only file that knows the plotting library.
+//! Panels on one sheet, as SVG, and panels of curves. With `bars`, the only file that knows the plotting library.
 
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use std::ops::Range;
 
 /// Drawing units a pixel: the library rounds to whole units, so that a fine grid keeps curves smooth.
-const FINE: u32 = 8;
+pub(super) const FINE: u32 = 8;
 /// Curves are thinned to so many points, peaks kept.
 const MOST_POINTS: usize = 4000;
 /// Room for numbers and names of the axes [pixel].
@@ -16,8 +16,8 @@ const HEAD: u32 = 60;
 /// Room around a panel [pixel]: left, right, top, bottom.
 const MARGINS: [u32; 4] = [12, 18, 8, 4];
 
-const INK: RGBColor = RGBColor(38, 44, 54);
-const GRID: RGBColor = RGBColor(226, 229, 234);
+pub(super) const INK: RGBColor = RGBColor(38, 44, 54);
+pub(super) const GRID: RGBColor = RGBColor(226, 229, 234);
 
 /// What a curve stands for, which decides its looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,14 +28,20 @@ pub enum Role {
     Ideal,
     /// A bound, such as a clearance circle.
     Limit,
+    /// A bar.
+    Whole,
+    /// A bar for what is in another.
+    Part,
 }
 
 impl Role {
-    fn style(self) -> ShapeStyle {
+    pub(super) fn style(self) -> ShapeStyle {
         let (color, width) = match self {
             Self::Actual => (RGBColor(24, 84, 158), 1.1),
             Self::Ideal => (RGBColor(247, 181, 94), 3.2),
             Self::Limit => (RGBColor(196, 62, 62), 1.4),
+            Self::Whole => (RGBColor(24, 84, 158), 10.0),
+            Self::Part => (RGBColor(247, 181, 94), 10.0),
         };
         ShapeStyle { color: color.to_rgba(), filled: false, stroke_width: (width * f64::from(FINE)) as u32 }
     }
@@ -61,21 +67,27 @@ pub struct Panel {
     pub square: bool,
 }
 
+/// What a sheet is made of.
+pub trait Paint {
+    /// Draws itself to fill the area.
+    fn draw(&self, area: &Area) -> Drawn;
+}
+
 /// A titled grid of panels.
-pub struct Sheet {
+pub struct Sheet<P = Panel> {
     /// One line.
     pub title: String,
     /// Names of the curves.
     pub legend: Vec<(Role, String)>,
     /// The panels, row by row.
-    pub panels: Vec<Panel>,
+    pub panels: Vec<P>,
     /// Panels side by side.
     pub columns: usize,
     /// [pixel] Of one panel: width, height.
     pub panel_size: (u32, u32),
 }
 
-impl Sheet {
+impl<P: Paint> Sheet<P> {
     /// Draws the sheet as an SVG document.
     pub fn svg(&self) -> Result<String> {
         let rows = self.panels.len().div_ceil(self.columns);
@@ -122,10 +134,12 @@ pub fn square_panel(side: u32) -> (u32, u32) {
     (side + LABELS.1 + MARGINS[0] + MARGINS[1], side + LABELS.0 + MARGINS[2] + MARGINS[3])
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
+/// A part of a sheet.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// Whether it could be drawn.
+pub type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
 
-fn font(pixels: f64) -> TextStyle<'static> {
+pub(super) fn font(pixels: f64) -> TextStyle<'static> {
     ("sans-serif", pixels * f64::from(FINE)).into_font().color(&INK)
 }
 
@@ -133,7 +147,7 @@ fn bold(pixels: f64) -> TextStyle<'static> {
     ("sans-serif", pixels * f64::from(FINE)).into_font().style(FontStyle::Bold).color(&INK)
 }
 
-impl Panel {
+impl Paint for Panel {
     fn draw(&self, area: &Area) -> Drawn {
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let (mut x, mut y) = (range(points().map(|point| point.0)), margin(range(points().map(|point| point.1))));

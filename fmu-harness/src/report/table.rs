@@ -10,6 +10,11 @@ impl Table {
         self.0.push(cells.map(Into::into).into());
     }
 
+    /// Adds a line of as many cells as there are.
+    pub fn line(&mut self, cells: Vec<String>) {
+        self.0.push(cells);
+    }
+
     /// The lines, aligned.
     pub fn print(&self) -> String {
         let columns = self.0.iter().map(Vec::len).max().unwrap_or_default();
@@ -26,5 +31,13 @@ impl Table {
             text.push('\n');
         }
         text
+    }
+
+    /// The same for a Markdown page; the first line is the head.
+    pub fn markdown(&self) -> String {
+        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+        let Some((head, rows)) = self.0.split_first() else { return String::new() };
+        let alignment = format!("|---|{}\n", "--:|".repeat(head.len().saturating_sub(1)));
+        line(head) + &alignment + &rows.iter().map(|row| line(row)).collect::<String>()
     }
 }

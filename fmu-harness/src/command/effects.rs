@@ -1,0 +1,69 @@
+//! `effects`: what every effect costs.
+
+use super::{out_directory, shown};
+use crate::effects::Price;
+use crate::host::Fmu;
+use crate::package::Stock;
+use crate::report::price;
+use crate::scenes::{Scenario, ladder};
+use anyhow::{Context, Result};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
+use std::path::PathBuf;
+
+/// Share of its time that a scene runs for with `--quick`.
+const QUICK: f64 = 0.1;
+
+/// Prices every effect: runs a ladder of scenes, each with one effect more than the one before.
+///
+/// The scenes are those of fmu-harness/scenes/effects. Each is packaged, the packaged file is run over the scene's whole
+/// time on one thread, at least three times, and the fastest run counts. "All in" is its CPU time in fmi2DoStep over the
+/// evaluations that it made; "bare" is the right-hand side alone, called from this program at states along the run.
+/// Writes effects.csv, effects.md, effects.svg and the packaged scenes.
+#[derive(Args)]
+pub struct Effects {
+    /// Run every scene for a tenth of its time
+    #[arg(long)]
+    quick: bool,
+    /// Directory of the results [default: target/out]
+    #[arg(short, long, value_name = "DIRECTORY")]
+    output: Option<PathBuf>,
+}
+
+impl Effects {
+    /// Packages, measures, reports.
+    pub fn execute(&self) -> Result<()> {
+        let out = self.output.clone().unwrap_or_else(out_directory);
+        fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
+        let stock = Stock::build()?;
+        let scenes = ladder();
+        let style = ProgressStyle::with_template("{msg:30} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4}")?;
+        let bar = ProgressBar::new(scenes.len() as u64).with_style(style);
+        let mut prices = Vec::new();
+        for scene in &scenes {
+            bar.set_message(scene.clone());
+            let scenario = Scenario::find(scene)?;
+            let file = out.join(format!("{scene}.fmu"));
+            stock.package(&scenario)?.save(&file)?;
+            let span = scenario.file.run.stop(&scenario.file.scene) * if self.quick { QUICK } else { 1.0 };
+            prices.push(Price::of(&scenario.file, &Fmu::open(&file)?, span).with_context(|| scene.clone())?);
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        self.report(&prices, &out)
+    }
+
+    fn report(&self, prices: &[Price], out: &std::path::Path) -> Result<()> {
+        let tables = [price::prices(prices), price::increments(prices)];
+        tables.iter().for_each(|table| println!("{}", table.print()));
+        let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("effects.{ending}")));
+        price::write_csv(prices, &csv)?;
+        let text = tables.map(|table| table.markdown()).join("\n");
+        for (file, text) in [(&page, text), (&drawing, price::sheet(prices).svg()?)] {
+            fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
+        }
+        [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
+        Ok(())
+    }
+}

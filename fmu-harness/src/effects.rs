@@ -1,0 +1,111 @@
+//! What every effect costs: a ladder of scenes, each with one effect more than the one before.
+//!
+//! Work and time come from the packaged FMU, stepped by its C interface. What an FMU cannot be asked, its size and the
+//! time of an evaluation alone, comes from the same sources in this program.
+
+use crate::host::Fmu;
+use crate::inputs;
+use crate::run::{Experiment, Until, march};
+use anyhow::{Context, Result};
+use cpu_time::ThreadTime;
+use slidercrank::model::signals::Inputs;
+use slidercrank::scene::profile::Profiles;
+use slidercrank::scene::read::SceneFile;
+use slidercrank::simulation::{Simulation, Size};
+use std::time::Duration;
+
+/// Runs of a scene, of which the fastest counts: what other programs do to a run only makes it slower.
+const LEAST_RUNS: usize = 3;
+/// Short ones are repeated more often, until they have taken so long together.
+const ENOUGH: Duration = Duration::from_millis(200);
+/// But no more often.
+const MOST_RUNS: usize = 200;
+/// States along a run at which the right-hand side is evaluated.
+const STATES: usize = 400;
+/// Evaluations of each in one measurement.
+const EVALUATIONS: usize = 128;
+/// Measurements of each, of which the least counts.
+const MEASUREMENTS: usize = 5;
+
+/// What a scene costs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Price {
+    /// The scene.
+    pub scene: String,
+    /// Of its equations of motion.
+    pub size: Size,
+    /// [s] Of one evaluation of the right-hand side alone, mean over the evaluations of the run.
+    pub evaluation: f64,
+    /// Evaluations per simulated second.
+    pub evaluations: f64,
+    /// Steps per simulated second.
+    pub steps: f64,
+    /// Events per simulated second.
+    pub events: f64,
+    /// [s/s] The processor's time in fmi2DoStep per simulated second.
+    pub time: f64,
+}
+
+impl Price {
+    /// [s] The processor's time in fmi2DoStep per evaluation: integration, events and interface shared out.
+    pub fn all_in(&self) -> f64 {
+        self.time / self.evaluations
+    }
+
+    /// Prices the scene, packaged as `fmu`, over its first `span` [s].
+    pub fn of(file: &SceneFile, fmu: &Fmu, span: f64) -> Result<Self> {
+        let experiment = Experiment {
+            settings: vec![],
+            inputs: inputs::of_scene(&file.inputs),
+            start: 0.0,
+            until: Until::Time(span),
+            step: file.run.step,
+            tolerance: None,
+        };
+        let mut least = Duration::MAX;
+        let mut total = Duration::ZERO;
+        let mut counts = [0.0; 3];
+        for run in 1..=MOST_RUNS {
+            let (spent, outputs) = march(fmu, &experiment)?;
+            (least, total) = (least.min(spent), total + spent);
+            for (count, name) in counts.iter_mut().zip(["evaluations", "steps", "events"]) {
+                let column = outputs.column(&format!("solver.{name}"))?;
+                *count = column.last().context("a run without an end")? / span;
+            }
+            if run >= LEAST_RUNS && total >= ENOUGH {
+                break;
+            }
+        }
+        let [evaluations, steps, events] = counts;
+        let simulation = Simulation::start(&file.scene, 0.0, inputs_at_start(file))?;
+        let size = simulation.size();
+        let evaluation = evaluation(simulation, span)?;
+        let time = least.as_secs_f64() / span;
+        Ok(Self { scene: file.name.clone(), size, evaluation, evaluations, steps, events, time })
+    }
+}
+
+/// [s] One evaluation of the right-hand side alone, at states along the first `span` [s] of a run, each of which counts
+/// as often as the run evaluates near it.
+pub fn evaluation(mut simulation: Simulation, span: f64) -> Result<f64> {
+    let (mut spent, mut done) = (0.0, 0);
+    for state in 1..=STATES {
+        simulation.advance_to(span * state as f64 / STATES as f64)?;
+        let before = std::mem::replace(&mut done, simulation.outputs().solver.evaluations);
+        let least = (0..MEASUREMENTS).map(|_| {
+            let start = ThreadTime::now();
+            simulation.evaluate(EVALUATIONS);
+            start.elapsed().as_secs_f64() / EVALUATIONS as f64
+        });
+        spent += f64::from(done - before) * least.fold(f64::INFINITY, f64::min);
+    }
+    Ok(spent / f64::from(done))
+}
+
+/// The scene's inputs where it starts.
+pub fn inputs_at_start(file: &SceneFile) -> Inputs {
+    let Profiles { crank_torque, slider_load } = &file.inputs;
+    let [crank_torque, slider_load] =
+        [crank_torque, slider_load].map(|profile| profile.value(0.0, file.scene.crank.angle_start));
+    Inputs { crank_torque, slider_load }
+}
