@@ -9,7 +9,8 @@
 //! energy back. Force and friction act there.
 
 use super::compliance;
-use super::guide::{CORNERS, Guide, SliderPose, Surface, Touch};
+use super::corners::Touch;
+use super::guide::{CORNERS, Guide, SliderPose, Surface};
 use crate::integrator::Guard;
 use crate::math;
 use crate::model::contact::ContactMode;

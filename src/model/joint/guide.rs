@@ -5,13 +5,12 @@
 //! corner as a contact of its own ([`Corners`], from which faces and jamming follow), or each face on
 //! an elastic foundation ([`Faces`]). Which it is, and by which laws, is chosen once.
 
+use super::corners::{Corners, Mark, Touch};
 use super::foundation::{self, Faces};
 use super::{KernelFamily, choose, compliance, parameters, with_damping};
 use crate::integrator::{Crossed, Guard};
-use crate::math;
 use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, Linear, force};
 use crate::model::friction::Friction;
-use crate::model::joint::revolute::guard;
 use crate::model::plane::{Rotation, Vec2, cross};
 use crate::scene::{self, Elasticity};
 use std::marker::PhantomData;
@@ -43,31 +42,6 @@ pub struct Load {
     pub couple: f64,
 }
 
-/// A point of the slider and the line that it may touch.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Mark {
-    /// [m] From the pin, in the slider's axes.
-    pub offset: Vec2,
-    /// Of the line's inner normal: −1 for the upper line, +1 for the lower.
-    pub normal: f64,
-    /// [m] Height of the line.
-    pub line: f64,
-}
-
-/// Where a contact's force acts, and the motion of the slider's material there.
-pub(super) struct Touch {
-    /// [m] From the pin.
-    pub arm: Vec2,
-    /// Of the line's inner normal, as in [`Mark`].
-    pub normal: f64,
-    /// [m] Penetration; a face's mean.
-    pub depth: f64,
-    /// [m/s] Into the line.
-    pub rate: f64,
-    /// [m/s] Along the line.
-    pub sliding: f64,
-}
-
 /// What the slider touches its lines with.
 pub(super) trait Surface {
     /// The contact that each corner is part of.
@@ -82,52 +56,6 @@ pub(super) trait Surface {
     fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS];
     /// [J] Elastic energy of contact `k`.
     fn energy(guide: &Guide, k: usize, pose: &SliderPose) -> f64;
-}
-
-/// Each corner is a contact of its own.
-pub(super) struct Corners;
-
-impl Surface for Corners {
-    const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 1, 2, 3];
-
-    #[inline(always)]
-    fn touch(guide: &Guide, k: usize, pose: &SliderPose) -> Touch {
-        guide.corners[k].touch(pose)
-    }
-
-    fn approach(guide: &Guide, k: usize, pose: &SliderPose) -> (f64, f64) {
-        let Touch { depth, rate, .. } = guide.corners[k].touch(pose);
-        (depth, rate)
-    }
-
-    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
-        std::array::from_fn(|k| {
-            let Touch { depth, rate, .. } = guide.corners[k].touch(pose);
-            guard(&modes[k], depth, rate)
-        })
-    }
-
-    fn energy(guide: &Guide, k: usize, pose: &SliderPose) -> f64 {
-        // ∫K·δ^p dδ.
-        let depth = guide.corners[k].touch(pose).depth.max(0.0);
-        let ContactParameters { stiffness, exponent, .. } = guide.contact;
-        stiffness * math::powf(depth, exponent + 1.0) / (exponent + 1.0)
-    }
-}
-
-impl Mark {
-    /// The contact of this point alone.
-    #[inline(always)]
-    pub fn touch(&self, pose: &SliderPose) -> Touch {
-        let arm = pose.rotation.apply(self.offset);
-        Touch {
-            arm,
-            normal: self.normal,
-            depth: self.normal * (self.line - (pose.pin.y + arm.y)),
-            rate: -self.normal * (pose.pin_velocity.y + pose.speed * arm.x),
-            sliding: pose.pin_velocity.x - pose.speed * arm.y,
-        }
-    }
 }
 
 /// The guide with clearance.

@@ -1,0 +1,79 @@
+//! Points of the slider against the guide's lines, and its four corners as contacts of their own.
+
+use super::guide::{CORNERS, Guide, SliderPose, Surface};
+use super::revolute::guard;
+use crate::integrator::Guard;
+use crate::math;
+use crate::model::contact::{ContactMode, ContactParameters};
+use crate::model::plane::Vec2;
+
+/// A point of the slider and the line that it may touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mark {
+    /// [m] From the pin, in the slider's axes.
+    pub offset: Vec2,
+    /// Of the line's inner normal: −1 for the upper line, +1 for the lower.
+    pub normal: f64,
+    /// [m] Height of the line.
+    pub line: f64,
+}
+
+/// Where a contact's force acts, and the motion of the slider's material there.
+pub(super) struct Touch {
+    /// [m] From the pin.
+    pub arm: Vec2,
+    /// Of the line's inner normal, as in [`Mark`].
+    pub normal: f64,
+    /// [m] Penetration; a face's mean.
+    pub depth: f64,
+    /// [m/s] Into the line.
+    pub rate: f64,
+    /// [m/s] Along the line.
+    pub sliding: f64,
+}
+
+impl Mark {
+    /// The contact of this point alone.
+    #[inline(always)]
+    pub fn touch(&self, pose: &SliderPose) -> Touch {
+        let arm = pose.rotation.apply(self.offset);
+        Touch {
+            arm,
+            normal: self.normal,
+            depth: self.normal * (self.line - (pose.pin.y + arm.y)),
+            rate: -self.normal * (pose.pin_velocity.y + pose.speed * arm.x),
+            sliding: pose.pin_velocity.x - pose.speed * arm.y,
+        }
+    }
+}
+
+/// Each corner is a contact of its own.
+pub(super) struct Corners;
+
+impl Surface for Corners {
+    const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 1, 2, 3];
+
+    #[inline(always)]
+    fn touch(guide: &Guide, k: usize, pose: &SliderPose) -> Touch {
+        guide.corners[k].touch(pose)
+    }
+
+    fn approach(guide: &Guide, k: usize, pose: &SliderPose) -> (f64, f64) {
+        let Touch { depth, rate, .. } = guide.corners[k].touch(pose);
+        (depth, rate)
+    }
+
+    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
+        std::array::from_fn(|k| {
+            let Touch { depth, rate, .. } = guide.corners[k].touch(pose);
+            guard(&modes[k], depth, rate)
+        })
+    }
+
+    fn energy(guide: &Guide, k: usize, pose: &SliderPose) -> f64 {
+        // ∫K·δ^p dδ.
+        let depth = guide.corners[k].touch(pose).depth.max(0.0);
+        let ContactParameters { stiffness, exponent, .. } = guide.contact;
+        stiffness * math::powf(depth, exponent + 1.0) / (exponent + 1.0)
+    }
+}
