@@ -217,7 +217,7 @@ fn every_shipped_scene_is_legal() {
     for entry in std::fs::read_dir(folder).expect("the folder of scenes") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
-            continue; // modal tables, the ladder of effects
+            continue;
         }
         let text = std::fs::read_to_string(&path).expect("a text");
         let file = match read(&text, &path.display().to_string()) {

@@ -166,6 +166,19 @@ fn a_file_is_sought_beside_the_scene() {
 }
 
 #[test]
+fn every_shipped_table_is_legal() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fmu-harness/scenes/modes");
+    let files = fs::read_dir(folder).expect("the folder of tables").map(|entry| entry.expect("an entry").path());
+    let read = files.map(|file| {
+        let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+        let text = format!("rod.flexible.table = \"modes/{name}\"");
+        read(&text, &format!("{folder}/../x.toml")).map(|_| name).map_err(|error| error.to_string())
+    });
+    let (legal, wrong): (Vec<_>, Vec<_>) = read.partition(Result::is_ok);
+    assert!(wrong.is_empty() && legal.contains(&Ok("steel-beam.toml".to_owned())), "{wrong:?}");
+}
+
+#[test]
 fn a_table_without_its_form_is_told_with_its_place() {
     assert_eq!(
         refused("[rod.flexible]\ntable = 3\n"),

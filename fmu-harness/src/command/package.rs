@@ -13,7 +13,7 @@ pub struct Package {
     /// Scene: the name of a shipped one, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
     scene: String,
-    /// The FMU to write [default: target/out/<scene>.fmu]
+    /// The FMU to write [default: target/out/SCENE.fmu]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
