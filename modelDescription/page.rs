@@ -10,6 +10,8 @@ pub struct Subject<'a> {
     pub scene: &'a str,
     /// Start values of the parameters, in order.
     pub starts: &'a [f64],
+    /// Numbers of bending and of axial modes of the rod's table, if there is one.
+    pub modes: Option<[usize; 2]>,
     /// Below it some damping laws refuse.
     pub least_restitution: f64,
 }
@@ -25,11 +27,24 @@ pub fn write(declaration: &Declaration, subject: &Subject) -> String {
         .replace("{{version}}", env!("CARGO_PKG_VERSION"))
         .replace("{{description}}", &escaped(&declaration.model.description))
         .replace("{{scene}}", &escaped(subject.scene))
+        .replace("{{modes}}", &modes(subject.modes))
         .replace("{{least_restitution}}", &subject.least_restitution.to_string())
         .replace("{{signals}}", &groups(declaration, &starts, |row| !is_parameter(row)))
         .replace("{{parameters}}", &groups(declaration, &starts, is_parameter))
         .replace("{{enumerations}}", &enumerations(declaration))
         .replace("{{restitution}}", &restitution())
+}
+
+/// Whether this package has a table of modes.
+fn modes(modes: Option<[usize; 2]>) -> String {
+    match modes {
+        None => "this one has none.".to_owned(),
+        Some([bending, axial]) => {
+            format!(
+                "this one has a table of {bending} bending and {axial} axial modes, <code>modes.toml</code> beside this page."
+            )
+        }
+    }
 }
 
 /// Start value of each row, where it has one.

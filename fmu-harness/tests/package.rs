@@ -129,6 +129,44 @@ fn inspection_tells_names_units_and_capabilities() {
 }
 
 #[test]
+fn modes_of_a_table_beside_the_scene_travel_in_the_package() {
+    let directory = TempDir::new().expect("a directory");
+    let write = |name: &str, text: &str| std::fs::write(directory.path().join(name), text).expect("written");
+    let mut scene = scenario().file.scene;
+    (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (2, 1);
+    let table = slidercrank::model::rod::beam::table(&scene);
+    write("bar.toml", &slidercrank::scene::write::write_table(&table));
+    let told = "[rod.flexible]\nbending_modes = 2\naxial_modes = 1\n";
+    write("told.toml", &format!("{}\n{told}table = \"bar.toml\"\n", scenario().text));
+    write("plain.toml", &format!("{}\n{told}", scenario().text));
+    let run_of = |name: &str| {
+        let scenario = Scenario::find(&directory.path().join(format!("{name}.toml")).display().to_string());
+        let file = directory.path().join(format!("{name}.fmu"));
+        Package::make(&scenario.expect("a legal scene")).expect("a package").save(&file).expect("saved");
+        let fmu = Fmu::open(&file).expect("an FMU");
+        let until = Until::Time(1e-3);
+        let experiment =
+            Experiment { settings: vec![], inputs: vec![], start: 0.0, until, step: 1e-4, tolerance: None };
+        let recording = run(&fmu, &experiment, |line| assert!(line.message.is_empty(), "{}", line.message), |_| {});
+        let deflection = recording.expect("a run").column("rod.deflection").expect("an output").to_vec();
+        (
+            fmu.description().model.get("guid").expect("a guid").to_owned(),
+            deflection,
+            Archive::open(&file).expect("an archive"),
+        )
+    };
+    let (told_guid, told, mut told_archive) = run_of("told");
+    let (plain_guid, plain, mut plain_archive) = run_of("plain");
+    assert!(told_guid != plain_guid, "the modes count in the guid");
+    assert!(told == plain && told.iter().any(|deflection| *deflection != 0.0), "a beam by its own table");
+    assert_eq!(plain_archive.text("documentation/modes.toml"), None);
+    let modes = told_archive.text("documentation/modes.toml").expect("the modes");
+    let scene = told_archive.text("documentation/scene.toml").expect("the scene");
+    let again = slidercrank::scene::read::read_with(&scene, "scene.toml", &|_| Ok(modes.clone())).expect("legal");
+    assert_eq!(again.scene.rod.flexible.table, Some(table));
+}
+
+#[test]
 fn integers_and_booleans_are_set_by_name() {
     let (_directory, file) = saved();
     let fmu = Fmu::open(&file).expect("an FMU");

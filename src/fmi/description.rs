@@ -3,6 +3,7 @@
 use crate::model_description::rows::{Experiment, RowError};
 use crate::model_description::{self, page, xml};
 use crate::scene::check::LEAST_RESTITUTION;
+use crate::scene::modal::ModalTable;
 use crate::scene::{PARAMETERS, Scene, slot};
 use std::{fmt, io};
 
@@ -60,7 +61,8 @@ pub fn model_description(
 /// scene that is.
 pub fn documentation(scene: &Scene, title: &str) -> Result<String, DescriptionError> {
     let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
-    let subject = page::Subject { scene: title, starts: &starts, least_restitution: LEAST_RESTITUTION };
+    let modes = scene.rod.flexible.table.as_ref().map(ModalTable::modes);
+    let subject = page::Subject { scene: title, starts: &starts, modes, least_restitution: LEAST_RESTITUTION };
     Ok(page::write(&model_description::load()?, &subject))
 }
 

@@ -108,6 +108,11 @@ const fn numbers(bending: usize, axial: usize) -> usize {
 }
 
 impl ModalTable {
+    /// Numbers of bending and of axial modes.
+    pub fn modes(&self) -> [usize; 2] {
+        [self.bending.len(), self.axial.len()]
+    }
+
     /// Every number in the order of declaration, after the numbers of bending and of axial modes.
     pub fn numbers(&self) -> Vec<f64> {
         let mut out = vec![self.bending.len() as f64, self.axial.len() as f64, self.mass];

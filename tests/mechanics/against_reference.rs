@@ -49,7 +49,6 @@ fn product_agrees_with_the_reference_on_a_flexible_rod() {
 }
 
 #[test]
-#[ignore = "the product has no elastic faces yet"]
 fn product_agrees_with_the_reference_on_elastic_faces() {
     agree_on(face_cases());
 }
@@ -60,7 +59,6 @@ fn product_agrees_with_the_reference_on_bristles() {
 }
 
 #[test]
-#[ignore = "the product has no audit yet"]
 fn product_agrees_with_the_reference_on_energy() {
     agree_on(audit_cases());
 }

@@ -169,6 +169,25 @@ fn the_page_names_every_variable_and_leaves_no_place_unfilled() {
     }
 }
 
+#[test]
+fn the_page_tells_whether_the_package_has_modes_of_its_own() {
+    let page = |scene: &Scene| documentation(scene, "").expect("the page");
+    let mut scene = Scene::default();
+    assert!(page(&scene).contains("not of its variables: this one has none."));
+    (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (3, 2);
+    scene.rod.flexible.table = Some(slidercrank::model::rod::beam::table(&scene));
+    assert!(page(&scene).contains("this one has a table of 3 bending and 2 axial modes, <code>modes.toml</code>"));
+    // The format as the page tells it names every key.
+    let text = slidercrank::scene::write::write_table(scene.rod.flexible.table.as_ref().expect("the table"));
+    let keys = text.lines().filter_map(|line| line.split_once(" = ")).map(|(key, _)| key);
+    let keys: Vec<&str> = keys.filter(|key| key.chars().all(|c| c.is_ascii_lowercase() || c == '_')).collect();
+    assert!(keys.contains(&"slope_end") && keys.contains(&"coupling"), "{keys:?}");
+    for key in keys {
+        let named = ["<code>", "{ ", ", "].iter().any(|before| page(&scene).contains(&format!("{before}{key}")));
+        assert!(named, "{key}");
+    }
+}
+
 /// What stands in the declaration, what replaces it, and the complaint.
 const WRONG_ROWS: [(&str, &str, &str); 15] = [
     ("causality = \"input\"", "causality = \"local\"", "cannot be local, continuous and Torque"),

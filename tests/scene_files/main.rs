@@ -230,5 +230,5 @@ fn every_shipped_scene_is_legal() {
     }
     assert_eq!(problems, Vec::<String>::new());
     names.sort();
-    assert_eq!(names, ["allplay", "guideplay", "ideal", "press", "wornpin"]);
+    assert_eq!(names, ["allplay", "flexrod", "guideplay", "ideal", "press", "seed", "wornpin"]);
 }

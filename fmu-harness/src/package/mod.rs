@@ -8,10 +8,10 @@ mod licences;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result, bail};
 use archive::Part;
+use slidercrank::fmi::description::documentation;
 use slidercrank::model_description::raw::Experiment;
 use slidercrank::model_description::rows::Declaration;
-use slidercrank::model_description::{self, page, xml};
-use slidercrank::scene::check::LEAST_RESTITUTION;
+use slidercrank::model_description::{self, xml};
 use slidercrank::scene::parameter::PARAMETERS;
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::slot;
@@ -67,7 +67,7 @@ impl Stock {
             Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
             Part::new("model.png", PICTURE),
             Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
-            Part::new("documentation/index.html", page(&declaration, scenario, &starts)),
+            Part::new("documentation/index.html", page(scenario)?),
             Part::new("documentation/scene.toml", scenario.text.as_str()),
             Part::new("documentation/licenses/license.txt", licences::own()),
             Part::new("documentation/licenses/third-party.txt", self.third_party.as_str()),
@@ -104,10 +104,9 @@ fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -
 }
 
 /// documentation/index.html.
-fn page(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> String {
-    let SceneFile { name, description, .. } = &scenario.file;
-    let scene = format!("{name}: {description}");
-    page::write(declaration, &page::Subject { scene: &scene, starts, least_restitution: LEAST_RESTITUTION })
+fn page(scenario: &Scenario) -> Result<String> {
+    let SceneFile { name, description, scene, .. } = &scenario.file;
+    Ok(documentation(scene, &format!("{name}: {description}"))?)
 }
 
 /// FMI 2.0 names three platforms that there are machines of.

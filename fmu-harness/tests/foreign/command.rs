@@ -57,7 +57,9 @@ fn inspection_shows_a_foreign_fmu() {
 fn a_refusal_is_one_clear_line() {
     let words = refusal(&["package", "--scene", "wornpn"]);
     assert!(
-        words.starts_with("error: no scene `wornpn`: shipped are allplay, guideplay, ideal, press, wornpin"),
+        words.starts_with(
+            "error: no scene `wornpn`: shipped are allplay, flexrod, guideplay, ideal, press, seed, wornpin"
+        ),
         "{words}"
     );
     assert_eq!(words.lines().count(), 1);

@@ -7,7 +7,7 @@ import pytest
 
 from mechanism import Mechanism
 
-SCENES = ["allplay", "guideplay", "ideal", "press", "wornpin"]
+SCENES = ["allplay", "flexrod", "guideplay", "ideal", "press", "seed", "wornpin"]
 
 
 def fmu(scene):
@@ -24,7 +24,7 @@ def unpacked(scene):
     return make
 
 
-allplay, guideplay, ideal, press, wornpin = map(unpacked, SCENES)
+allplay, flexrod, guideplay, ideal, press, seed, wornpin = map(unpacked, SCENES)
 
 
 @pytest.fixture(params=SCENES)
