@@ -1,6 +1,7 @@
 //! Bars on a logarithmic scale, in named rows.
 
 use super::plot::{Area, Drawn, FINE, GRID, INK, Paint, Role, font};
+use super::units::grouped;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -11,6 +12,8 @@ const BEHIND: f64 = 84.0;
 const SCALE: f64 = 56.0;
 /// Room above [pixel].
 const ABOVE: f64 = 10.0;
+/// Decades that the shortest bar is long, at least.
+const CLEAR: f64 = 0.3;
 /// Share of a row that its bars fill.
 const FILLED: f64 = 0.74;
 
@@ -35,9 +38,10 @@ pub struct Bars {
 impl Bars {
     /// The decades, as powers of ten, from a clear bit below the shortest bar to the longest.
     fn decades(&self) -> (i32, i32) {
-        let values = self.rows.iter().flat_map(|(_, bars)| bars).map(|bar| bar.value.log10());
-        let (low, high) = values.fold((0.0f64, 1.0f64), |(low, high), x| (low.min(x), high.max(x)));
-        ((low - 0.3).floor() as i32, high.ceil() as i32)
+        let values = || self.rows.iter().flat_map(|(_, bars)| bars).map(|bar| bar.value.log10());
+        let low = (values().fold(f64::INFINITY, f64::min) - CLEAR).floor();
+        let high = values().fold(f64::NEG_INFINITY, f64::max).ceil();
+        if low < high { (low as i32, high as i32) } else { (0, 1) }
     }
 }
 
@@ -54,7 +58,7 @@ impl Paint for Bars {
         for decade in low..=high {
             let x = x(f64::from(decade));
             area.draw(&PathElement::new(vec![at(x, ABOVE), at(x, floor)], GRID.stroke_width(FINE)))?;
-            let number = format!("{}", 10f64.powi(decade));
+            let number = if decade < 0 { format!("{}", 10f64.powi(decade)) } else { grouped(10f64.powi(decade)) };
             area.draw(&Text::new(number, at(x, floor + 7.0), anchored(12.0, HPos::Center, VPos::Top)))?;
         }
         let middle = at(0.5 * (NAMES + right), floor + 28.0);
