@@ -1,6 +1,6 @@
 //! The energy audit: works and losses integrated beside the motion.
 //!
-//! An [`Audited`] mechanism has seven first-order states more: the works of torque, load and normal
+//! An audited mechanism has seven first-order states more: the works of torque, load and normal
 //! forces, the losses of friction, viscous and modal damping, and, constant, the energy that it started
 //! with. They follow from the motion and are not weighed by the error norm: an audit changes no bit of it.
 //!

@@ -2,7 +2,7 @@
 //!
 //! Coordinates are those of the rigid mechanism, with joint centres as roots, and the rod's modal
 //! coordinates after them. Which coordinates move which point is in the slopes of a
-//! [`Configuration`]; a mechanism's own modes and joints decide how many there are.
+//! `configuration`; a mechanism's own modes and joints decide how many there are.
 
 mod configuration;
 mod equations;

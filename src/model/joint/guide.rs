@@ -1,9 +1,9 @@
 //! The guide with clearance: a rectangle, the slider, between two lines.
 //!
 //! Corner k is at the offsets (±a, ±b) from the rectangle's centre. An upper one penetrates by
-//! y_k − (h + b + c_T), a lower one by (h − b − c_T) − y_k. What touches a line is a [`Surface`]: each
-//! corner as a contact of its own ([`Corners`], from which faces and jamming follow), or each face on
-//! an elastic foundation ([`Faces`]). Which it is, and by which laws, is chosen once.
+//! y_k − (h + b + c_T), a lower one by (h − b − c_T) − y_k. What touches a line is a surface: each
+//! corner as a contact of its own (`corners`, from which faces and jamming follow), or each face on
+//! an elastic foundation (`foundation`). Which it is, and by which laws, is chosen once.
 
 use super::corners::{Corners, Mark, Touch};
 use super::foundation::{self, Faces};
