@@ -1,12 +1,16 @@
 //! What must hold of the mechanism whatever computes it: closed forms, balances, limits, symmetries.
 
 mod audit;
+mod chance;
 mod clearance_to_zero;
 mod conservation;
 mod consistency;
 mod finite_elements;
 mod first_impact;
 mod flexible;
+mod foundation_guide;
+mod foundation_law;
+mod foundation_motion;
 mod friction;
 mod ideal;
 mod ivp_slider_crank;

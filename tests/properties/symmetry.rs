@@ -7,7 +7,7 @@ use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::{FrictionLaw, Method, Scene};
 
 /// y → −y: what points along y and what turns changes its sign.
-fn mirrored(scene: &Scene) -> Scene {
+pub fn mirrored(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.gravity *= -1.0;
     scene.crank.angle_start *= -1.0;
@@ -25,7 +25,7 @@ fn mirrored(scene: &Scene) -> Scene {
 }
 
 /// The outputs of the mirrored motion.
-fn mirror(o: &Outputs) -> Outputs {
+pub fn mirror(o: &Outputs) -> Outputs {
     let mut o = *o;
     for turned in [
         &mut o.slider.y,
