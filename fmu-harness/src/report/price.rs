@@ -105,8 +105,10 @@ pub fn sheet(prices: &[Price]) -> Sheet<Bars> {
 
 /// Three significant digits, or all that stand before the decimal point.
 fn three_digits(number: f64) -> String {
-    let size = number.abs();
-    if size >= 99.95 || size == 0.0 {
+    // The size of what the number is rounded to.
+    let rounded = format!("{number:.2e}").parse().unwrap_or(number);
+    let size = f64::abs(rounded);
+    if size >= 100.0 || size == 0.0 {
         return grouped(number);
     }
     let decimals = (2.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
@@ -154,6 +156,11 @@ mod tests {
 | audit | 0 | +7 | 0 | +28 | +2 375 | 0 | 0 | +238 | 20.00 |
 ";
         assert_eq!(increments(&ladder()).markdown(), wanted);
+    }
+
+    #[test]
+    fn digits_are_three_after_rounding_too() {
+        assert_eq!([0.0999_96, 9.996, 99.96, 1234.5, 0.0].map(three_digits), ["0.100", "10.0", "100", "1 234", "0"]);
     }
 
     #[test]

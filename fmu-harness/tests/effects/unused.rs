@@ -40,9 +40,8 @@ fn scenes() -> Vec<(String, Scene)> {
     let mut add = |name: &str, edit: fn(&mut Contact)| {
         let mut scene = Scenario::find("effects/05-friction").expect("a legal scene").file.scene;
         let joint = &mut scene.joint;
-        [&mut joint.a.contact, &mut joint.b.contact, &mut joint.c.contact, &mut joint.t.contact]
-            .into_iter()
-            .for_each(edit);
+        let contacts = [&mut joint.a.contact, &mut joint.b.contact, &mut joint.c.contact, &mut joint.t.contact];
+        contacts.into_iter().for_each(edit);
         all.push((name.to_owned(), scene));
     };
     add("tanh", |contact| contact.friction.law = FrictionLaw::Tanh);
