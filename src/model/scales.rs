@@ -16,7 +16,7 @@ const LENGTH: f64 = 3e-6;
 /// [m]
 const CLEARANCE: f64 = 0.5e-3;
 /// [rad] Of a mechanism without clearance.
-const ANGLE: f64 = 0.05;
+const ANGLE: f64 = 0.01;
 /// [1/s] Slowest motion that is still weighed as motion.
 const SLOWEST: f64 = 1.0;
 /// [rad] Most that a prescribed or started crank turns within a step.

@@ -11,10 +11,13 @@ use crate::model::flexible::{Flexible, state_count};
 use crate::model::mechanism::Topology;
 use crate::model::open::Open;
 use crate::model::plant::Plant;
-use crate::model::rod::Rod;
+use crate::model::rod::{Rod, most_functions};
 use crate::model::start::StartPose;
+use crate::scene::modal::MOST_MODES;
 use crate::scene::{Method, Scene};
 
+/// So many modes have room in the smaller arrays.
+const FEW_MODES: usize = 4;
 /// Room for every mechanism: 9 rigid freedoms, 16 modes, 7 bristles, an audit.
 const LARGE: usize = 64;
 
@@ -40,18 +43,18 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
         };
     }
     if let Some(rod) = Rod::new(scene) {
+        /// The flexible mechanism in arrays of these sizes.
+        macro_rules! flexible {
+            ($n:expr, $modes:expr) => {{
+                const N: usize = $n;
+                const MODES: usize = $modes;
+                let plant = Flexible::<N, { N / 2 }, MODES, { most_functions(MODES) }>::assemble(scene, time, rod);
+                with_audit::<N, _>(scene, time, pose, signal, plant)
+            }};
+        }
         let audit = if scene.energy.audit { audit::STATES } else { 0 };
-        return if state_count(scene, &rod) + audit <= ROOM {
-            with_audit::<ROOM, _>(scene, time, pose, signal, Flexible::<ROOM, { ROOM / 2 }>::assemble(scene, time, rod))
-        } else {
-            with_audit::<LARGE, _>(
-                scene,
-                time,
-                pose,
-                signal,
-                Flexible::<LARGE, { LARGE / 2 }>::assemble(scene, time, rod),
-            )
-        };
+        let few = rod.modes() <= FEW_MODES && state_count(scene, &rod) + audit <= ROOM;
+        return if few { flexible!(ROOM, FEW_MODES) } else { flexible!(LARGE, 2 * MOST_MODES) };
     }
     let Topology { a, b, c, t, speed } = Topology::of(scene);
     match (a, b, c, t) {

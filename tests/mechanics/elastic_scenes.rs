@@ -84,9 +84,9 @@ pub fn flexible_cases() -> Vec<Case> {
     [
         each("bending", &[NONE, C, A, B, T, AB, BC, BT, CT, ABC, ALL], rod(2, 0)),
         each("bending and stretching", &[NONE, C, B, T, BC, ALL], rod(3, 1)),
-        each("stretching", &[NONE, B, C, BC], rod(0, 2)),
+        each("stretching", &[NONE, C, BC], rod(0, 2)),
         each("one bending mode", &[NONE, C], rod(1, 0)),
-        each("no foreshortening", &[NONE, C, BT, ALL], changed(|s| s.rod.flexible.geometric_stiffness = false)),
+        each("no foreshortening", &[NONE, C, ALL], changed(|s| s.rod.flexible.geometric_stiffness = false)),
         each("undamped", &[NONE, BC], changed(|s| s.rod.flexible.damping_ratio = 0.0)),
         each("strongly damped", &[NONE, BC], changed(|s| s.rod.flexible.damping_ratio = 0.7)),
         each(
@@ -278,7 +278,7 @@ pub fn audit_cases() -> Vec<Case> {
         ),
         each("audit of faces", &[T, CT], audited(faces)),
         each("audit of lugre", &[C, ALL], audited(|s| each_contact(s, lugre))),
-        each("audit of a flexible rod", &[NONE, C, BT, ALL], audited(|s| flexible(s, 2, 1))),
+        each("audit of a flexible rod", &[NONE, C, ALL], audited(|s| flexible(s, 2, 1))),
         each(
             "audit of everything",
             &[ALL],

@@ -183,6 +183,7 @@ fn draw(pair: &Pair, out: &Path) -> Result<Vec<PathBuf>> {
         ("forces", Some(figure::joint_forces(pair)?)),
         ("journal", figure::journal_paths(pair)?),
         ("guide", figure::guide_play(pair)?),
+        ("rod", figure::rod_shape(pair)?),
     ];
     let mut files = Vec::new();
     for (what, sheet) in sheets {

@@ -69,6 +69,19 @@ pub fn guide_play(pair: &Pair) -> Result<Option<Sheet>> {
     Ok(Some(pair.sheet("slider in its guide", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))?))
 }
 
+/// Deflection and stretch of a flexible rod; `None` of a rigid one.
+pub fn rod_shape(pair: &Pair) -> Result<Option<Sheet>> {
+    let modes = ["bending_modes", "axial_modes"].map(|kind| pair.actual.parameter(&format!("rod.flexible.{kind}")));
+    if modes.into_iter().flatten().sum::<f64>() == 0.0 {
+        return Ok(None);
+    }
+    let panels = [("rod.deflection", "m", "deflection at mid-span"), ("rod.stretch", "m", "stretch from end to end")]
+        .map(|(variable, unit, name)| {
+            pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into()))
+        });
+    Ok(Some(pair.sheet("flexible rod", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))?))
+}
+
 fn path(pair: &Pair, joint: &str) -> Result<Panel> {
     let clearance = pair.actual.parameter(&format!("joint.{joint}.clearance")).unwrap_or_default();
     let shown = Shown::of("m", clearance);

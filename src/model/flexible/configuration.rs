@@ -41,11 +41,11 @@ pub struct Heading<const Q: usize> {
 
 /// All of them at one instant.
 #[derive(Clone, Copy, Debug)]
-pub struct Configuration<const Q: usize> {
+pub struct Configuration<const Q: usize, const K: usize, const F: usize> {
     /// Crank, rod, slider.
     pub heading: [Heading<Q>; 3],
     /// The rod.
-    pub shape: Shape,
+    pub shape: Shape<K, F>,
     /// The crank's main journal and pin, the rod's ends, the slider's pin.
     pub crank: Centre<Q>,
     /// The crank's pin.
@@ -107,7 +107,13 @@ impl<const Q: usize> Centre<Q> {
     }
 
     /// The other end of the rod, forwards or backwards.
-    fn across_rod(self, rod: &Heading<Q>, shape: &Shape, modes: std::ops::Range<usize>, side: f64) -> Self {
+    fn across_rod<const K: usize, const F: usize>(
+        self,
+        rod: &Heading<Q>,
+        shape: &Shape<K, F>,
+        modes: std::ops::Range<usize>,
+        side: f64,
+    ) -> Self {
         let axis = rod.rotation.axis(1.0);
         let mut end = self.along(rod, side, shape.chord * axis);
         end.velocity += side * shape.chord_rate * axis;
@@ -159,7 +165,12 @@ impl Geometry {
     }
 
     /// The configuration of `positions` and `rates` at `t`.
-    pub fn configuration<const Q: usize>(&self, t: f64, positions: &[f64], rates: &[f64]) -> Configuration<Q> {
+    pub fn configuration<const Q: usize, const K: usize, const F: usize>(
+        &self,
+        t: f64,
+        positions: &[f64],
+        rates: &[f64],
+    ) -> Configuration<Q, K, F> {
         let Topology { a, b, c, t: guided, speed } = self.topology;
         let modes = self.modes();
         let shape = self.rod.shape(&positions[modes.clone()], &rates[modes.clone()]);
@@ -209,10 +220,10 @@ impl Geometry {
     }
 
     /// The rod's angle where all joints are ideal: r·sin θ1 + L·sin θ2 = height, differentiated twice.
-    fn closing_rod<const Q: usize>(
+    fn closing_rod<const Q: usize, const K: usize, const F: usize>(
         &self,
         crank: &Heading<Q>,
-        shape: &Shape,
+        shape: &Shape<K, F>,
         modes: std::ops::Range<usize>,
     ) -> Heading<Q> {
         let IdealMechanism { crank: r, height, .. } = self.ideal;
@@ -234,7 +245,7 @@ impl Geometry {
     }
 }
 
-impl<const Q: usize> Configuration<Q> {
+impl<const Q: usize, const K: usize, const F: usize> Configuration<Q, K, F> {
     /// Places and velocities without their slopes.
     pub fn pose(&self) -> Pose {
         let [crank, rod, slider] = &self.heading;

@@ -8,7 +8,7 @@ use crate::model::dynamics::Loads;
 use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER};
 use crate::model::plane::{Vec2, cross, perp};
 use crate::model::reactions::Demand;
-use crate::model::rod::{Inertia, MOST, Rod};
+use crate::model::rod::{Inertia, Rod};
 use std::ops::Range;
 
 /// Mass matrix (lower triangle) and right side.
@@ -60,7 +60,13 @@ impl<const Q: usize> Equations<Q> {
     }
 
     /// Adds the rod: its inertia and, at its ends and on its modes, its loads.
-    pub fn add_rod(&mut self, rod: &Moving<'_, Q>, loads: &Loads, gravity: f64, modal_force: &[f64; MOST]) {
+    pub fn add_rod<const K: usize, const F: usize>(
+        &mut self,
+        rod: &Moving<'_, Q, K, F>,
+        loads: &Loads,
+        gravity: f64,
+        modal_force: &[f64; K],
+    ) {
         let Moving { rod: shape, inertia, configuration, modes } = rod;
         let Configuration { heading, big_end, small_end, .. } = configuration;
         let heading = &heading[ROD];
@@ -70,7 +76,7 @@ impl<const Q: usize> Equations<Q> {
         let lever = perp(first);
         let m = shape.mass();
         let block = [[m, 0.0, lever.x], [0.0, m, lever.y], [lever.x, lever.y, inertia.about_origin]];
-        let mut with_modes = [[0.0; MOST]; 3];
+        let mut with_modes = [[0.0; K]; 3];
         for a in 0..n {
             let slope = heading.rotation.apply(inertia.first_slope[a]);
             (with_modes[0][a], with_modes[1][a], with_modes[2][a]) = (slope.x, slope.y, inertia.turning[a]);
@@ -113,7 +119,7 @@ impl<const Q: usize> Equations<Q> {
     }
 
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite.
-    pub fn solve(mut self) -> [f64; Q] {
+    pub fn solve(&mut self) -> [f64; Q] {
         let n = self.size;
         let mut per = [0.0; Q];
         for j in 0..n {
@@ -148,18 +154,18 @@ impl<const Q: usize> Equations<Q> {
 }
 
 /// The rod in motion.
-pub struct Moving<'a, const Q: usize> {
+pub struct Moving<'a, const Q: usize, const K: usize, const F: usize> {
     /// Its modes.
     pub rod: &'a Rod,
     /// Its inertia.
-    pub inertia: Inertia,
+    pub inertia: &'a Inertia<K>,
     /// Where it is.
-    pub configuration: &'a Configuration<Q>,
+    pub configuration: &'a Configuration<Q, K, F>,
     /// Where its modal coordinates stand.
     pub modes: Range<usize>,
 }
 
-impl<const Q: usize> Moving<'_, Q> {
+impl<const Q: usize, const K: usize, const F: usize> Moving<'_, Q, K, F> {
     /// [J] Kinetic energy at the modal `rate` [m/s].
     pub fn kinetic(&self, rate: &[f64]) -> f64 {
         let Self { rod, inertia, configuration, .. } = self;
@@ -204,10 +210,10 @@ impl<const Q: usize> Moving<'_, Q> {
 }
 
 /// Forces and couples on crank and slider, with their inertia.
-pub fn add_rigid_bodies<const Q: usize>(
+pub fn add_rigid_bodies<const Q: usize, const K: usize, const F: usize>(
     equations: &mut Equations<Q>,
     bodies: &Bodies,
-    configuration: &Configuration<Q>,
+    configuration: &Configuration<Q, K, F>,
     loads: &Loads,
     gravity: f64,
 ) {

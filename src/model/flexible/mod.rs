@@ -17,7 +17,7 @@ use super::ideal::IdealMechanism;
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::Vec2;
 use super::plant::Plant;
-use super::rod::{MOST, Rod};
+use super::rod::{Inertia, Rod, most_functions};
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, FlexibleInstant, Instant, Pose};
@@ -26,9 +26,10 @@ use crate::scene::Scene;
 use configuration::{Configuration, Geometry};
 use equations::{Equations, Moving, add_rigid_bodies};
 
-/// A mechanism with a flexible rod, in arrays with room for `N` states and `Q` = `N`/2 coordinates.
+/// A mechanism with a flexible rod, in arrays with room for `N` states, `Q` = `N`/2 coordinates, `K`
+/// modes and `F` functions of the rod.
 #[derive(Clone, Debug)]
-pub struct Flexible<const N: usize, const Q: usize> {
+pub struct Flexible<const N: usize, const Q: usize, const K: usize, const F: usize> {
     geometry: Geometry,
     bodies: Bodies,
     gravity: f64,
@@ -50,10 +51,10 @@ pub fn state_count(scene: &Scene, rod: &Rod) -> usize {
     2 * (rigid + rod.modes()) + bristled_contacts(scene).len()
 }
 
-impl<const N: usize, const Q: usize> Flexible<N, Q> {
+impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N, Q, K, F> {
     /// Assembles the mechanism of a scene that starts at `time` [s], with its rod.
     pub fn assemble(scene: &Scene, time: f64, rod: Rod) -> Self {
-        const { assert!(N >= ROOM && N == 2 * Q) };
+        const { assert!(N >= ROOM && N == 2 * Q && F == most_functions(K)) };
         let topology = Topology::of(scene);
         let geometry = Geometry {
             topology,
@@ -98,7 +99,7 @@ impl<const N: usize, const Q: usize> Flexible<N, Q> {
         }
     }
 
-    fn configuration(&self, t: f64, y: &[f64; N]) -> Configuration<Q> {
+    fn configuration(&self, t: f64, y: &[f64; N]) -> Configuration<Q, K, F> {
         let p = self.extent.positions;
         self.geometry.configuration(t, &y[..p], &y[p..2 * p])
     }
@@ -118,17 +119,20 @@ impl<const N: usize, const Q: usize> Flexible<N, Q> {
         loads
     }
 
-    fn moving<'a>(&'a self, configuration: &'a Configuration<Q>, y: &[f64; N]) -> Moving<'a, Q> {
-        let (rod, modes, p) = (&self.geometry.rod, self.geometry.modes(), self.extent.positions);
+    fn inertia(&self, configuration: &Configuration<Q, K, F>, y: &[f64; N]) -> Inertia<K> {
+        let (modes, p) = (self.geometry.modes(), self.extent.positions);
         let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
-        let inertia = rod.inertia(&configuration.shape, eta, rate, configuration.heading[ROD].speed);
-        Moving { rod, inertia, configuration, modes }
+        self.geometry.rod.inertia(&configuration.shape, eta, rate, configuration.heading[ROD].speed)
     }
 
-    fn accelerations(&self, moving: &Moving<'_, Q>, y: &[f64; N], loads: &Loads) -> [f64; Q] {
+    fn moving<'a>(&'a self, configuration: &'a Configuration<Q, K, F>, inertia: &'a Inertia<K>) -> Moving<'a, Q, K, F> {
+        Moving { rod: &self.geometry.rod, inertia, configuration, modes: self.geometry.modes() }
+    }
+
+    fn accelerations(&self, moving: &Moving<'_, Q, K, F>, y: &[f64; N], loads: &Loads) -> [f64; Q] {
         let p = self.extent.positions;
         let modes = moving.modes.clone();
-        let mut modal_force = [0.0; MOST];
+        let mut modal_force = [0.0; K];
         let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
         moving.rod.add_modal_forces(eta, rate, &loads.end_couple, &mut modal_force);
         let mut equations = Equations::new(p);
@@ -138,7 +142,7 @@ impl<const N: usize, const Q: usize> Flexible<N, Q> {
     }
 }
 
-impl<const N: usize, const Q: usize> Problem<N> for Flexible<N, Q> {
+impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> for Flexible<N, Q, K, F> {
     type Modes = Contacts;
 
     fn extent(&self) -> Extent {
@@ -149,7 +153,8 @@ impl<const N: usize, const Q: usize> Problem<N> for Flexible<N, Q> {
         let p = self.extent.positions;
         let configuration = self.configuration(t, y);
         let loads = self.loads(contacts, t, y, &configuration.pose());
-        let forced = self.accelerations(&self.moving(&configuration, y), y, &loads);
+        let inertia = self.inertia(&configuration, y);
+        let forced = self.accelerations(&self.moving(&configuration, &inertia), y, &loads);
         rates[..p].copy_from_slice(&y[p..2 * p]);
         rates[p..2 * p].copy_from_slice(&forced[..p]);
         self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * p..]);
@@ -182,7 +187,7 @@ impl<const N: usize, const Q: usize> Problem<N> for Flexible<N, Q> {
     }
 }
 
-impl<const N: usize, const Q: usize> Plant<N> for Flexible<N, Q> {
+impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, Q, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {
         let layout = &self.geometry.layout;
         let p = self.extent.positions;
@@ -226,7 +231,8 @@ impl<const N: usize, const Q: usize> Plant<N> for Flexible<N, Q> {
         let configuration = self.configuration(t, y);
         let pose = configuration.pose();
         let loads = self.loads(contacts, t, y, &pose);
-        let moving = self.moving(&configuration, y);
+        let inertia = self.inertia(&configuration, y);
+        let moving = self.moving(&configuration, &inertia);
         let forced = self.accelerations(&moving, y, &loads);
         let p = self.extent.positions;
         let modes = moving.modes.clone();

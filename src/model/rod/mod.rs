@@ -13,10 +13,10 @@ use super::plane::Vec2;
 use crate::scene::modal::{MOST_MODES, ModalTable, pairs};
 use crate::scene::{Flexible, Scene};
 
-/// Most modal coordinates.
-pub const MOST: usize = 2 * MOST_MODES;
-/// Most functions along x.
-const FUNCTIONS: usize = 1 + MOST_MODES + pairs(MOST_MODES);
+/// Number of functions along x that `modes` modes may need at most.
+pub const fn most_functions(modes: usize) -> usize {
+    if modes <= MOST_MODES { 1 + pairs(modes) } else { 1 + modes - MOST_MODES + pairs(MOST_MODES) }
+}
 
 /// The rod's modes, as the scene calls for them.
 #[derive(Clone, Debug)]
@@ -49,9 +49,9 @@ pub struct Rod {
     damping_ratio: f64,
 }
 
-/// The deformed rod in its own frame, and how it deforms.
+/// The deformed rod in its own frame, and how it deforms; with room for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
-pub struct Shape {
+pub struct Shape<const K: usize, const F: usize> {
     /// [m] Chord length L = l + stretch.
     pub chord: f64,
     /// [m/s] Its rate.
@@ -59,34 +59,34 @@ pub struct Shape {
     /// [m/s²] L̈ at η̈ = 0.
     pub chord_bias: f64,
     /// ∂L/∂η.
-    pub chord_slope: [f64; MOST],
+    pub chord_slope: [f64; K],
     /// [rad/s] Rates of the end slopes.
     pub slope_rate: [f64; 2],
-    xi: [f64; FUNCTIONS],
+    xi: [f64; F],
     /// ξ̈ at η̈ = 0; its foreshortenings' places, the others are 0.
-    xi_bias: [f64; FUNCTIONS],
+    xi_bias: [f64; F],
 }
 
 /// Inertia of the rod in its own frame, for the acceleration of its origin, its angle and η, and what
 /// its motion asks for besides.
 #[derive(Clone, Copy, Debug)]
-pub struct Inertia {
+pub struct Inertia<const K: usize> {
     /// [kg·m] First moment D.
     pub first: Vec2,
     /// [kg·m²] About the origin.
     pub about_origin: f64,
     /// [kg] ∂D/∂η.
-    pub first_slope: [Vec2; MOST],
+    pub first_slope: [Vec2; K],
     /// [kg·m] Of the angle with η.
-    pub turning: [f64; MOST],
+    pub turning: [f64; K],
     /// [kg] Of η with η.
-    pub modal: [[f64; MOST]; MOST],
+    pub modal: [[f64; K]; K],
     /// [N] What centrifugal and Coriolis accelerations ask for: force along the frame's axes,
     pub force: Vec2,
     /// [N·m] moment about the origin,
     pub couple: f64,
     /// [N] and force on η.
-    pub modal_force: [f64; MOST],
+    pub modal_force: [f64; K],
 }
 
 /// What outputs tell of the rod's elasticity.
@@ -185,16 +185,16 @@ impl Rod {
     }
 
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
-    pub fn shape(&self, eta: &[f64], rate: &[f64]) -> Shape {
+    pub fn shape<const K: usize, const F: usize>(&self, eta: &[f64], rate: &[f64]) -> Shape<K, F> {
         let Self { bending, axial, .. } = *self;
         let mut shape = Shape {
             chord: 0.0,
             chord_rate: 0.0,
             chord_bias: 0.0,
-            chord_slope: [0.0; MOST],
+            chord_slope: [0.0; K],
             slope_rate: [0.0; 2],
-            xi: [0.0; FUNCTIONS],
-            xi_bias: [0.0; FUNCTIONS],
+            xi: [0.0; F],
+            xi_bias: [0.0; F],
         };
         let (q, dq) = (&eta[..bending], &rate[..bending]);
         shape.xi[0] = 1.0;
@@ -221,12 +221,18 @@ impl Rod {
         shape
     }
 
-    fn stretch(&self, xi: &[f64; FUNCTIONS]) -> f64 {
+    fn stretch(&self, xi: &[f64]) -> f64 {
         self.end.iter().zip(xi).skip(1).map(|(end, xi)| end * xi).sum()
     }
 
     /// The inertia of a shape whose frame turns at `speed` [rad/s].
-    pub fn inertia(&self, shape: &Shape, eta: &[f64], rate: &[f64], speed: f64) -> Inertia {
+    pub fn inertia<const K: usize, const F: usize>(
+        &self,
+        shape: &Shape<K, F>,
+        eta: &[f64],
+        rate: &[f64],
+        speed: f64,
+    ) -> Inertia<K> {
         let Self { bending: n, axial, .. } = *self;
         let count = self.first.len();
         let (q, dq) = (&eta[..n], &rate[..n]);
@@ -234,23 +240,23 @@ impl Rod {
         let mut inertia = Inertia {
             first: Vec2::zeros(),
             about_origin: 0.0,
-            first_slope: [Vec2::zeros(); MOST],
-            turning: [0.0; MOST],
-            modal: [[0.0; MOST]; MOST],
+            first_slope: [Vec2::zeros(); K],
+            turning: [0.0; K],
+            modal: [[0.0; K]; K],
             force: Vec2::zeros(),
             couple: 0.0,
-            modal_force: [0.0; MOST],
+            modal_force: [0.0; K],
         };
         // Rates of ξ, and K·ξ, K·ξ_bias, C·q, C·q̇ over the functions; Cᵀ·ξ, Cᵀ·ξ̇ over the modes.
-        let mut dxi = [0.0; FUNCTIONS];
+        let mut dxi = [0.0; F];
         dxi[1..=axial].copy_from_slice(&rate[n..n + axial]);
         for (k, &(i, j)) in self.pairs.iter().enumerate() {
             let twice = if i == j { 1.0 } else { 2.0 };
             dxi[1 + axial + k] = -twice * (q[i] * dq[j] + dq[i] * q[j]);
         }
-        let (mut kxi, mut kbias) = ([0.0; FUNCTIONS], [0.0; FUNCTIONS]);
-        let (mut cq, mut cdq) = ([0.0; FUNCTIONS], [0.0; FUNCTIONS]);
-        let (mut ctxi, mut ctdxi) = ([0.0; MOST_MODES], [0.0; MOST_MODES]);
+        let (mut kxi, mut kbias) = ([0.0; F], [0.0; F]);
+        let (mut cq, mut cdq) = ([0.0; F], [0.0; F]);
+        let (mut ctxi, mut ctdxi) = ([0.0; K], [0.0; K]);
         for k in 0..count {
             let row = &self.second[k * count..(k + 1) * count];
             kxi[k] = dot(row, xi);
@@ -300,21 +306,21 @@ impl Rod {
     /// What ∂ξ/∂q adds: each pair (i, j) moves with q_i by −2·q_j and with q_j by −2·q_i (with q_i by
     /// −2·q_i where they are the same).
     #[allow(clippy::too_many_arguments)]
-    fn add_foreshortening(
+    fn add_foreshortening<const K: usize, const F: usize>(
         &self,
-        inertia: &mut Inertia,
+        inertia: &mut Inertia<K>,
         q: &[f64],
         speed: f64,
-        kxi: &[f64; FUNCTIONS],
-        kbias: &[f64; FUNCTIONS],
-        cq: &[f64; FUNCTIONS],
-        cdq: &[f64; FUNCTIONS],
+        kxi: &[f64; F],
+        kbias: &[f64; F],
+        cq: &[f64; F],
+        cdq: &[f64; F],
     ) {
         let Self { bending: n, axial, .. } = *self;
         let count = self.first.len();
         let square = speed * speed;
         // K·∂ξ/∂q_i, column by column.
-        let mut moved = [[0.0; FUNCTIONS]; MOST_MODES];
+        let mut moved = [[0.0; F]; K];
         for (k, &(i, j)) in self.pairs.iter().enumerate() {
             let place = 1 + axial + k;
             let row = &self.second[place * count..(place + 1) * count];
@@ -362,7 +368,7 @@ impl Rod {
     }
 
     /// Deflection, stretch and elastic energy.
-    pub fn elastic(&self, shape: &Shape, eta: &[f64], rate: &[f64]) -> Elastic {
+    pub fn elastic<const K: usize, const F: usize>(&self, shape: &Shape<K, F>, eta: &[f64], rate: &[f64]) -> Elastic {
         let mut elastic = Elastic { stretch: self.stretch(&shape.xi), ..Elastic::default() };
         elastic.deflection = dot(&self.middle, &eta[..self.bending]);
         for k in 0..self.modes() {

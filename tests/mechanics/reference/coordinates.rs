@@ -10,7 +10,7 @@ pub const GROUND: usize = 3;
 /// Coordinates of the bodies as wholes.
 pub const RIGID: usize = 9;
 /// Most modes of the rod.
-pub const MODES: usize = 6;
+pub const MODES: usize = 5;
 pub const COORDINATES: usize = RIGID + MODES;
 /// A, B, C, then the corners, or two faces and two places left empty.
 pub const CONTACTS: usize = 7;

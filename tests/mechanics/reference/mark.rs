@@ -2,7 +2,7 @@
 //! that material do to the coordinates.
 
 use super::beam::Section;
-use super::coordinates::{COORDINATES, Coordinates, GROUND, Motion, RIGID, ROD, Vector, cross, perp, turned};
+use super::coordinates::{COORDINATES, Coordinates, GROUND, MODES, Motion, RIGID, ROD, Vector, cross, perp, turned};
 use nalgebra::SMatrix;
 
 /// Derivative of a point's position with respect to the coordinates.
@@ -91,10 +91,9 @@ impl Mark {
         jacobian.set_column(column + 2, &perp(self.lever(motion)));
         if let Place::Section(section) = &self.place {
             let (along, across) = section.derivatives(&motion.modes());
-            for mode in 0..along.len() {
-                let local = Vector::new(along[mode], across[mode]);
-                jacobian.set_column(RIGID + mode, &turned(motion.angle(ROD), local));
-            }
+            let axis = turned(motion.angle(ROD), Vector::x());
+            let columns = axis * along.transpose() + perp(axis) * across.transpose();
+            jacobian.fixed_columns_mut::<MODES>(RIGID).copy_from(&columns);
         }
         jacobian
     }
@@ -126,7 +125,7 @@ impl Mark {
             loads[3 * self.body + 2] = couple;
         }
         if let Place::Section(section) = &self.place {
-            loads.fixed_rows_mut::<{ COORDINATES - RIGID }>(RIGID).copy_from(&(couple * section.slope));
+            loads.fixed_rows_mut::<MODES>(RIGID).copy_from(&(couple * section.slope));
         }
         loads
     }
