@@ -1,6 +1,7 @@
 //! The model description against the standard's rules, those above all that the usual validators
 //! let pass. Each rule is shown to catch its fault: a check that never fires proves nothing.
 
+mod dependencies;
 mod rules;
 
 use rules::problems;

@@ -16,6 +16,7 @@ impl Shown {
             "N" => ("N", true, true),
             "m" => ("m", false, true),
             "N.m" => ("N·m", true, false),
+            "J" => ("J", true, true),
             "m/s" => ("m/s", false, true),
             "m/s2" => ("m/s²", true, false),
             "rad/s" => ("rad/s", false, false),

@@ -28,7 +28,7 @@ def moments(slave):
     return found.values()
 
 
-@pytest.mark.parametrize("scene", ["wornpin", "allplay"])
+@pytest.mark.parametrize("scene", ["wornpin", "allplay", "seed"])
 def test_a_rolled_back_run_is_the_run_to_the_bit(scene, request):
     slave = request.getfixturevalue(scene).start()
     slave.run(POINTS[: BEFORE + 1])
