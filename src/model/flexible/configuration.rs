@@ -88,7 +88,7 @@ impl Centre {
     };
 
     /// A point whose coordinates, from the place `first` on, are positions themselves.
-    #[inline]
+    #[inline(always)]
     fn root(place: Vec2, velocity: Vec2, first: usize) -> Self {
         let mut centre = Self { place, velocity, ..Self::FIXED };
         centre.slope[first].x = 1.0;
@@ -97,7 +97,7 @@ impl Centre {
     }
 
     /// The pin on an ideal guide, whose x is a position.
-    #[inline]
+    #[inline(always)]
     fn on_rail(x: f64, speed: f64, height: f64, coordinate: usize) -> Self {
         let mut centre = Self { place: Vec2::new(x, height), velocity: Vec2::new(speed, 0.0), ..Self::FIXED };
         centre.slope[coordinate].x = 1.0;
@@ -105,7 +105,7 @@ impl Centre {
     }
 
     /// The point `side`·`arm` further, `arm` turning with a body.
-    #[inline]
+    #[inline(always)]
     fn along(&self, heading: &Heading, side: f64, arm: Vec2) -> Self {
         let arm = side * arm;
         let across = perp(arm);
@@ -118,7 +118,7 @@ impl Centre {
     }
 
     /// The other end of the rod, forwards or backwards; L stands at `chord`.
-    #[inline]
+    #[inline(always)]
     fn across_rod<const K: usize, const F: usize>(
         &self,
         rod: &Heading,
@@ -135,7 +135,7 @@ impl Centre {
     }
 
     /// A point of a body, `arm` [m] away in its axes.
-    #[inline]
+    #[inline(always)]
     pub fn carried(&self, heading: &Heading, arm: Vec2) -> Self {
         self.along(heading, 1.0, heading.rotation.apply(arm))
     }
@@ -150,7 +150,7 @@ impl Heading {
     /// Of a slider on an ideal guide.
     const NONE: Self = Self { rotation: Rotation::NONE, angle: 0.0, speed: 0.0, bias: 0.0, slope: [0.0; PLACES] };
 
-    #[inline]
+    #[inline(always)]
     fn new(angle: f64, speed: f64, coordinate: Option<usize>) -> Self {
         let mut slope = [0.0; PLACES];
         if let Some(k) = coordinate {
@@ -187,7 +187,7 @@ impl Geometry {
     }
 
     /// The configuration of `positions` and `rates` at `t`.
-    #[inline]
+    #[inline(always)]
     pub fn configuration<const K: usize, const F: usize>(
         &self,
         t: f64,

@@ -21,13 +21,13 @@ pub struct Places {
 
 impl Places {
     /// Of `rigid` rigid coordinates, with nothing in them.
-    #[inline]
+    #[inline(always)]
     pub fn new(rigid: usize) -> Self {
         Self { size: rigid + 1, matrix: [[0.0; PLACES]; PLACES], right: [0.0; PLACES] }
     }
 
     /// Adds `force` [N] at a joint centre.
-    #[inline]
+    #[inline(always)]
     fn push(&mut self, centre: &Centre, force: Vec2) {
         for (right, slope) in self.right[..self.size].iter_mut().zip(&centre.slope) {
             *right += slope.dot(&force);
@@ -35,7 +35,7 @@ impl Places {
     }
 
     /// Adds `couple` [N·m] on a body.
-    #[inline]
+    #[inline(always)]
     fn twist(&mut self, heading: &Heading, couple: f64) {
         for (right, slope) in self.right[..self.size].iter_mut().zip(&heading.slope) {
             *right += slope * couple;
@@ -43,6 +43,7 @@ impl Places {
     }
 
     /// Adds a rigid body whose reference point is `centre`.
+    #[inline(always)]
     fn add_body(&mut self, body: &Body, heading: &Heading, centre: &Centre, gravity: f64) {
         let com = centre.carried(heading, body.com);
         for i in 0..self.size {
@@ -56,6 +57,7 @@ impl Places {
     }
 
     /// Adds forces and couples on crank and slider, with their inertia.
+    #[inline(always)]
     pub fn add_rigid_bodies<const K: usize, const F: usize>(
         &mut self,
         bodies: &Bodies,
@@ -84,6 +86,7 @@ pub struct Equations<const Q: usize> {
 impl<const Q: usize> Equations<Q> {
     /// Adds the rod to the other bodies' equations: its inertia and, at its ends and on its modes, its
     /// loads.
+    #[inline(always)]
     pub fn new<const K: usize, const F: usize>(
         mut places: Places,
         rod: &Moving<'_, K, F>,
@@ -145,6 +148,7 @@ impl<const Q: usize> Equations<Q> {
     }
 
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite.
+    #[inline(always)]
     pub fn solve(&mut self) -> [f64; Q] {
         let n = self.size;
         let mut per = [0.0; Q];

@@ -102,11 +102,13 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         }
     }
 
+    #[inline(always)]
     fn configuration(&self, t: f64, y: &[f64; N]) -> Configuration<K, F> {
         let p = self.extent.positions;
         self.geometry.configuration(t, &y[..p], &y[p..2 * p])
     }
 
+    #[inline(always)]
     fn loads(&self, contacts: &Contacts, t: f64, y: &[f64; N], pose: &Pose) -> Loads {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
@@ -122,6 +124,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         loads
     }
 
+    #[inline(always)]
     fn inertia(&self, configuration: &Configuration<K, F>, y: &[f64; N]) -> Inertia<K> {
         let (modes, p) = (self.geometry.modes(), self.extent.positions);
         let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
@@ -132,6 +135,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         Moving { rod: &self.geometry.rod, inertia, configuration, modes: self.geometry.modes() }
     }
 
+    #[inline(always)]
     fn accelerations(&self, moving: &Moving<'_, K, F>, y: &[f64; N], loads: &Loads) -> [f64; Q] {
         let p = self.extent.positions;
         let modes = moving.modes.clone();

@@ -82,6 +82,7 @@ impl<const K: usize, const F: usize> Integrals<K, F> {
 
     /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
     /// [rad/s].
+    #[inline(always)]
     pub fn inertia(&self, shape: &Shape<K, F>, eta: &[f64], rate: &[f64], speed: f64) -> Inertia<K> {
         let Self { bending: n, axial, shortening, .. } = *self;
         let Shape { xi, xi_rate, xi_bias, .. } = shape;

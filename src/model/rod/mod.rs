@@ -167,6 +167,7 @@ impl Rod {
     }
 
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
+    #[inline(always)]
     pub fn shape<const K: usize, const F: usize>(&self, eta: &[f64], rate: &[f64]) -> Shape<K, F> {
         let Self { bending, axial, .. } = *self;
         let mut shape = Shape {
@@ -211,6 +212,7 @@ impl Rod {
     }
 
     /// [N] Adds what elasticity, modal damping and the couples [N·m] on the end sections do to η.
+    #[inline(always)]
     pub fn add_modal_forces(&self, eta: &[f64], rate: &[f64], couple: &[f64; 2], force: &mut [f64]) {
         for k in 0..self.modes() {
             let (m, omega) = (self.modal_mass[k], self.frequency[k]);
