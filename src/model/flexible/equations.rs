@@ -149,37 +149,33 @@ impl<const Q: usize> Equations<Q> {
 
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite.
     #[inline(always)]
-    pub fn solve(&mut self) -> [f64; Q] {
-        let n = self.size;
+    pub fn solve(mut self) -> [f64; Q] {
+        let Self { size, matrix, right: x } = &mut self;
         let mut per = [0.0; Q];
-        for j in 0..n {
-            // Rows below: l_ij·d_j stays in the matrix until column j is done.
-            let mut d = self.matrix[j][j];
-            for k in 0..j {
-                d -= self.matrix[j][k] * self.matrix[j][k] * per[k];
+        // Each pivot's column is taken out of the rows below it, and kept.
+        for j in 0..*size {
+            let (above, below) = matrix[..*size].split_at_mut(j + 1);
+            per[j] = 1.0 / above[j][j];
+            let mut column = [0.0; Q];
+            for (row, kept) in below.iter().zip(&mut column) {
+                *kept = row[j];
             }
-            per[j] = 1.0 / d;
-            for i in j + 1..n {
-                let mut element = self.matrix[i][j];
-                for k in 0..j {
-                    element -= self.matrix[i][k] * self.matrix[j][k] * per[k];
+            for (i, row) in below.iter_mut().enumerate() {
+                let l = row[j] * per[j];
+                for (element, kept) in row[j + 1..].iter_mut().zip(&column[..=i]) {
+                    *element -= l * kept;
                 }
-                self.matrix[i][j] = element;
+                row[j] = l;
+                x[j + 1 + i] -= l * x[j];
             }
         }
-        let mut x = self.right;
-        for i in 0..n {
-            for k in 0..i {
-                x[i] -= self.matrix[i][k] * per[k] * x[k];
-            }
-        }
-        for i in (0..n).rev() {
+        for i in (0..*size).rev() {
             x[i] *= per[i];
-            for k in i + 1..n {
-                x[i] -= self.matrix[k][i] * per[i] * x[k];
+            for k in i + 1..*size {
+                x[i] -= matrix[k][i] * x[k];
             }
         }
-        x
+        *x
     }
 }
 
