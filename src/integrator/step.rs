@@ -5,11 +5,10 @@ use super::dense_output::Correction;
 use super::error::IntegrationError;
 use super::event;
 use super::memory::{Front, Memory};
+use super::method::{Method, Room};
 use super::problem::{Crossed, Extent, GUARDS, Guard, Problem};
 use super::stages::Attempt;
 use super::statistics::Statistics;
-use super::tableau::Method;
-use std::marker::PhantomData;
 
 /// Most events without time passing.
 const STANDSTILL: usize = 64;
@@ -20,14 +19,14 @@ const LANDED: f64 = 0.1;
 /// Most steps of one advance.
 const STEPS: u64 = 200_000_000;
 
-/// An explicit Runge-Kutta integrator with event location.
-pub struct Integrator<const N: usize, D, M> {
+/// A one-step integrator with event location.
+pub struct Integrator<const N: usize, D, M: Method> {
     settings: Settings,
     memory: Memory<N, D>,
     guards: [Guard; GUARDS],
     correction: Option<Correction<N>>,
     made: Attempt<N>,
-    method: PhantomData<M>,
+    room: M::Room<N>,
 }
 
 impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
@@ -52,7 +51,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let mut guards = [Guard::default(); GUARDS];
         let front = &memory.front;
         problem.guards(&front.modes, front.t, &front.y, &mut guards);
-        Self { settings, memory, guards, correction: None, made: Attempt::NONE, method: PhantomData }
+        Self { settings, memory, guards, correction: None, made: Attempt::NONE, room: Room::NEW }
     }
 
     /// All that is needed to go on.
@@ -120,8 +119,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        self.memory.statistics.evaluations += M::TABLEAU.stages as u64 - 1;
-        self.made.make::<M, P>(problem, &self.memory.start, h);
+        self.memory.statistics.evaluations += M::EVALUATIONS;
+        M::attempt(&mut self.made, &mut self.room, problem, &self.memory.start, h);
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
@@ -145,7 +144,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
                 return Ok(());
             };
-            self.cross(problem, guard, 0.0);
+            self.cross_with(problem, guard, 0.0);
         }
         let guard = (0..count).find(|&i| has_fallen(&self.guards[i])).unwrap_or_default();
         Err(IntegrationError::EventsAccumulate { time: self.memory.front.t, guard })
@@ -174,6 +173,10 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if problem.guard_count() == 0 {
             return Ok(());
         }
+        if !M::LOCATES {
+            self.notice(problem);
+            return Ok(());
+        }
         let step = self.memory.last_step(Extent::of(problem));
         if let Some((share, guard)) = event::first(problem, &self.memory.start.modes, &step, &before, &self.guards) {
             self.land(problem, h, share, guard);
@@ -181,13 +184,24 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         Ok(())
     }
 
+    /// Crosses the events of all guards that are below zero at the front.
+    fn notice<P>(&mut self, problem: &P)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let below = |guard: &Guard| guard.value < 0.0;
+        let crossed: Crossed = std::array::from_fn(|i| i < problem.guard_count() && below(&self.guards[i]));
+        if crossed.contains(&true) {
+            self.cross(problem, &crossed);
+        }
+    }
+
     /// Attempts until the error is tolerable, and tells how long that step is.
     fn accepted<P>(&mut self, problem: &P) -> Result<f64, IntegrationError>
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let adaptive = M::TABLEAU.error.iter().any(|&weight| weight != 0.0);
-        let mut wanted = if adaptive { self.memory.step } else { self.settings.fixed_step };
+        let mut wanted = if M::ADAPTIVE { self.memory.step } else { self.settings.fixed_step };
         let mut rejected = false;
         let time = self.memory.start.t;
         loop {
@@ -222,7 +236,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     {
         let modes = self.memory.start.modes;
         let Attempt { y, rates, .. } = &mut self.made;
-        if !M::TABLEAU.first_same_as_last {
+        if !M::GIVES_RATES {
             problem.rates(&modes, t, y, rates);
             self.memory.statistics.evaluations += 1;
         }
@@ -263,24 +277,29 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             t = better;
         }
-        self.cross(problem, guard, close);
+        self.cross_with(problem, guard, close);
     }
 
     /// Crosses the event of `guard` at the front, and of all guards that have fallen with it: those
     /// within `close` of zero.
-    fn cross<P>(&mut self, problem: &P, guard: usize, close: f64)
+    fn cross_with<P>(&mut self, problem: &P, guard: usize, close: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let mut crossed: Crossed = [false; GUARDS];
-        for (i, crossed) in crossed.iter_mut().enumerate().take(problem.guard_count()) {
-            let Guard { value, rate } = self.guards[i];
-            *crossed = i == guard || (value <= close && rate < 0.0);
-            self.memory.crossings += u64::from(*crossed);
-            self.memory.statistics.events += u64::from(*crossed);
-        }
+        let with = |i: usize| i == guard || (self.guards[i].value <= close && self.guards[i].rate < 0.0);
+        let crossed: Crossed = std::array::from_fn(|i| i < problem.guard_count() && with(i));
+        self.cross(problem, &crossed);
+    }
+
+    fn cross<P>(&mut self, problem: &P, crossed: &Crossed)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let count = crossed.iter().map(|&crossed| u64::from(crossed)).sum::<u64>();
+        self.memory.crossings += count;
+        self.memory.statistics.events += count;
         let front = &mut self.memory.front;
-        let reset = problem.cross(&front.modes, front.t, &mut front.y, &crossed);
+        let reset = problem.cross(&front.modes, front.t, &mut front.y, crossed);
         front.modes = reset.modes;
         if let Some(step) = reset.step {
             self.memory.step = self.memory.step.min(step);

@@ -36,7 +36,7 @@ pub trait Motion: Send {
 }
 
 /// A mechanism of `N` states under the method `M`.
-pub struct Run<const N: usize, M> {
+pub struct Run<const N: usize, M: Method> {
     plant: Box<dyn Plant<N>>,
     integrator: Integrator<N, Contacts, M>,
     settings: Settings,
