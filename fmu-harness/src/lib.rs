@@ -6,6 +6,8 @@ pub mod host;
 pub mod inputs;
 pub mod inspect;
 pub mod package;
+pub mod precision;
+pub mod python;
 pub mod report;
 pub mod run;
 pub mod scenes;

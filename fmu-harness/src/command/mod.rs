@@ -3,11 +3,13 @@
 mod effects;
 mod inspect;
 mod package;
+mod precision;
 mod run;
 
 pub use effects::Effects;
 pub use inspect::Inspect;
 pub use package::Package;
+pub use precision::Precision;
 pub use run::Run;
 
 use crate::package::build::workspace;

@@ -2,7 +2,9 @@
 
 pub mod bars;
 pub mod figure;
+pub mod loglog;
 pub mod plot;
+pub mod precision;
 pub mod price;
 pub mod summary;
 pub mod table;
