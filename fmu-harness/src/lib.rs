@@ -8,6 +8,7 @@ pub mod inspect;
 pub mod package;
 pub mod precision;
 pub mod python;
+pub mod realtime;
 pub mod report;
 pub mod run;
 pub mod scenes;

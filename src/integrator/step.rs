@@ -69,12 +69,18 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
+        let mut standing = 0;
         for _ in 0..STEPS {
-            if self.memory.front.t >= t {
+            let front = self.memory.front.t;
+            if front >= t {
                 return Ok(());
             }
             self.settle(problem)?;
             self.step(problem)?;
+            standing = if self.memory.front.t > front { 0 } else { standing + 1 };
+            if standing == STANDSTILL {
+                return Err(IntegrationError::events_accumulate(front, &self.guards[..problem.guard_count()]));
+            }
         }
         Err(IntegrationError::TooManySteps { time: self.memory.front.t, steps: STEPS })
     }
@@ -125,10 +131,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
-    pub fn refresh<P>(&mut self, problem: &P)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
+    pub fn refresh<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P) {
         let front = &mut self.memory.front;
         problem.rates(&front.modes, front.t, &front.y, &mut front.rates);
         problem.guards(&front.modes, front.t, &front.y, &mut self.guards);
@@ -136,10 +139,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// Handles the guards that are at or below zero and falling where the next step starts.
-    fn settle<P>(&mut self, problem: &P) -> Result<(), IntegrationError>
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
+    fn settle<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P) -> Result<(), IntegrationError> {
         let count = problem.guard_count();
         for _ in 0..STANDSTILL {
             let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
@@ -147,8 +147,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             };
             self.cross(problem, guard, 0.0);
         }
-        let guard = (0..count).find(|&i| has_fallen(&self.guards[i])).unwrap_or_default();
-        Err(IntegrationError::EventsAccumulate { time: self.memory.front.t, guard })
+        Err(IntegrationError::events_accumulate(self.memory.front.t, &self.guards[..count]))
     }
 
     /// One accepted step, up to the first event in it.

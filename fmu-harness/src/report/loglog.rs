@@ -11,7 +11,9 @@ const ABOVE: f64 = 14.0;
 const SCALE: f64 = 58.0;
 /// Room right, and width of the strip [pixel].
 const RIGHT: f64 = 24.0;
-const STRIP: f64 = 84.0;
+const STRIP: f64 = 112.0;
+/// Of it, left free beside the scales [pixel].
+const GAP: f64 = 20.0;
 /// Height of a line of text, width of a letter, size of a mark [pixel].
 const LINE: f64 = 19.0;
 const LETTER: f64 = 6.4;
@@ -39,7 +41,7 @@ pub struct Series {
     pub odd: Vec<(Mark, Option<f64>)>,
 }
 
-/// A line across the panel.
+/// A line across the panel, or the edge of its shaded part.
 pub struct Bound {
     /// Where.
     pub at: f64,
@@ -59,7 +61,9 @@ pub struct LogLog {
     pub floor: Option<Bound>,
     /// A line at an ordinate.
     pub level: Option<Bound>,
-    /// Head of the strip at the right, if there is one.
+    /// A line at an abscissa.
+    pub deadline: Option<Bound>,
+    /// Name of the strip at the right, if there is one.
     pub strip: Option<String>,
     /// Stands below.
     pub text: String,
@@ -87,27 +91,18 @@ impl Paint for LogLog {
             area.draw(&Text::new(floor.label.as_str(), at, style))?;
         }
         frame.scales(area, &self.x_label, &self.y_label)?;
-        if let Some(level) = &self.level
-            && level.at > 10f64.powi(*frame.y.start())
-            && level.at < 10f64.powi(*frame.y.end())
-        {
-            let y = frame.y(level.at);
-            let ends = vec![frame.point(frame.left, y), frame.point(frame.right, y)];
-            area.draw(&PathElement::new(ends, Role::Limit.style()))?;
-            let style = font(11.5).pos(Pos::new(HPos::Right, VPos::Bottom));
-            area.draw(&Text::new(level.label.as_str(), frame.point(frame.right - 6.0, y - 3.0), style))?;
-        }
+        frame.lines(area, self.level.as_ref(), self.deadline.as_ref())?;
         for (number, series) in self.series.iter().enumerate() {
             frame.series(area, series)?;
             let share = (number as f64 + 1.0) / (self.series.len() as f64 + 1.0);
-            frame.odd(area, series, width - RIGHT - strip * (1.0 - share))?;
+            frame.odd(area, series, width - RIGHT - (strip - GAP) * (1.0 - share))?;
         }
-        if let Some(head) = &self.strip {
+        if let Some(name) = &self.strip {
             let style = font(11.5).pos(Pos::new(HPos::Center, VPos::Top));
-            let middle = width - RIGHT - 0.5 * strip;
-            area.draw(&Text::new(head.as_str(), frame.point(middle, frame.bottom + 7.0), style))?;
-            let ends = [frame.left, width - RIGHT].map(|x| frame.point(x, frame.bottom));
-            area.draw(&PathElement::new(ends.to_vec(), INK.stroke_width(FINE)))?;
+            let middle = width - RIGHT - 0.5 * (strip - GAP);
+            area.draw(&Text::new(name.as_str(), frame.point(middle, frame.bottom + 7.0), style))?;
+            let ends = [width - RIGHT - strip + GAP, width - RIGHT].map(|x| frame.point(x, frame.bottom));
+            area.draw(&PathElement::new(ends, INK.stroke_width(FINE)))?;
         }
         for (number, line) in lines.iter().enumerate() {
             let at = frame.point(frame.left, frame.bottom + SCALE - 4.0 + LINE * number as f64);
@@ -196,6 +191,23 @@ impl Frame {
         Ok(())
     }
 
+    /// A level and a deadline, where they are in sight.
+    fn lines(&self, area: &Area, level: Option<&Bound>, deadline: Option<&Bound>) -> Drawn {
+        let line = |ends: [(f64, f64); 2]| PathElement::new(ends.map(|(x, y)| self.point(x, y)), Role::Limit.style());
+        let style = font(11.5).pos(Pos::new(HPos::Right, VPos::Bottom));
+        if let Some(Bound { at, label }) = level.filter(|level| is_inside(level.at, &self.y)) {
+            let y = self.y(*at);
+            area.draw(&line([(self.left, y), (self.right, y)]))?;
+            area.draw(&Text::new(label.as_str(), self.point(self.right - 6.0, y - 3.0), style.clone()))?;
+        }
+        if let Some(Bound { at, label }) = deadline.filter(|deadline| is_inside(deadline.at, &self.x)) {
+            let x = self.x(*at);
+            area.draw(&line([(x, self.top), (x, self.bottom)]))?;
+            area.draw(&Text::new(label.as_str(), self.point(x - 5.0, self.bottom - 6.0), style))?;
+        }
+        Ok(())
+    }
+
     fn series(&self, area: &Area, series: &Series) -> Drawn {
         let places = series.points.iter().map(|(x, y)| self.point(self.x(*x), self.y(*y)));
         let places: Vec<(i32, i32)> = places.collect();
@@ -224,6 +236,11 @@ impl Frame {
         }
         Ok(())
     }
+}
+
+/// Whether a number is on the scale.
+fn is_inside(value: f64, decades: &RangeInclusive<i32>) -> bool {
+    (10f64.powi(*decades.start())..=10f64.powi(*decades.end())).contains(&value)
 }
 
 /// 0 at the first decade, 1 at the last one; a number outside stands at the edge.

@@ -6,6 +6,7 @@ pub mod loglog;
 pub mod plot;
 pub mod precision;
 pub mod price;
+pub mod realtime;
 pub mod summary;
 pub mod table;
 pub mod units;

@@ -31,6 +31,7 @@ pub fn sheet(diagram: &Diagram) -> Sheet<LogLog> {
         series: series.collect(),
         floor: Some(Bound { at: diagram.floor, label: "reference's own error".into() }),
         level: Some(Bound { at: 1.0, label: "real time".into() }),
+        deadline: None,
         strip: Some("× failed, △ stopped".into()),
         text: sentence(diagram),
     };

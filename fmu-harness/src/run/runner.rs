@@ -66,6 +66,11 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
+    /// Reads variables of the caller's choice.
+    pub fn ask(&mut self, selection: &mut Selection) -> Result<(), HostError> {
+        self.slave.read(selection)
+    }
+
     /// fmi2DoStep from one communication point to another.
     pub fn step(&mut self, from: f64, to: f64) -> Result<(), HostError> {
         self.slave.do_step(from, to - from)
