@@ -10,6 +10,7 @@ mod controller;
 pub mod dense_output;
 mod error;
 mod event;
+mod landing;
 mod memory;
 mod method;
 pub mod methods;

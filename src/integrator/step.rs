@@ -6,26 +6,22 @@ use super::error::IntegrationError;
 use super::event;
 use super::memory::{Front, Memory};
 use super::method::{Method, Room};
-use super::problem::{Crossed, Extent, GUARDS, Guard, Problem};
+use super::problem::{Extent, GUARDS, Guard, Problem};
 use super::stages::Attempt;
 use super::statistics::Statistics;
 
 /// Most events without time passing.
-const STANDSTILL: usize = 64;
-/// Most times that a landing is repeated to bring the guard closer to zero.
-const LANDINGS: usize = 3;
-/// A guard this share of a tolerable error away from zero has been landed on.
-const LANDED: f64 = 0.1;
+pub(super) const STANDSTILL: usize = 64;
 /// Most steps of one advance.
 const STEPS: u64 = 200_000_000;
 
 /// A one-step integrator with event location.
 pub struct Integrator<const N: usize, D, M: Method> {
-    settings: Settings,
-    memory: Memory<N, D>,
-    guards: [Guard; GUARDS],
+    pub(super) settings: Settings,
+    pub(super) memory: Memory<N, D>,
+    pub(super) guards: [Guard; GUARDS],
     correction: Option<Correction<N>>,
-    made: Attempt<N>,
+    pub(super) made: Attempt<N>,
     room: M::Room<N>,
 }
 
@@ -67,12 +63,18 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
+        let mut standing = 0;
         for _ in 0..STEPS {
-            if self.memory.front.t >= t {
+            let front = self.memory.front.t;
+            if front >= t {
                 return Ok(());
             }
             self.settle(problem)?;
             self.step(problem)?;
+            standing = if self.memory.front.t > front { 0 } else { standing + 1 };
+            if standing == STANDSTILL {
+                return Err(IntegrationError::events_accumulate(front, &self.guards[..problem.guard_count()]));
+            }
         }
         Err(IntegrationError::TooManySteps { time: self.memory.front.t, steps: STEPS })
     }
@@ -115,7 +117,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// Attempts a step of `h` from the start of the last one.
-    fn attempt<P>(&mut self, problem: &P, h: f64)
+    pub(super) fn attempt<P>(&mut self, problem: &P, h: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
@@ -124,30 +126,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
-    pub fn refresh<P>(&mut self, problem: &P)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
+    pub fn refresh<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P) {
         let front = &mut self.memory.front;
         problem.rates(&front.modes, front.t, &front.y, &mut front.rates);
         problem.guards(&front.modes, front.t, &front.y, &mut self.guards);
         self.memory.statistics.evaluations += 1;
-    }
-
-    /// Handles the guards that are at or below zero and falling where the next step starts.
-    fn settle<P>(&mut self, problem: &P) -> Result<(), IntegrationError>
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let count = problem.guard_count();
-        for _ in 0..STANDSTILL {
-            let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
-                return Ok(());
-            };
-            self.cross_with(problem, guard, 0.0);
-        }
-        let guard = (0..count).find(|&i| has_fallen(&self.guards[i])).unwrap_or_default();
-        Err(IntegrationError::EventsAccumulate { time: self.memory.front.t, guard })
     }
 
     /// One accepted step, up to the first event in it.
@@ -184,18 +167,6 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         Ok(())
     }
 
-    /// Crosses the events of all guards that are below zero at the front.
-    fn notice<P>(&mut self, problem: &P)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let below = |guard: &Guard| guard.value < 0.0;
-        let crossed: Crossed = std::array::from_fn(|i| i < problem.guard_count() && below(&self.guards[i]));
-        if crossed.contains(&true) {
-            self.cross(problem, &crossed);
-        }
-    }
-
     /// Attempts until the error is tolerable, and tells how long that step is.
     fn accepted<P>(&mut self, problem: &P) -> Result<f64, IntegrationError>
     where
@@ -230,7 +201,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// Makes the attempt the step that ends at `t`.
-    fn commit<P>(&mut self, problem: &P, t: f64)
+    pub(super) fn commit<P>(&mut self, problem: &P, t: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
@@ -248,66 +219,4 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         self.correction = None;
         problem.guards(&modes, t, &self.made.y, &mut self.guards);
     }
-
-    /// Repeats the step up to the event at `share` of it and crosses the event.
-    fn land<P>(&mut self, problem: &P, h: f64, share: f64, guard: usize)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let start = self.memory.start;
-        // The step that was too long is made anew, shorter.
-        self.memory.statistics.steps -= 1;
-        let close = LANDED * self.settings.tolerance * problem.guard_scale();
-        let mut t = start.t + share * h;
-        for landing in 1..=LANDINGS {
-            if t <= start.t {
-                self.memory.end = start;
-                self.memory.front = start;
-                self.refresh(problem);
-                break;
-            }
-            self.attempt(problem, t - start.t);
-            problem.guards(&start.modes, t, &self.made.y, &mut self.guards);
-            let Guard { value, rate } = self.guards[guard];
-            let better = t - value / rate;
-            let useful = rate < 0.0 && better < start.t + h && better != t;
-            if landing == LANDINGS || value.abs() <= close || !useful {
-                self.commit(problem, t);
-                break;
-            }
-            t = better;
-        }
-        self.cross_with(problem, guard, close);
-    }
-
-    /// Crosses the event of `guard` at the front, and of all guards that have fallen with it: those
-    /// within `close` of zero.
-    fn cross_with<P>(&mut self, problem: &P, guard: usize, close: f64)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let with = |i: usize| i == guard || (self.guards[i].value <= close && self.guards[i].rate < 0.0);
-        let crossed: Crossed = std::array::from_fn(|i| i < problem.guard_count() && with(i));
-        self.cross(problem, &crossed);
-    }
-
-    fn cross<P>(&mut self, problem: &P, crossed: &Crossed)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let count = crossed.iter().map(|&crossed| u64::from(crossed)).sum::<u64>();
-        self.memory.crossings += count;
-        self.memory.statistics.events += count;
-        let front = &mut self.memory.front;
-        let reset = problem.cross(&front.modes, front.t, &mut front.y, crossed);
-        front.modes = reset.modes;
-        if let Some(step) = reset.step {
-            self.memory.step = self.memory.step.min(step);
-        }
-        self.refresh(problem);
-    }
-}
-
-fn has_fallen(guard: &Guard) -> bool {
-    guard.value <= 0.0 && guard.rate < 0.0
 }
