@@ -22,7 +22,7 @@ mod tableau;
 pub use controller::Settings;
 pub use error::IntegrationError;
 pub use memory::{Front, Memory};
-pub use problem::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
+pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
 pub use statistics::Statistics;
 pub use step::Integrator;
 pub use tableau::{Method, Tableau};

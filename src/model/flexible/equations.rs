@@ -171,7 +171,7 @@ impl<const Q: usize, const K: usize, const F: usize> Moving<'_, Q, K, F> {
         let Self { rod, inertia, configuration, .. } = self;
         let heading = &configuration.heading[ROD];
         let (velocity, speed) = (configuration.big_end.velocity, heading.speed);
-        let mut opening = Vec2::zeros();
+        let mut opening = Vec2::<f64>::ZERO;
         let (mut turning, mut modal) = (0.0, 0.0);
         for (a, rate_a) in rate.iter().enumerate() {
             opening += *rate_a * inertia.first_slope[a];
@@ -180,7 +180,7 @@ impl<const Q: usize, const K: usize, const F: usize> Moving<'_, Q, K, F> {
         }
         let first_rate = speed * perp(heading.rotation.apply(inertia.first)) + heading.rotation.apply(opening);
         0.5 * rod.mass() * velocity.norm_squared()
-            + velocity.dot(&first_rate)
+            + velocity.dot(first_rate)
             + 0.5 * inertia.about_origin * speed * speed
             + speed * turning
             + 0.5 * modal

@@ -18,10 +18,11 @@ use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::Vec2;
 use super::plant::Plant;
 use super::rod::{Inertia, Rod, most_functions};
+use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, FlexibleInstant, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
 use crate::scene::Scene;
 use configuration::{Configuration, Geometry};
 use equations::{Equations, Moving, add_rigid_bodies};
@@ -160,6 +161,8 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
         self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * p..]);
     }
 
+    fn jacobian(&self, _: &Contacts, _: f64, _: &[f64; N], _: &mut Jacobian<N>) {}
+
     fn scales(&self) -> &[f64; N] {
         &self.scales
     }
@@ -257,5 +260,11 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
 
     fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
         self.clearances.account(self.clear, contacts, pose, &y[2 * self.extent.positions..])
+    }
+
+    fn tangent_rates(&self, _: &Contacts, _: Tangent, _: &[Tangent; N], _: &mut [Tangent; N]) {}
+
+    fn tangent_instant(&self, _: &Contacts, _: Tangent, _: &[Tangent; N]) -> (Instant<Tangent>, Account<Tangent>) {
+        unimplemented!()
     }
 }

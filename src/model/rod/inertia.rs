@@ -39,12 +39,12 @@ impl Rod {
         let (q, dq) = (&eta[..n], &rate[..n]);
         let (xi, xi_bias) = (&shape.xi[..count], &shape.xi_bias[..count]);
         let mut inertia = Inertia {
-            first: Vec2::zeros(),
+            first: Vec2::ZERO,
             about_origin: 0.0,
-            first_slope: [Vec2::zeros(); K],
+            first_slope: [Vec2::ZERO; K],
             turning: [0.0; K],
             modal: [[0.0; K]; K],
-            force: Vec2::zeros(),
+            force: Vec2::ZERO,
             couple: 0.0,
             modal_force: [0.0; K],
         };

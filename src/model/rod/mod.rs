@@ -72,15 +72,15 @@ pub struct Shape<const K: usize, const F: usize> {
 
 /// What outputs tell of the rod's elasticity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Elastic {
+pub struct Elastic<R = f64> {
     /// [m] At mid-span.
-    pub deflection: f64,
+    pub deflection: R,
     /// [m] From end to end.
-    pub stretch: f64,
+    pub stretch: R,
     /// [J]
-    pub energy: f64,
+    pub energy: R,
     /// [W] That modal damping takes.
-    pub modal_loss: f64,
+    pub modal_loss: R,
 }
 
 impl Rod {
