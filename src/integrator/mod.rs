@@ -25,7 +25,7 @@ pub use controller::Settings;
 pub use error::IntegrationError;
 pub use memory::{Front, Memory};
 pub use method::{Method, Room};
-pub use problem::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
+pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
 pub use statistics::Statistics;
 pub use step::Integrator;
 pub use tableau::{Explicit, Tableau};
