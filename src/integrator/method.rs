@@ -20,6 +20,9 @@ pub trait Method: Send + Sync + 'static {
     const GIVES_RATES: bool;
     /// Events are located and landed on; otherwise they are noticed at the end of a step.
     const LOCATES: bool;
+    /// States within a step are interpolated; otherwise a shorter step is made to each: an interpolant
+    /// leaves the slow motion of a stiff system.
+    const INTERPOLATES: bool;
     /// Evaluations of the rates in an attempt.
     const EVALUATIONS: u64;
     /// What an attempt works with besides [`Attempt`].

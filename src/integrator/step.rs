@@ -88,6 +88,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if t >= front.t {
             return (front.y, front.modes);
         }
+        if !M::INTERPOLATES {
+            let (t0, modes) = (start.t, start.modes);
+            M::attempt(&mut self.made, &mut self.room, problem, start, t - t0);
+            return (if t > t0 { self.made.y } else { self.memory.start.y }, modes);
+        }
         let step = self.memory.last_step(Extent::of(problem));
         let tolerance = self.settings.tolerance;
         let correction = self.correction.get_or_insert_with(|| step.correction(problem, &start.modes, tolerance));

@@ -50,6 +50,7 @@ impl<E: Explicit> Method for E {
     const COARSE: bool = E::TABLEAU.coarse_error.is_some();
     const GIVES_RATES: bool = E::TABLEAU.first_same_as_last;
     const LOCATES: bool = E::LOCATES;
+    const INTERPOLATES: bool = true;
     const EVALUATIONS: u64 = E::TABLEAU.stages as u64 - 1;
     type Room<const N: usize> = ();
 
