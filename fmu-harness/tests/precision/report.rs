@@ -23,7 +23,7 @@ fn mixed() -> Diagram {
 }
 
 fn host_points() -> Vec<HostPoint> {
-    let found = Found { error: 2e-5, total: 0.08, unit: 0.03, evaluations: 4e5, over: 0.012, window: 0.011 };
+    let found = Found { error: Some(2e-5), total: 0.08, unit: 0.03, evaluations: 4e5, over: 0.012, window: 0.011 };
     let missing = Err("there is no Python".to_owned());
     vec![
         HostPoint { scene: "own".into(), step: 1e-4, outcome: Ok(found) },
