@@ -2,6 +2,7 @@
 
 use super::Size;
 use super::snapshot::{Reader, Snapshot};
+use super::system::{Bare, Equations};
 use crate::integrator::{Extent, Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
@@ -29,6 +30,8 @@ pub trait Motion: Send {
     fn size(&self) -> Size;
     /// Evaluates the right-hand side where the next step starts.
     fn evaluate(&self, times: usize);
+    /// Its equations, from where the next step starts.
+    fn equations(self: Box<Self>) -> Box<dyn Equations>;
     /// Appends all that it remembers.
     fn save(&self, snapshot: &mut Snapshot);
     /// Takes back what `save` appended; `None` if it does not fit.
@@ -136,6 +139,11 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
             self.plant.rates(black_box(modes), *t, black_box(y), &mut rates);
             black_box(&rates);
         }
+    }
+
+    fn equations(self: Box<Self>) -> Box<dyn Equations> {
+        let start = self.integrator.memory().front;
+        Box::new(Bare::new(self.plant, self.observer, start))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
