@@ -2,7 +2,7 @@
 //! functions, and what happens at an event.
 
 use super::run::Motion;
-use super::{Size, SimulationError, assemble, start_pose};
+use super::{SimulationError, Size, assemble, start_pose};
 use crate::integrator::{Crossed, Extent, Front, GUARDS, Guard};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;

@@ -3,11 +3,13 @@
 mod effects;
 mod inspect;
 mod package;
+mod peers;
 mod run;
 
 pub use effects::Effects;
 pub use inspect::Inspect;
 pub use package::Package;
+pub use peers::Peers;
 pub use run::Run;
 
 use crate::package::build::workspace;

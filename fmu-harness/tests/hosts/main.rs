@@ -1,7 +1,7 @@
 //! The packaged FMUs in hosts that others wrote: FMPy, fmutool, fmucontainer, ecos, fmuloader.
 //!
 //! Each test here is a file of Python tests beside this one, run by pytest in an environment that
-//! `environment.py` makes under `target/` from the pinned list in `requirements.txt`. README.md tells
+//! `fmu_harness::environment` makes under `target/` from the pinned list in `requirements.txt`. README.md tells
 //! where each of the things that hosts do to an FMU is tested.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
