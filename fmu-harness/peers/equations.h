@@ -16,3 +16,4 @@ void equations_scales(const system_of_equations *, double *scales);
 void equations_rates(const system_of_equations *, double t, const double *y, double *rates);
 void equations_event_functions(const system_of_equations *, double t, const double *y, double *guards);
 void equations_cross(system_of_equations *, double t, double *y, const int32_t *crossed);
+double equations_parameter(const char *scene_file, const char *name);

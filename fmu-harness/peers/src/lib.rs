@@ -6,6 +6,7 @@
 #![allow(unsafe_code)]
 
 use slidercrank::model::signals::Inputs;
+use slidercrank::scene::parameter::Parameter;
 use slidercrank::scene::profile::Profiles;
 use slidercrank::scene::read::read;
 use slidercrank::simulation::System;
@@ -154,6 +155,18 @@ pub unsafe extern "C" fn equations_cross(system: *mut System, t: f64, y: *mut f6
         *flag = *crossed != 0;
     }
     system.cross(t, y, &flags);
+}
+
+/// Value of the parameter `name` of the scene in `file`, in SI units; not a number if there is none.
+///
+/// # Safety
+/// `file` and `name` are strings that end in a null byte.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn equations_parameter(file: *const c_char, name: *const c_char) -> f64 {
+    // SAFETY: the caller vouches for the strings.
+    let [file, name] = unsafe { [CStr::from_ptr(file), CStr::from_ptr(name)] }.map(CStr::to_string_lossy);
+    let scene = fs::read_to_string(&*file).ok().and_then(|text| read(&text, &file).ok());
+    scene.zip(Parameter::named(&name)).map_or(f64::NAN, |(file, parameter)| parameter.value(&file.scene))
 }
 
 /// # Safety

@@ -8,6 +8,15 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+/// What a run found, one instant after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Found {
+    /// Our positions.
+    Positions(Vec<f64>),
+    /// What the error is measured in.
+    Measured(Vec<f64>),
+}
+
 /// What a competitor says of one tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
@@ -20,7 +29,7 @@ pub enum Answer {
         /// In the whole span.
         evaluations: f64,
         /// At equidistant instants.
-        positions: Vec<f64>,
+        found: Found,
     },
     /// It did not.
     Failure {
@@ -40,14 +49,15 @@ impl Answer {
         if let Some(note) = value.get("note") {
             return Some(Self::Failure { tolerance, note: note.as_str()?.to_owned() });
         }
-        let positions = value.get("positions")?.as_array()?.iter().map(Value::as_f64).collect::<Option<_>>()?;
-        Some(Self::Run { tolerance, seconds: number("seconds")?, evaluations: number("evaluations")?, positions })
+        let list = |name: &str| value.get(name)?.as_array()?.iter().map(Value::as_f64).collect::<Option<_>>();
+        let found = list("positions").map(Found::Positions).or_else(|| list("measured").map(Found::Measured))?;
+        Some(Self::Run { tolerance, seconds: number("seconds")?, evaluations: number("evaluations")?, found })
     }
 
-    /// The positions of a run that got to the end.
-    pub fn positions(&self) -> Option<&[f64]> {
+    /// What a run that got to the end found.
+    pub fn found(&self) -> Option<&Found> {
         match self {
-            Self::Run { positions, .. } => Some(positions),
+            Self::Run { found, .. } => Some(found),
             Self::Failure { .. } => None,
         }
     }

@@ -146,17 +146,16 @@ fn compete(
     };
     let (answers, ending) = child::run(command, budget)?;
     series.notes.extend(ending);
-    let finest = answers.iter().filter_map(Answer::positions).next_back();
-    let paths = |positions: &[f64]| ruler.paths(system, positions);
-    let own_reference = if program.own_model { finest.map(&paths) } else { None };
-    let last = answers.len().saturating_sub(1);
-    for (place, answer) in answers.iter().enumerate() {
+    let paths = |found| ruler.paths(system, found);
+    // A run is no measure of itself.
+    let finest = answers.iter().rposition(|answer| answer.found().is_some()).filter(|_| program.own_model);
+    let reference = finest.and_then(|place| answers[place].found()).map(paths);
+    for (_, answer) in answers.iter().enumerate().filter(|(place, _)| Some(*place) != finest) {
         match answer {
-            Answer::Run { tolerance, seconds, evaluations, positions } => {
-                let error = match &own_reference {
-                    Some(_) if place == last => continue,
-                    Some(reference) => Ruler::distance(&paths(positions), reference),
-                    None => ruler.error(&paths(positions)),
+            Answer::Run { tolerance, seconds, evaluations, found } => {
+                let error = match &reference {
+                    Some(reference) => Ruler::distance(&paths(found), reference),
+                    None => ruler.error(&paths(found)),
                 };
                 let (cost, evaluations) = (seconds / task.span, evaluations / task.span);
                 series.points.push(Point { tolerance: *tolerance, error, cost, evaluations });

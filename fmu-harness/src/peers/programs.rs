@@ -42,7 +42,15 @@ const fn sundials(method: &'static str, word: &'static str) -> Program {
 
 const fn scipy(word: &'static str) -> Program {
     let (peer, kind, ladder) = ("SciPy", Kind::Python("wornpin.py"), FEWER);
-    Program { peer, method: word, kind, word, ladder, own_model: false, note: Some("equations of its own in numba") }
+    Program {
+        peer,
+        method: word,
+        kind,
+        word,
+        ladder,
+        own_model: false,
+        note: Some("equations of its own in numba; steps of at most 10 µs, or it skips hops"),
+    }
 }
 
 const SUNDIALS: [Program; 5] = [
@@ -55,6 +63,34 @@ const SUNDIALS: [Program; 5] = [
 
 const SCIPY: [Program; 3] = [scipy("DOP853"), scipy("LSODA"), scipy("Radau")];
 
+const fn exudyn(method: &'static str, word: &'static str) -> Program {
+    let (peer, kind) = ("Exudyn", Kind::Python("exudyn_journal.py"));
+    let ladder = &[1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7];
+    let note = Some("sphere in hollow sphere, kinematic tree; fixed steps, 1e-5 to 2e-7 s");
+    Program { peer, method, kind, word, ladder, own_model: false, note }
+}
+
+const EXUDYN: [Program; 2] =
+    [exudyn("RK44, touches located", "RK44"), exudyn("generalized-alpha", "generalized-alpha")];
+
+const fn mujoco(method: &'static str, word: &'static str) -> Program {
+    let (peer, kind, ladder) = ("MuJoCo", Kind::Python("mujoco_ideal.py"), &[1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5]);
+    let note = Some("loop closed by a soft constraint; fixed steps, 1e-3 to 1e-5 s");
+    Program { peer, method, kind, word, ladder, own_model: false, note }
+}
+
+const MUJOCO: [Program; 2] = [mujoco("RK4", "RK4"), mujoco("implicit", "implicit")];
+
+const SICONOS: Program = Program {
+    peer: "Siconos",
+    method: "Moreau-Jean",
+    kind: Kind::Siconos,
+    word: "moreau",
+    ladder: &[1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 2e-7],
+    own_model: true,
+    note: Some("rigid impacts: another model; error against its own run at 2e-7 s"),
+};
+
 /// The competitors that know the scene.
 pub fn of(scene: &Scene) -> Vec<&'static Program> {
     let joint = &scene.joint;
@@ -64,6 +100,13 @@ pub fn of(scene: &Scene) -> Vec<&'static Program> {
     let mut all: Vec<&Program> = SUNDIALS.iter().collect();
     if clear == [false, false, true, false] && speed {
         all.extend(&SCIPY);
+        all.extend(&EXUDYN);
+    }
+    if clear == [false; 4] && !speed {
+        all.extend(&MUJOCO);
+    }
+    if clear == [false, false, false, true] && !speed {
+        all.push(&SICONOS);
     }
     all
 }

@@ -2,9 +2,10 @@
 //! components of every joint's eccentricity over its clearance.
 //!
 //! In a guide the slider's displacement across and its tilt times half its length stand for the eccentricity. Without
-//! any clearance it is the crank's angle, or the rod's where the crank's is prescribed [rad].
+//! any clearance it is the angles of crank and rod [rad] and the slider's place over the crank's length.
 
 use super::Task;
+use super::child::Found;
 use crate::effects::inputs_at_start;
 use anyhow::Result;
 use slidercrank::model::signals::Outputs;
@@ -49,8 +50,15 @@ impl Ruler {
         self.times.iter().map(at).collect()
     }
 
-    /// The measured quantities of a run told by its positions, instant after instant.
-    pub fn paths(&self, system: &System, positions: &[f64]) -> Paths {
+    /// The measured quantities of a competitor's run.
+    pub fn paths(&self, system: &System, found: &Found) -> Paths {
+        let positions = match found {
+            Found::Measured(all) => {
+                let count = self.reference.first().map_or(1, Vec::len).max(1);
+                return all.chunks(count).map(<[f64]>::to_vec).collect();
+            }
+            Found::Positions(positions) => positions,
+        };
         let size = system.size();
         let mut y = vec![0.0; size.states];
         let instants = positions.chunks(size.degrees_of_freedom.max(1)).zip(&self.times);
@@ -76,7 +84,7 @@ impl Ruler {
             all.extend([slider.y, 0.5 * self.scene.slider.length * slider.angle].map(|e| e / joint.t.clearance));
         }
         if all.is_empty() {
-            all.extend([crank.angle, rod.angle]);
+            all.extend([crank.angle, rod.angle, slider.x / self.scene.crank.length]);
         }
         all
     }

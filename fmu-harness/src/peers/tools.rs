@@ -27,6 +27,7 @@ pub struct Tools {
     pub directory: PathBuf,
     equations: Result<PathBuf, String>,
     sundials: Result<PathBuf, String>,
+    siconos: Result<PathBuf, String>,
     python: Result<PathBuf, String>,
 }
 
@@ -38,9 +39,11 @@ impl Tools {
         let equations = told(equations());
         progress("SUNDIALS driver");
         let sundials = equations.clone().and_then(|library| told(sundials(&directory, &library)));
+        progress("Siconos driver");
+        let siconos = equations.clone().and_then(|library| told(siconos(&directory, &library)));
         progress("Python environment");
         let python = told(environment::python("peers/python", &sources().join("requirements.txt")));
-        Self { directory, equations, sundials, python }
+        Self { directory, equations, sundials, siconos, python }
     }
 
     /// The library of our equations, for a job.
@@ -51,8 +54,9 @@ impl Tools {
     /// How a competitor is started on the task, or what it lacks.
     pub fn command(&self, task: &Task, program: &Program, job: &Path) -> Result<Command, String> {
         match program.kind {
-            Kind::Sundials => {
-                let mut command = Command::new(self.sundials.as_ref()?);
+            Kind::Sundials | Kind::Siconos => {
+                let driver = if program.kind == Kind::Siconos { &self.siconos } else { &self.sundials };
+                let mut command = Command::new(driver.as_ref()?);
                 command.arg(program.word).arg(&task.file).arg(task.span.to_string()).arg(task.points.to_string());
                 command.args(program.ladder.iter().map(f64::to_string));
                 Ok(command)
@@ -65,7 +69,6 @@ impl Tools {
                 command.env_remove("PYTHONPATH").env("OPENBLAS_NUM_THREADS", "1");
                 Ok(command)
             }
-            Kind::Siconos => Err(INSTALL.into()),
         }
     }
 }
@@ -96,6 +99,19 @@ fn sundials(directory: &Path, library: &Path) -> Result<PathBuf> {
     command.args(["-O2", "-o"]).arg(&program).arg(sources().join("sundials.c"));
     link(&mut command, library);
     command.args(SUNDIALS.map(|name| format!("-l{name}")));
+    compile(command, directory)?;
+    Ok(program)
+}
+
+/// Compiles the Siconos driver.
+fn siconos(directory: &Path, library: &Path) -> Result<PathBuf> {
+    let program = directory.join("siconos");
+    let mut command = Command::new("c++");
+    command.args(["-O2", "-o"]).arg(&program).arg(sources().join("siconos.cpp"));
+    command.args(["", "/kernel", "/numerics"].map(|part| format!("-I/usr/include/siconos{part}")));
+    command.arg("-I/usr/include/suitesparse");
+    link(&mut command, library);
+    command.args(["-lsiconos_kernel", "-lsiconos_numerics"]);
     compile(command, directory)?;
     Ok(program)
 }
