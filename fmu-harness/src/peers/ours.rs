@@ -15,7 +15,7 @@ use std::time::Duration;
 /// The methods, the default first.
 const METHODS: [(Method, &str); 3] =
     [(Method::Verner7, "verner7"), (Method::Dop853, "dop853"), (Method::Dopri5, "dopri5")];
-const TOLERANCES: [f64; 8] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// [s] Communication step of the FMU.
 const STEP: f64 = 1e-4;
 /// Runs, of which the fastest counts.

@@ -24,7 +24,7 @@ pub struct Program {
     pub kind: Kind,
     /// Its own name for the method.
     pub word: &'static str,
-    /// From loose to tight.
+    /// Tolerances, or steps [s] where the method's are fixed, from loose to tight.
     pub ladder: &'static [f64],
     /// Its model is not ours: its error is taken against its own finest run.
     pub own_model: bool,
@@ -32,7 +32,7 @@ pub struct Program {
     pub note: Option<&'static str>,
 }
 
-const TOLERANCES: &[f64] = &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+const TOLERANCES: &[f64] = &[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 const FEWER: &[f64] = &[1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
 
 const fn sundials(method: &'static str, word: &'static str) -> Program {
@@ -66,7 +66,7 @@ const SCIPY: [Program; 3] = [scipy("DOP853"), scipy("LSODA"), scipy("Radau")];
 const fn exudyn(method: &'static str, word: &'static str) -> Program {
     let (peer, kind) = ("Exudyn", Kind::Python("exudyn_journal.py"));
     let ladder = &[1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7];
-    let note = Some("sphere in hollow sphere, kinematic tree; fixed steps, 1e-5 to 2e-7 s");
+    let note = Some("a sphere in a hollow sphere; fixed steps");
     Program { peer, method, kind, word, ladder, own_model: false, note }
 }
 
@@ -75,7 +75,7 @@ const EXUDYN: [Program; 2] =
 
 const fn mujoco(method: &'static str, word: &'static str) -> Program {
     let (peer, kind, ladder) = ("MuJoCo", Kind::Python("mujoco_ideal.py"), &[1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5]);
-    let note = Some("loop closed by a soft constraint; fixed steps, 1e-3 to 1e-5 s");
+    let note = Some("loop closed by a soft constraint; fixed steps");
     Program { peer, method, kind, word, ladder, own_model: false, note }
 }
 
@@ -88,7 +88,7 @@ const SICONOS: Program = Program {
     word: "moreau",
     ladder: &[1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 2e-7],
     own_model: true,
-    note: Some("rigid impacts: another model; error against its own run at 2e-7 s"),
+    note: Some("rigid impacts: another model; fixed steps, error against its own finest run"),
 };
 
 /// The competitors that know the scene.

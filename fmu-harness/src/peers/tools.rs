@@ -63,7 +63,7 @@ impl Tools {
             }
             Kind::Python(script) => {
                 let mut command = Command::new(self.python.as_ref()?);
-                command.arg("-B").arg(sources().join(script)).arg(job).arg(program.word);
+                command.args(["-B", "-W", "ignore"]).arg(sources().join(script)).arg(job).arg(program.word);
                 // One thread each: CPU time is what is compared.
                 command.env("NUMBA_CACHE_DIR", self.directory.join("numba")).env("OMP_NUM_THREADS", "1");
                 command.env_remove("PYTHONPATH").env("OPENBLAS_NUM_THREADS", "1");
