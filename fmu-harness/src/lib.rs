@@ -2,12 +2,14 @@
 
 pub mod command;
 pub mod effects;
-pub mod environment;
 pub mod host;
 pub mod inputs;
 pub mod inspect;
 pub mod package;
 pub mod peers;
+pub mod precision;
+pub mod python;
+pub mod realtime;
 pub mod report;
 pub mod run;
 pub mod scenes;

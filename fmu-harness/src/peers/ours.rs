@@ -5,8 +5,8 @@ use crate::effects::inputs_at_start;
 use crate::host::Fmu;
 use crate::inputs;
 use crate::package::Stock;
-use crate::run::{Experiment, Until, march};
-use anyhow::Result;
+use crate::run::{Ending, Experiment, Look, March, Until, march};
+use anyhow::{Result, ensure};
 use cpu_time::ThreadTime;
 use slidercrank::scene::Method;
 use slidercrank::simulation::Simulation;
@@ -71,7 +71,11 @@ fn through_fmu(task: &Task, core: &Series) -> Result<Series> {
             step: STEP,
             tolerance: Some(point.tolerance),
         };
-        let seconds = fastest(|| Ok(march(&fmu, &experiment)?.0))?;
+        let seconds = fastest(|| {
+            let March { spent, ending, .. } = march(&fmu, &experiment, Look::AtEnds, Duration::MAX)?;
+            ensure!(ending == Ending::Reached, "the packaged FMU gave up: {ending:?}");
+            Ok(spent)
+        })?;
         points.push(Point { cost: seconds / task.span, ..*point });
     }
     let method = format!("{}, packaged FMU", core.method);

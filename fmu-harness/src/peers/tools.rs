@@ -2,8 +2,8 @@
 
 use super::Task;
 use super::programs::{Kind, Program};
-use crate::environment;
 use crate::package::build::{cargo, workspace};
+use crate::python::{self, Missing};
 use anyhow::{Result, bail, ensure};
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ pub struct Tools {
 impl Tools {
     /// Builds what can be built here.
     pub fn new(progress: &impl Fn(&str)) -> Self {
-        let directory = workspace().join("target").join("peers");
+        let directory = workspace().join("target").join("drivers");
         progress("our equations behind a C interface");
         let equations = told(equations());
         progress("SUNDIALS driver");
@@ -42,7 +42,7 @@ impl Tools {
         progress("Siconos driver");
         let siconos = equations.clone().and_then(|library| told(siconos(&directory, &library)));
         progress("Python environment");
-        let python = told(environment::python("peers/python", &sources().join("requirements.txt")));
+        let python = told(python::environment("peers", Missing::Make));
         Self { directory, equations, sundials, siconos, python }
     }
 

@@ -1,7 +1,8 @@
 //! What others need for the same scene: cost at equal error, and ratio to ours.
 
-use super::loglog::{Line, LogLog};
-use super::plot::Sheet;
+use super::loglog::{Bound, LogLog, Series as Curve};
+use super::named::Named;
+use super::plot::{Role, Sheet};
 use super::table::Table;
 use super::units::{significant, three_digits};
 use crate::peers::{Contest, Point, Series};
@@ -121,26 +122,41 @@ pub fn write_csv(contests: &[Contest], file: &Path) -> Result<()> {
 }
 
 /// Cost against error, a panel for each scene.
-pub fn sheet(contests: &[Contest]) -> Sheet<LogLog> {
-    let panel = |contest: &Contest| LogLog {
-        title: contest.scene.clone(),
-        x_label: "largest error, of the clearance".into(),
-        y_label: "CPU s per simulated s".into(),
-        floor: contest.reference_error,
-        lines: contest.series.iter().filter(|series| !series.points.is_empty()).map(line).collect(),
-    };
+pub fn sheet(contests: &[Contest]) -> Sheet<Named> {
     Sheet {
         title: "The same scene in what people use instead".into(),
         legend: vec![],
         panels: contests.iter().map(panel).collect(),
         columns: 1,
-        panel_size: (900, 460),
+        panel_size: (1100, 480),
     }
 }
 
-fn line(series: &Series) -> Line {
-    let points = series.points.iter().filter(|point| point.error.is_finite() && point.error > 0.0);
-    Line { name: name(series), points: points.map(|point| (point.error, point.cost)).collect() }
+fn panel(contest: &Contest) -> Named {
+    let drawn = || contest.series.iter().filter(|series| !series.points.is_empty()).enumerate();
+    let names = drawn().map(|(number, series)| (Role::Member(number), name(series)));
+    let curves = drawn().map(|(number, series)| Curve {
+        role: Role::Member(number),
+        points: series.points.iter().filter(|point| point.error.is_finite()).map(place).collect(),
+        dots: true,
+        odd: vec![],
+    });
+    let panel = LogLog {
+        x_label: "largest error over the clearance".into(),
+        y_label: "CPU seconds per simulated second".into(),
+        series: curves.collect(),
+        floor: Some(Bound { at: contest.reference_error, label: "reference's own error".into() }),
+        level: Some(Bound { at: 1.0, label: "real time".into() }),
+        deadline: None,
+        strip: None,
+        text: String::new(),
+    };
+    Named { heading: contest.scene.clone(), panel, names: names.collect() }
+}
+
+/// An error of 0 stands far below any reference's.
+fn place(point: &Point) -> (f64, f64) {
+    (point.error.max(f64::EPSILON), point.cost)
 }
 
 fn name(series: &Series) -> String {

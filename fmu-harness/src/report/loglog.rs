@@ -1,120 +1,296 @@
-//! Lines on two logarithmic scales, each with its name at the side.
+//! Curves over two logarithmic scales, a strip for runs without a place on them, and a text below.
 
-use super::plot::{Area, Drawn, FINE, GRID, INK, Paint, font};
+use super::plot::{Area, Drawn, FINE, GRID, INK, Paint, Role, font};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::ops::RangeInclusive;
 
-/// Room left of, right of, above and below the coordinate system [pixel].
-const ROOM: [f64; 4] = [76.0, 236.0, 34.0, 58.0];
-/// Height of a line of the legend [pixel].
-const LEGEND: f64 = 19.0;
-/// Radius of a point [pixel].
-const DOT: f64 = 3.2;
-/// Colours that are told apart by colour-blind readers too: Okabe and Ito, Color Universal Design, 2008; each is used
-/// again with hollow points.
-const COLORS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(90, 90, 90),
-];
+/// Room left, above and for the scale below [pixel].
+const LEFT: f64 = 78.0;
+const ABOVE: f64 = 14.0;
+const SCALE: f64 = 58.0;
+/// Room right, and width of the strip [pixel].
+const RIGHT: f64 = 24.0;
+const STRIP: f64 = 112.0;
+/// Of it, left free beside the scales [pixel].
+const GAP: f64 = 20.0;
+/// Height of a line of text, width of a letter, size of a mark [pixel].
+const LINE: f64 = 19.0;
+const LETTER: f64 = 6.4;
+const MARK: f64 = 4.5;
+const SHADE: RGBColor = RGBColor(235, 232, 224);
 
-/// One line.
-pub struct Line {
-    /// In the legend.
-    pub name: String,
-    /// Above 0.
+/// What a run without a place on the scales is drawn as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A cross.
+    Failed,
+    /// A triangle that points up.
+    Stopped,
+}
+
+/// One curve.
+pub struct Series {
+    /// Its colour.
+    pub role: Role,
+    /// Its points, all above 0.
     pub points: Vec<(f64, f64)>,
+    /// Whether each point has a dot.
+    pub dots: bool,
+    /// Runs without an abscissa; one without an ordinate either stands at the top.
+    pub odd: Vec<(Mark, Option<f64>)>,
+}
+
+/// A line across the panel, or the edge of its shaded part.
+pub struct Bound {
+    /// Where.
+    pub at: f64,
+    /// What it means.
+    pub label: String,
 }
 
 /// A panel.
 pub struct LogLog {
-    /// Above it.
-    pub title: String,
     /// Name and unit of the abscissa.
     pub x_label: String,
     /// Name and unit of the ordinate.
     pub y_label: String,
-    /// Abscissas below this mean nothing; drawn as a line.
-    pub floor: f64,
     /// What is drawn.
-    pub lines: Vec<Line>,
-}
-
-impl LogLog {
-    /// The decades that hold all values, as powers of ten.
-    fn decades(&self, of: fn(&(f64, f64)) -> f64) -> (i32, i32) {
-        let values = || self.lines.iter().flat_map(|line| &line.points).map(|point| of(point).log10());
-        let low = values().fold(f64::INFINITY, f64::min).floor();
-        let high = values().fold(f64::NEG_INFINITY, f64::max).ceil();
-        if low < high { (low as i32, high as i32) } else { (0, 1) }
-    }
+    pub series: Vec<Series>,
+    /// Shaded to the left of it.
+    pub floor: Option<Bound>,
+    /// A line at an ordinate.
+    pub level: Option<Bound>,
+    /// A line at an abscissa.
+    pub deadline: Option<Bound>,
+    /// Name of the strip at the right, if there is one.
+    pub strip: Option<String>,
+    /// Stands below.
+    pub text: String,
 }
 
 impl Paint for LogLog {
     fn draw(&self, area: &Area) -> Drawn {
-        let at = |x: f64, y: f64| ((x * f64::from(FINE)) as i32, (y * f64::from(FINE)) as i32);
         let (width, height) = area.dim_in_pixel();
         let (width, height) = (f64::from(width / FINE), f64::from(height / FINE));
-        let [left, right, above, below] = ROOM;
-        let (right, bottom) = (width - right, height - below);
-        let ((x_low, x_high), (y_low, y_high)) = (self.decades(|point| point.0), self.decades(|point| point.1));
-        let share = |value: f64, low: i32, high: i32| (value - f64::from(low)) / f64::from(high - low);
-        let x = |value: f64| left + (right - left) * share(value.log10(), x_low, x_high);
-        let y = |value: f64| bottom - (bottom - above) * share(value.log10(), y_low, y_high);
-        let anchored = |size: f64, h: HPos, v: VPos| font(size).pos(Pos::new(h, v));
-
-        let thin = GRID.stroke_width(FINE);
-        for decade in x_low..=x_high {
-            let x = x(10f64.powi(decade));
-            area.draw(&PathElement::new(vec![at(x, above), at(x, bottom)], thin))?;
-            let style = anchored(12.0, HPos::Center, VPos::Top);
-            area.draw(&Text::new(format!("1e{decade}"), at(x, bottom + 7.0), style))?;
+        let lines = wrapped(&self.text, ((width - LEFT) / LETTER) as usize);
+        let strip = if self.strip.is_some() { STRIP } else { 0.0 };
+        let frame = Frame {
+            x: decades(self.abscissae()),
+            y: decades(self.ordinates()),
+            left: LEFT,
+            right: width - RIGHT - strip,
+            top: ABOVE,
+            bottom: height - SCALE - LINE * lines.len() as f64,
+        };
+        if let Some(floor) = &self.floor {
+            let corners = [frame.point(frame.left, frame.top), frame.point(frame.x(floor.at), frame.bottom)];
+            area.draw(&Rectangle::new(corners, SHADE.filled()))?;
+            let style = font(11.5).pos(Pos::new(HPos::Left, VPos::Bottom));
+            let at = frame.point(frame.left + 6.0, frame.bottom - 6.0);
+            area.draw(&Text::new(floor.label.as_str(), at, style))?;
         }
-        for decade in y_low..=y_high {
-            let y = y(10f64.powi(decade));
-            area.draw(&PathElement::new(vec![at(left, y), at(right, y)], thin))?;
-            let style = anchored(12.0, HPos::Right, VPos::Center);
-            area.draw(&Text::new(format!("{}", 10f64.powi(decade)), at(left - 8.0, y), style))?;
+        frame.scales(area, &self.x_label, &self.y_label)?;
+        frame.lines(area, self.level.as_ref(), self.deadline.as_ref())?;
+        for (number, series) in self.series.iter().enumerate() {
+            frame.series(area, series)?;
+            let share = (number as f64 + 1.0) / (self.series.len() as f64 + 1.0);
+            frame.odd(area, series, width - RIGHT - (strip - GAP) * (1.0 - share))?;
         }
-        let frame = [(left, above), (left, bottom), (right, bottom)].map(|(x, y)| at(x, y));
-        area.draw(&PathElement::new(frame.to_vec(), INK.stroke_width(FINE)))?;
-        let middle = at(0.5 * (left + right), bottom + 28.0);
-        area.draw(&Text::new(self.x_label.as_str(), middle, anchored(13.0, HPos::Center, VPos::Top)))?;
-        let corner = at(left - 58.0, above - 12.0);
-        let heading = format!("{}: {}", self.title, self.y_label);
-        area.draw(&Text::new(heading, corner, anchored(13.0, HPos::Left, VPos::Bottom)))?;
-        if self.floor > 10f64.powi(x_low) && self.floor < 10f64.powi(x_high) {
-            let x = x(self.floor);
-            area.draw(&PathElement::new(vec![at(x, above), at(x, bottom)], INK.stroke_width(FINE)))?;
-            let style = anchored(11.5, HPos::Left, VPos::Top);
-            area.draw(&Text::new("error of the reference", at(x + 5.0, above + 2.0), style))?;
+        if let Some(name) = &self.strip {
+            let style = font(11.5).pos(Pos::new(HPos::Center, VPos::Top));
+            let middle = width - RIGHT - 0.5 * (strip - GAP);
+            area.draw(&Text::new(name.as_str(), frame.point(middle, frame.bottom + 7.0), style))?;
+            let ends = [width - RIGHT - strip + GAP, width - RIGHT].map(|x| frame.point(x, frame.bottom));
+            area.draw(&PathElement::new(ends, INK.stroke_width(FINE)))?;
         }
-        for (place, line) in self.lines.iter().enumerate() {
-            let color = COLORS[place % COLORS.len()];
-            let solid = place < COLORS.len();
-            let dot = |center: (i32, i32)| {
-                let size = (DOT * f64::from(FINE)) as i32;
-                let inside = if solid { color.filled() } else { WHITE.filled() };
-                [Circle::new(center, size, inside), Circle::new(center, size, color.stroke_width(FINE))]
-            };
-            let style = color.stroke_width(if place == 0 { 3 * FINE } else { 3 * FINE / 2 });
-            let points: Vec<(i32, i32)> = line.points.iter().map(|point| at(x(point.0), y(point.1))).collect();
-            area.draw(&PathElement::new(points.clone(), style))?;
-            let row = above + 8.0 + LEGEND * place as f64;
-            let sample = [(right + 14.0, row), (right + 40.0, row)].map(|(x, y)| at(x, y));
-            area.draw(&PathElement::new(sample.to_vec(), style))?;
-            for center in points.into_iter().chain([at(right + 27.0, row)]) {
-                for circle in dot(center) {
-                    area.draw(&circle)?;
-                }
-            }
-            let style = anchored(12.0, HPos::Left, VPos::Center);
-            area.draw(&Text::new(line.name.as_str(), at(right + 47.0, row), style))?;
+        for (number, line) in lines.iter().enumerate() {
+            let at = frame.point(frame.left, frame.bottom + SCALE - 4.0 + LINE * number as f64);
+            area.draw(&Text::new(line.as_str(), at, font(12.5)))?;
         }
         Ok(())
+    }
+}
+
+impl LogLog {
+    fn abscissae(&self) -> Vec<f64> {
+        let points = self.series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
+        points.chain(self.floor.iter().map(|floor| floor.at)).collect()
+    }
+
+    fn ordinates(&self) -> Vec<f64> {
+        let points = self.series.iter().flat_map(|series| series.points.iter().map(|point| point.1));
+        points.chain(self.series.iter().flat_map(|series| series.odd.iter().filter_map(|odd| odd.1))).collect()
+    }
+}
+
+/// The decades, as powers of ten, that hold all these numbers.
+fn decades(numbers: Vec<f64>) -> RangeInclusive<i32> {
+    let exponents = || numbers.iter().filter(|number| **number > 0.0).map(|number| number.log10());
+    let low = exponents().fold(f64::INFINITY, f64::min).floor();
+    let high = exponents().fold(f64::NEG_INFINITY, f64::max).ceil();
+    if low < high {
+        low as i32..=high as i32
+    } else if low == high {
+        low as i32 - 1..=low as i32 + 1
+    } else {
+        0..=1
+    }
+}
+
+/// Where the coordinate system lies, in pixels, and which decades it shows.
+struct Frame {
+    x: RangeInclusive<i32>,
+    y: RangeInclusive<i32>,
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+}
+
+impl Frame {
+    /// In drawing units.
+    fn point(&self, x: f64, y: f64) -> (i32, i32) {
+        ((x * f64::from(FINE)) as i32, (y * f64::from(FINE)) as i32)
+    }
+
+    fn x(&self, value: f64) -> f64 {
+        self.left + (self.right - self.left) * share(value, &self.x)
+    }
+
+    fn y(&self, value: f64) -> f64 {
+        self.bottom + (self.top - self.bottom) * share(value, &self.y)
+    }
+
+    fn scales(&self, area: &Area, x_label: &str, y_label: &str) -> Drawn {
+        let anchored = |size: f64, h: HPos, v: VPos| font(size).pos(Pos::new(h, v));
+        for exponent in self.x.clone() {
+            let x = self.x(10f64.powi(exponent));
+            let ends = vec![self.point(x, self.top), self.point(x, self.bottom)];
+            area.draw(&PathElement::new(ends, GRID.stroke_width(FINE)))?;
+            let style = anchored(12.0, HPos::Center, VPos::Top);
+            area.draw(&Text::new(decade(exponent), self.point(x, self.bottom + 7.0), style))?;
+        }
+        for exponent in self.y.clone() {
+            let y = self.y(10f64.powi(exponent));
+            let ends = vec![self.point(self.left, y), self.point(self.right, y)];
+            area.draw(&PathElement::new(ends, GRID.stroke_width(FINE)))?;
+            let style = anchored(12.0, HPos::Right, VPos::Center);
+            area.draw(&Text::new(decade(exponent), self.point(self.left - 7.0, y), style))?;
+        }
+        let middle = self.point(0.5 * (self.left + self.right), self.bottom + 26.0);
+        area.draw(&Text::new(x_label, middle, anchored(13.0, HPos::Center, VPos::Top)))?;
+        let upright = font(13.0).transform(FontTransform::Rotate270).pos(Pos::new(HPos::Center, VPos::Top));
+        area.draw(&Text::new(y_label, self.point(10.0, 0.5 * (self.top + self.bottom)), upright))?;
+        let axes = vec![
+            self.point(self.left, self.top),
+            self.point(self.left, self.bottom),
+            self.point(self.right, self.bottom),
+        ];
+        area.draw(&PathElement::new(axes, INK.stroke_width(FINE)))?;
+        Ok(())
+    }
+
+    /// A level and a deadline, where they are in sight.
+    fn lines(&self, area: &Area, level: Option<&Bound>, deadline: Option<&Bound>) -> Drawn {
+        let line = |ends: [(f64, f64); 2]| PathElement::new(ends.map(|(x, y)| self.point(x, y)), Role::Limit.style());
+        let style = font(11.5).pos(Pos::new(HPos::Right, VPos::Bottom));
+        if let Some(Bound { at, label }) = level.filter(|level| is_inside(level.at, &self.y)) {
+            let y = self.y(*at);
+            area.draw(&line([(self.left, y), (self.right, y)]))?;
+            area.draw(&Text::new(label.as_str(), self.point(self.right - 6.0, y - 3.0), style.clone()))?;
+        }
+        if let Some(Bound { at, label }) = deadline.filter(|deadline| is_inside(deadline.at, &self.x)) {
+            let x = self.x(*at);
+            area.draw(&line([(x, self.top), (x, self.bottom)]))?;
+            area.draw(&Text::new(label.as_str(), self.point(x - 5.0, self.bottom - 6.0), style))?;
+        }
+        Ok(())
+    }
+
+    fn series(&self, area: &Area, series: &Series) -> Drawn {
+        let places = series.points.iter().map(|(x, y)| self.point(self.x(*x), self.y(*y)));
+        let places: Vec<(i32, i32)> = places.collect();
+        if series.dots {
+            for place in &places {
+                area.draw(&Circle::new(*place, (0.7 * MARK * f64::from(FINE)) as i32, series.role.dot()))?;
+            }
+        }
+        area.draw(&PathElement::new(places, series.role.style()))?;
+        Ok(())
+    }
+
+    /// Marks in the strip, this series' at `x`.
+    fn odd(&self, area: &Area, series: &Series, x: f64) -> Drawn {
+        let style = series.role.style();
+        for (mark, ordinate) in &series.odd {
+            let y = ordinate.map_or(self.top + MARK, |ordinate| self.y(ordinate));
+            let corner = |right: f64, down: f64| self.point(x + MARK * right, y + MARK * down);
+            let strokes = match mark {
+                Mark::Failed => {
+                    vec![vec![corner(-1.0, -1.0), corner(1.0, 1.0)], vec![corner(-1.0, 1.0), corner(1.0, -1.0)]]
+                }
+                Mark::Stopped => vec![vec![corner(-1.0, 1.0), corner(0.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]],
+            };
+            strokes.into_iter().try_for_each(|stroke| area.draw(&PathElement::new(stroke, style)))?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether a number is on the scale.
+fn is_inside(value: f64, decades: &RangeInclusive<i32>) -> bool {
+    (10f64.powi(*decades.start())..=10f64.powi(*decades.end())).contains(&value)
+}
+
+/// 0 at the first decade, 1 at the last one; a number outside stands at the edge.
+fn share(value: f64, decades: &RangeInclusive<i32>) -> f64 {
+    let (low, high) = (f64::from(*decades.start()), f64::from(*decades.end()));
+    ((value.log10() - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+/// `0.01`, `1`, `100`, `10⁻⁶`.
+fn decade(exponent: i32) -> String {
+    if (-3..=3).contains(&exponent) {
+        return format!("{}", 10f64.powi(exponent));
+    }
+    let raised = |digit: char| match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => digit.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)).unwrap_or(digit),
+    };
+    format!("10{}", exponent.to_string().chars().map(raised).collect::<String>())
+}
+
+/// Lines of at most so many letters, broken between words.
+fn wrapped(text: &str, letters: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= letters => *line += &format!(" {word}"),
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_hold_all_numbers_and_name_their_decades() {
+        assert_eq!(decades(vec![2e-7, 0.5, 0.0]), -7..=0);
+        assert_eq!(decades(vec![0.01]), -3..=-1);
+        assert_eq!(decades(vec![]), 0..=1);
+        assert_eq!([-12, -2, 0, 2, 4].map(decade), ["10⁻¹²", "0.01", "1", "100", "10⁴"]);
+        assert_eq!([1e-3, 1e-2, 1.0, 1e9].map(|value| share(value, &(-2..=0))), [0.0, 0.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn lines_break_between_words() {
+        assert_eq!(wrapped("one more digit costs", 9), ["one more", "digit", "costs"]);
     }
 }

@@ -1,9 +1,10 @@
 """Makes a Python environment, or finds it as it should be; prints its interpreter.
 
-    python3 environment.py DIRECTORY REQUIREMENTS
+    python3 environment.py DIRECTORY REQUIREMENTS [--find]
 
 An environment belongs to one list of packages, one Python and one place: their digest is written
-into it when everything is installed. Two callers at once wait for each other.
+into it when everything is installed. Two callers at once wait for each other. With `--find` nothing
+is made: what is not there is an error.
 """
 
 import fcntl
@@ -40,18 +41,21 @@ def make(directory, requirements):
     )
 
 
-def main(directory, requirements):
+def main(directory, requirements, find):
     if sys.version_info < OLDEST_PYTHON:
         sys.exit(f"Python {sys.version.split()[0]} is too old: {'.'.join(map(str, OLDEST_PYTHON))} or newer is needed")
     directory.parent.mkdir(parents=True, exist_ok=True)
     stamp = directory / "digest"
+    wanted = digest(directory, requirements)
     with open(directory.with_suffix(".lock"), "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        if not stamp.is_file() or stamp.read_text() != digest(directory, requirements):
+        if not stamp.is_file() or stamp.read_text() != wanted:
+            if find:
+                sys.exit("the Python environment has not been made")
             make(directory, requirements)
-            stamp.write_text(digest(directory, requirements))
+            stamp.write_text(wanted)
     print(directory / "bin" / "python")
 
 
 if __name__ == "__main__":
-    main(*(Path(word).absolute() for word in sys.argv[1:3]))
+    main(Path(sys.argv[1]).absolute(), Path(sys.argv[2]).absolute(), "--find" in sys.argv[3:])
