@@ -18,7 +18,7 @@ const LANDINGS: usize = 3;
 /// A guard this share of a tolerable error away from zero has been landed on.
 const LANDED: f64 = 0.1;
 /// Most steps of one advance.
-const STEPS: u64 = 200_000_000;
+pub(super) const STEPS: u64 = 200_000_000;
 /// [s] A first step of a motion without rates.
 const FIRST_STEP: f64 = 1e-4;
 
@@ -284,7 +284,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
 }
 
 /// The first state that is not a finite number.
-fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
+pub(super) fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
     y.iter().take(Extent::of(problem).states).position(|y| !y.is_finite())
 }
 

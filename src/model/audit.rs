@@ -18,7 +18,7 @@ use super::reactions::reactions;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, Reset, Unilateral};
 use crate::scene::Scene;
 
 /// Number of states of an audit.
@@ -164,6 +164,8 @@ impl<const N: usize> Problem<N> for Audited<N> {
         self.plant.cross(contacts, t, y, crossed)
     }
 }
+
+impl<const N: usize> Unilateral<N> for Audited<N> {}
 
 impl<const N: usize> Plant<N> for Audited<N> {
     fn start(&self, pose: &StartPose) -> [f64; N] {

@@ -11,7 +11,7 @@ use super::plant::Plant;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset, Unilateral};
 use crate::math;
 use crate::scene::Scene;
 
@@ -142,6 +142,8 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
         Reset { modes: *contacts, step: None }
     }
 }
+
+impl<const SPEED: bool, const N: usize> Unilateral<N> for Closed<SPEED, N> {}
 
 impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
     fn start(&self, pose: &StartPose) -> [f64; N] {

@@ -17,18 +17,18 @@ use super::plant::Plant;
 use super::scales;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Impulses, Problem, ROOM, Reset};
 use crate::scene::Scene;
 
 /// An open mechanism with its constants and its inputs.
 #[derive(Clone, Debug)]
 pub struct Open<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> {
-    bodies: Bodies,
-    chains: ChainInertia,
+    pub(super) bodies: Bodies,
+    pub(super) chains: ChainInertia,
     gravity: f64,
     height: f64,
     rotor: Rotor,
-    clearances: Clearances,
+    pub(super) clearances: Clearances,
     rotary_dampers: Vec<RotaryDamper>,
     guide_damping: Option<f64>,
     signal: InputSignal,
@@ -40,11 +40,11 @@ pub struct Open<const A: bool, const B: bool, const C: bool, const T: bool, cons
 impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize>
     Open<A, B, C, T, SPEED, N>
 {
-    const TOPOLOGY: Topology = Topology { a: A, b: B, c: C, t: T, speed: SPEED };
-    const LAYOUT: Layout = Layout::new(Self::TOPOLOGY);
-    const CLEAR: [bool; 4] = [!A, !B, !C, !T];
+    pub(super) const TOPOLOGY: Topology = Topology { a: A, b: B, c: C, t: T, speed: SPEED };
+    pub(super) const LAYOUT: Layout = Layout::new(Self::TOPOLOGY);
+    pub(super) const CLEAR: [bool; 4] = [!A, !B, !C, !T];
     /// Number of positions.
-    const P: usize = Self::TOPOLOGY.freedoms();
+    pub(super) const P: usize = Self::TOPOLOGY.freedoms();
     /// There are states beside positions and rates.
     const ROOMY: bool = N >= ROOM;
 
@@ -81,7 +81,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     #[inline(always)]
-    fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
+    pub(super) fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
         let (positions, rates) = y[..2 * Self::P].split_at(Self::P);
         let mut angle = [0.0; 3];
         let mut speed = [0.0; 3];
@@ -107,7 +107,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     #[inline(always)]
-    fn loads(&self, contacts: &Contacts, t: f64, y: &[f64; N], pose: &Pose) -> Loads {
+    pub(super) fn loads(&self, contacts: &Contacts, t: f64, y: &[f64; N], pose: &Pose) -> Loads {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
         let mut loads = Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
@@ -128,10 +128,26 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         if Self::ROOMY { &y[2 * Self::P..] } else { &[] }
     }
 
+    /// Writes velocities and accelerations.
     #[inline(always)]
-    fn accelerations(&self, pose: &Pose, loads: &Loads) -> Accelerations {
+    pub(super) fn write_rates(&self, y: &[f64; N], accelerations: &Accelerations, rates: &mut [f64; N]) {
+        let (velocities, forced) = rates[..2 * Self::P].split_at_mut(Self::P);
+        velocities.copy_from_slice(&y[Self::P..2 * Self::P]);
+        Self::LAYOUT.set_roots(&accelerations.roots, forced);
+        Self::LAYOUT.set_angles(&accelerations.angle, forced);
+    }
+
+    #[inline(always)]
+    pub(super) fn accelerations(&self, pose: &Pose, loads: &Loads) -> Accelerations {
         let Self { bodies, chains, gravity, .. } = self;
         accelerate(Self::TOPOLOGY, bodies, chains, *gravity, &pose.turning, loads)
+    }
+
+    fn instant_of(&self, pose: Pose, loads: Loads) -> Instant {
+        let Accelerations { roots, angle } = self.accelerations(&pose, &loads);
+        let forced = Acceleration(&pose.turning, &angle);
+        let acceleration = walk(Self::TOPOLOGY, &self.bodies, &self.chains, &roots, forced);
+        Instant { pose, acceleration, angle_acceleration: angle, loads, flexible: None }
     }
 }
 
@@ -143,11 +159,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         let pose = self.pose(t, y);
         let loads = self.loads(contacts, t, y, &pose);
-        let accelerations = self.accelerations(&pose, &loads);
-        let (velocities, forced) = rates[..2 * Self::P].split_at_mut(Self::P);
-        velocities.copy_from_slice(&y[Self::P..2 * Self::P]);
-        Self::LAYOUT.set_roots(&accelerations.roots, forced);
-        Self::LAYOUT.set_angles(&accelerations.angle, forced);
+        self.write_rates(y, &self.accelerations(&pose, &loads), rates);
         if Self::ROOMY {
             self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * Self::P..]);
         }
@@ -224,11 +236,18 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
 
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
         let pose = self.pose(t, y);
-        let loads = self.loads(contacts, t, y, &pose);
-        let Accelerations { roots, angle } = self.accelerations(&pose, &loads);
-        let forced = Acceleration(&pose.turning, &angle);
-        let acceleration = walk(Self::TOPOLOGY, &self.bodies, &self.chains, &roots, forced);
-        Instant { pose, acceleration, angle_acceleration: angle, loads, flexible: None }
+        self.instant_of(pose, self.loads(contacts, t, y, &pose))
+    }
+
+    fn instant_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
+        let pose = self.pose(t, y);
+        self.instant_of(pose, self.loads_under(impulses, t, y, &pose))
+    }
+
+    fn rates_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+        let pose = self.pose(t, y);
+        let loads = self.loads_under(impulses, t, y, &pose);
+        self.write_rates(y, &self.accelerations(&pose, &loads), rates);
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {

@@ -9,6 +9,7 @@ pub mod parameter;
 pub mod problem;
 pub mod profile;
 pub mod read;
+mod method_check;
 mod read_profile;
 mod read_table;
 mod read_value;

@@ -1,6 +1,7 @@
 //! Chooses the compiled mechanism and method that a scene calls for.
 
 use super::run::{Motion, Run};
+use super::time_stepping::TimeStepping;
 use crate::integrator::ROOM;
 use crate::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
 use crate::model::audit::{self, Audited};
@@ -126,5 +127,6 @@ fn with_method<const N: usize, P: Plant<N> + 'static>(
         Method::Verner7 => Box::new(Run::<N, Verner7>::start(scene, time, pose, plant)),
         Method::Dop853 => Box::new(Run::<N, Dop853>::start(scene, time, pose, plant)),
         Method::Rk4 => Box::new(Run::<N, Rk4>::start(scene, time, pose, plant)),
+        Method::Moreau => Box::new(TimeStepping::<N>::start(scene, time, pose, plant)),
     }
 }

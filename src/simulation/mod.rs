@@ -1,8 +1,10 @@
 //! Model, state and integrator: a mechanism that moves through time.
 
 mod assemble;
+mod record;
 mod run;
 mod snapshot;
+mod time_stepping;
 
 pub use snapshot::Snapshot;
 
@@ -65,8 +67,9 @@ impl Simulation {
     /// Assembles the scene's mechanism and puts it in its start position at `time` [s].
     ///
     /// # Errors
-    /// `Scene` if the start position does not close the loop.
+    /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
+        scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
         let pose = StartPose::of(scene).ok_or_else(|| {
             SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
         })?;

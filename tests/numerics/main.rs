@@ -1,5 +1,6 @@
 //! The integrator on problems with known answers.
 
+mod complementarity;
 mod dense_output;
 mod events;
 mod failures;

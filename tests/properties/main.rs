@@ -18,6 +18,7 @@ mod lugre;
 mod motion;
 mod restitution;
 mod restitution_laws;
+mod rigid_guide;
 mod scenes;
 mod symmetry;
 mod told_twice;

@@ -21,7 +21,7 @@ use super::rod::{Inertia, Rod, most_functions};
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, FlexibleInstant, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset, Unilateral};
 use crate::scene::Scene;
 use configuration::{Configuration, Geometry};
 use equations::{Equations, Moving, add_rigid_bodies};
@@ -186,6 +186,8 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
         self.clearances.cross(self.clear, contacts, &pose, crossed, bristles)
     }
 }
+
+impl<const N: usize, const Q: usize, const K: usize, const F: usize> Unilateral<N> for Flexible<N, Q, K, F> {}
 
 impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, Q, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {

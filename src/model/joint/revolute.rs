@@ -49,7 +49,7 @@ struct Kernels {
 #[derive(Clone, Copy, Debug)]
 pub struct Revolute {
     /// [m] R_b.
-    radius: f64,
+    pub(super) radius: f64,
     /// [m] c.
     clearance: f64,
     /// The contact's numbers.
@@ -145,7 +145,7 @@ impl Revolute {
 
     /// [m/s] v_t at the contact point, ε from the bearing's centre along the normal of tangent `t`.
     #[inline(always)]
-    fn sliding(&self, play: &Play, epsilon: f64, t: Vec2) -> f64 {
+    pub(super) fn sliding(&self, play: &Play, epsilon: f64, t: Vec2) -> f64 {
         play.rate.dot(&t) + (self.radius - epsilon) * play.journal_speed - self.radius * play.bearing_speed
     }
 
