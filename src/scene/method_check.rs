@@ -83,10 +83,7 @@ mod tests {
     fn what_is_not_rigid_is_refused_by_name() {
         assert_eq!(worn().check(), Ok(()));
         let error = refused(|scene| scene.rod.flexible.bending_modes = 2);
-        assert_eq!(
-            error,
-            "rod.flexible.bending_modes = 2 is not allowed: 0 for method moreau, whose bodies are rigid"
-        );
+        assert_eq!(error, "rod.flexible.bending_modes = 2 is not allowed: 0 for method moreau, whose bodies are rigid");
         let error = refused(|scene| scene.rod.flexible.axial_modes = 1);
         assert!(error.starts_with("rod.flexible.axial_modes = 1 is not allowed: 0 for method moreau"), "{error}");
         let error = refused(|scene| scene.energy.audit = true);

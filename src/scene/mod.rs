@@ -3,13 +3,13 @@
 pub mod check;
 pub mod closure;
 pub mod enumerations;
+mod method_check;
 pub mod modal;
 pub mod modal_check;
 pub mod parameter;
 pub mod problem;
 pub mod profile;
 pub mod read;
-mod method_check;
 mod read_profile;
 mod read_table;
 mod read_value;

@@ -27,7 +27,7 @@ impl<const N: usize> TimeStepping<N> {
     /// Starts `plant` at `time` from `pose`.
     pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant<N>>) -> Self {
         let step = scene.solver.step;
-        let integrator = Moreau::start(plant.as_ref(), step, time, plant.start(pose));
+        let integrator = Moreau::start(step, time, plant.start(pose));
         Self { plant, integrator, step, observer: Observer::new(scene) }
     }
 
