@@ -9,3 +9,4 @@ mod free;
 mod order;
 mod polynomials;
 mod step_control;
+mod time_stepping;

@@ -94,8 +94,8 @@ impl<'a, const N: usize> Middle<'a, N> {
     {
         let positions = Extent::of(problem).positions;
         let mut y = start.y;
-        for i in 0..positions {
-            y[i] += 0.5 * h * start.y[positions + i];
+        for (position, velocity) in y.iter_mut().zip(&start.y[positions..2 * positions]) {
+            *position += 0.5 * h * velocity;
         }
         Self { start, h, t: start.t + 0.5 * h, y, positions }
     }

@@ -11,8 +11,8 @@
 //! curved:
 //! - Forces f that depend on velocity are taken half-way between u_A and u_E (as known from a first pass), not at u_A.
 //! - γ_A and γ_E are the velocities where the step starts and where it ends, not those that u_A and u_E would have at
-//!   q_M: they differ by (h/2)·Ẇᵀu (known from the step without contacts), as much as the velocities of a lasting contact. So a journal in its bearing leaves
-//!   no step along the tangent, and chatter comes to rest.
+//!   q_M: they differ by (h/2)·Ẇᵀu (taken from the step without contacts), as much as the velocities of a lasting
+//!   contact. So a journal in its bearing leaves no step along the tangent, and chatter comes to rest.
 //! - A contact is closed if gap + (h/2)·γ_A ≤ 0 at the start, for the same reason.
 //!
 //! So the rule is of order 2 where nothing touches or contacts last, and of order 1 through an impact, which errs by
