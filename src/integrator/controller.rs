@@ -1,5 +1,6 @@
 //! Error norm and step-size control.
 
+use super::memory::Front;
 use super::problem::{Extent, Problem};
 use super::stages::Attempt;
 use super::tableau::Method;
@@ -15,6 +16,8 @@ pub struct Settings {
 }
 
 const SAFETY: f64 = 0.9; // Hairer, Nørsett, Wanner I, II.4
+/// [s] A first step of a motion without rates.
+const FIRST_STEP: f64 = 1e-4;
 const LEAST_FACTOR: f64 = 0.2;
 const GREATEST_FACTOR: f64 = 5.0;
 /// Share of the last error in the choice of the next step; Hairer, Wanner II, IV.2.
@@ -25,7 +28,7 @@ const UNSEEN: f64 = 1e3;
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// Root mean square of the error over the tolerance; at most 1 for a step to be accepted.
-pub fn norm<const N: usize, P: Problem<N> + ?Sized>(
+pub fn norm<const N: usize, M: Method, P: Problem<N> + ?Sized>(
     attempt: &Attempt<N>,
     y: &[f64; N],
     problem: &P,
@@ -39,14 +42,12 @@ pub fn norm<const N: usize, P: Problem<N> + ?Sized>(
         return f64::INFINITY;
     }
     let fine = square(&attempt.error);
-    match &attempt.coarse_error {
-        None => fine.sqrt(),
-        // DOP853: the coarse estimate keeps the fine one from vanishing by chance.
-        Some(coarse) => {
-            let sum = fine + 0.01 * square(coarse);
-            if sum == 0.0 { 0.0 } else { fine / sum.sqrt() }
-        }
+    if M::TABLEAU.coarse_error.is_none() {
+        return fine.sqrt();
     }
+    // DOP853: the coarse estimate keeps the fine one from vanishing by chance.
+    let sum = fine + 0.01 * square(&attempt.coarse_error);
+    if sum == 0.0 { 0.0 } else { fine / sum.sqrt() }
 }
 
 /// The state with the largest error over its weight.
@@ -63,15 +64,27 @@ pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt
 pub fn growth<M: Method>(error: f64, last_error: f64) -> f64 {
     let error = error.max(1e-10);
     let exponent = 1.0 / M::TABLEAU.error_power - 0.75 * MEMORY;
-    let factor = SAFETY * math::powf(error, -exponent) * math::powf(last_error, MEMORY);
+    let factor = SAFETY * math::rough_power(error, -exponent) * math::rough_power(last_error, MEMORY);
     factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
 }
 
 /// By how much the step is shorter after a rejected one.
 pub fn shrinkage<M: Method>(error: f64) -> f64 {
     if error.is_finite() {
-        (SAFETY * math::powf(error, -1.0 / M::TABLEAU.error_power)).clamp(LEAST_FACTOR, SAFETY)
+        (SAFETY * math::rough_power(error, -1.0 / M::TABLEAU.error_power)).clamp(LEAST_FACTOR, SAFETY)
     } else {
         0.1
     }
+}
+
+/// The first state that is not a finite number.
+pub fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
+    y.iter().take(Extent::of(problem).states).position(|y| !y.is_finite())
+}
+
+/// A first step over which the rates move the state by a hundredth of its scales.
+pub fn first_step<const N: usize, P: Problem<N> + ?Sized>(problem: &P, front: &Front<N, P::Modes>) -> f64 {
+    let weighed = front.rates.iter().zip(problem.scales()).take(Extent::of(problem).weighed);
+    let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
+    (0.01 / fastest).min(FIRST_STEP).min(problem.longest_step())
 }

@@ -6,7 +6,7 @@ use super::error::IntegrationError;
 use super::event;
 use super::memory::{Front, Memory};
 use super::problem::{Crossed, Extent, GUARDS, Guard, Problem};
-use super::stages::{Attempt, attempt};
+use super::stages::Attempt;
 use super::statistics::Statistics;
 use super::tableau::Method;
 use std::marker::PhantomData;
@@ -19,8 +19,6 @@ const LANDINGS: usize = 3;
 const LANDED: f64 = 0.1;
 /// Most steps of one advance.
 pub(super) const STEPS: u64 = 200_000_000;
-/// [s] A first step of a motion without rates.
-const FIRST_STEP: f64 = 1e-4;
 
 /// An explicit Runge-Kutta integrator with event location.
 pub struct Integrator<const N: usize, D, M> {
@@ -28,6 +26,7 @@ pub struct Integrator<const N: usize, D, M> {
     memory: Memory<N, D>,
     guards: [Guard; GUARDS],
     correction: Option<Correction<N>>,
+    made: Attempt<N>,
     method: PhantomData<M>,
 }
 
@@ -40,7 +39,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let mut front = Front { t, y, rates: [0.0; N], modes };
         problem.rates(&modes, t, &y, &mut front.rates);
         let statistics = Statistics { evaluations: 1, ..Statistics::default() };
-        let step = first_step(problem, &front);
+        let step = controller::first_step(problem, &front);
         let memory = Memory { start: front, end: front, front, step, last_error: 1e-4, crossings: 0, statistics };
         Self::resume(problem, settings, memory)
     }
@@ -53,7 +52,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let mut guards = [Guard::default(); GUARDS];
         let front = &memory.front;
         problem.guards(&front.modes, front.t, &front.y, &mut guards);
-        Self { settings, memory, guards, correction: None, method: PhantomData }
+        Self { settings, memory, guards, correction: None, made: Attempt::NONE, method: PhantomData }
     }
 
     /// All that is needed to go on.
@@ -111,17 +110,18 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             self.memory.front = start;
             self.memory.end = start;
         } else {
-            let made = self.attempt(problem, &start, t - start.t);
-            self.commit(problem, t, made);
+            self.attempt(problem, t - start.t);
+            self.commit(problem, t);
         }
     }
 
-    fn attempt<P>(&mut self, problem: &P, start: &Front<N, D>, h: f64) -> Attempt<N>
+    /// Attempts a step of `h` from the start of the last one.
+    fn attempt<P>(&mut self, problem: &P, h: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
         self.memory.statistics.evaluations += M::TABLEAU.stages as u64 - 1;
-        attempt::<N, M, P>(problem, &start.modes, start.t, &start.y, &start.rates, h)
+        self.made.make::<M, P>(problem, &self.memory.start, h);
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
@@ -156,50 +156,58 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let start = self.memory.front;
-        if let Some(component) = lost_state(problem, &start.rates) {
-            return Err(IntegrationError::NotFinite { time: start.t, component });
+        let Front { t, rates, .. } = &self.memory.front;
+        if let Some(component) = controller::lost_state(problem, rates) {
+            return Err(IntegrationError::NotFinite { time: *t, component });
         }
-        let (h, made) = self.accepted(problem, &start)?;
+        let earlier = self.memory.start;
+        self.memory.start = self.memory.front;
+        let h = match self.accepted(problem) {
+            Ok(h) => h,
+            Err(error) => {
+                self.memory.start = earlier;
+                return Err(error);
+            }
+        };
         let before = self.guards;
-        self.memory.start = start;
-        self.commit(problem, start.t + h, made);
+        self.commit(problem, self.memory.start.t + h);
         if problem.guard_count() == 0 {
             return Ok(());
         }
         let step = self.memory.last_step(Extent::of(problem));
-        if let Some((share, guard)) = event::first(problem, &start.modes, &step, &before, &self.guards) {
+        if let Some((share, guard)) = event::first(problem, &self.memory.start.modes, &step, &before, &self.guards) {
             self.land(problem, h, share, guard);
         }
         Ok(())
     }
 
-    /// Attempts until the error is tolerable.
-    fn accepted<P>(&mut self, problem: &P, start: &Front<N, D>) -> Result<(f64, Attempt<N>), IntegrationError>
+    /// Attempts until the error is tolerable, and tells how long that step is.
+    fn accepted<P>(&mut self, problem: &P) -> Result<f64, IntegrationError>
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
         let adaptive = M::TABLEAU.error.iter().any(|&weight| weight != 0.0);
         let mut wanted = if adaptive { self.memory.step } else { self.settings.fixed_step };
         let mut rejected = false;
+        let time = self.memory.start.t;
         loop {
             // The step is what time really moves by: nothing drifts from its rounding.
-            let h = start.t + wanted.min(problem.longest_step()) - start.t;
+            let h = time + wanted.min(problem.longest_step()) - time;
             if h <= 0.0 {
-                let made = self.attempt(problem, start, wanted);
-                let component = controller::worst_component(&made, problem);
-                return Err(IntegrationError::StepUnderflow { time: start.t, step: wanted, component });
+                self.attempt(problem, wanted);
+                let component = controller::worst_component(&self.made, problem);
+                return Err(IntegrationError::StepUnderflow { time, step: wanted, component });
             }
-            let made = self.attempt(problem, start, h);
-            let error = match lost_state(problem, &made.y) {
-                None => controller::norm(&made, &start.y, problem, self.settings.tolerance),
+            self.attempt(problem, h);
+            let error = match controller::lost_state(problem, &self.made.y) {
+                None => controller::norm::<N, M, P>(&self.made, &self.memory.start.y, problem, self.settings.tolerance),
                 Some(_) => f64::INFINITY,
             };
             if error <= 1.0 {
                 let growth = controller::growth::<M>(error, self.memory.last_error);
                 self.memory.step = h * if rejected { growth.min(1.0) } else { growth };
                 self.memory.last_error = error.max(1e-4);
-                return Ok((h, made));
+                return Ok(h);
             }
             rejected = true;
             self.memory.statistics.rejected += 1;
@@ -207,26 +215,24 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         }
     }
 
-    /// Makes `made` the step that ends at `t`.
-    fn commit<P>(&mut self, problem: &P, t: f64, made: Attempt<N>)
+    /// Makes the attempt the step that ends at `t`.
+    fn commit<P>(&mut self, problem: &P, t: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
         let modes = self.memory.start.modes;
-        let mut end = Front { t, y: made.y, rates: [0.0; N], modes };
-        match made.rates {
-            Some(rates) => end.rates = rates,
-            None => {
-                problem.rates(&modes, t, &end.y, &mut end.rates);
-                self.memory.statistics.evaluations += 1;
-            }
+        let Attempt { y, rates, .. } = &mut self.made;
+        if !M::TABLEAU.first_same_as_last {
+            problem.rates(&modes, t, y, rates);
+            self.memory.statistics.evaluations += 1;
         }
+        let end = Front { t, y: *y, rates: *rates, modes };
         self.memory.statistics.steps += 1;
         self.memory.end = end;
         self.memory.front = end;
         self.memory.crossings = 0;
         self.correction = None;
-        problem.guards(&modes, t, &end.y, &mut self.guards);
+        problem.guards(&modes, t, &self.made.y, &mut self.guards);
     }
 
     /// Repeats the step up to the event at `share` of it and crosses the event.
@@ -246,13 +252,13 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                 self.refresh(problem);
                 break;
             }
-            let made = self.attempt(problem, &start, t - start.t);
-            problem.guards(&start.modes, t, &made.y, &mut self.guards);
+            self.attempt(problem, t - start.t);
+            problem.guards(&start.modes, t, &self.made.y, &mut self.guards);
             let Guard { value, rate } = self.guards[guard];
             let better = t - value / rate;
             let useful = rate < 0.0 && better < start.t + h && better != t;
             if landing == LANDINGS || value.abs() <= close || !useful {
-                self.commit(problem, t, made);
+                self.commit(problem, t);
                 break;
             }
             t = better;
@@ -283,18 +289,6 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 }
 
-/// The first state that is not a finite number.
-pub(super) fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
-    y.iter().take(Extent::of(problem).states).position(|y| !y.is_finite())
-}
-
 fn has_fallen(guard: &Guard) -> bool {
     guard.value <= 0.0 && guard.rate < 0.0
-}
-
-/// A first step over which the rates move the state by a hundredth of its scales.
-fn first_step<const N: usize, P: Problem<N> + ?Sized>(problem: &P, front: &Front<N, P::Modes>) -> f64 {
-    let weighed = front.rates.iter().zip(problem.scales()).take(Extent::of(problem).weighed);
-    let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
-    (0.01 / fastest).min(FIRST_STEP).min(problem.longest_step())
 }

@@ -1,7 +1,7 @@
 //! What size of error is just noticeable: the absolute weights of the error norm.
 //!
 //! With clearance, micrometre penetrations decide the forces. Hertz's penetration at equal force grows
-//! with c^(1/3), so the length that the tolerance is relative to is 3 µm at c = 0.5 mm and follows
+//! with c^(1/3), so the length that the tolerance is relative to is 1 µm at c = 0.5 mm and follows
 //! that power. Rates are weighed with the frequency of the contact at that penetration, angles with the
 //! length that turns them into displacements. Without clearance the crank's angle counts.
 
@@ -12,7 +12,7 @@ use crate::math;
 use crate::scene::{JointModel, Scene};
 
 /// [m] At [`CLEARANCE`].
-const LENGTH: f64 = 3e-6;
+const LENGTH: f64 = 1e-6;
 /// [m]
 const CLEARANCE: f64 = 0.5e-3;
 /// [rad] Of a mechanism without clearance.

@@ -1,10 +1,9 @@
 //! The order of each method and of its error estimate, by a fit on measured errors.
 
 use super::free::{Free, distance, kepler, orbit, power};
-use slidercrank::integrator::Method;
-use slidercrank::integrator::Problem;
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::stages::{Attempt, attempt};
+use slidercrank::integrator::stages::Attempt;
+use slidercrank::integrator::{Front, Method, Problem};
 
 const ECCENTRICITY: f64 = 0.2;
 /// No round part of an orbit, over which errors might cancel.
@@ -14,7 +13,9 @@ fn step<M: Method>(t: f64, y: &[f64; 4], h: f64) -> Attempt<4> {
     let problem = Free { accelerations: kepler };
     let mut rates = [0.0; 4];
     problem.rates(&(), t, y, &mut rates);
-    attempt::<4, M, _>(&problem, &(), t, y, &rates, h)
+    let mut made = Attempt::NONE;
+    made.make::<M, _>(&problem, &Front { t, y: *y, rates, modes: () }, h);
+    made
 }
 
 /// Error at the end of this many equal steps.
@@ -53,9 +54,9 @@ fn size(error: &[f64; 4]) -> f64 {
 fn estimate<M: Method>(h: f64) -> f64 {
     let made = step::<M>(0.7, &orbit(ECCENTRICITY, 0.7), h);
     let fine = size(&made.error);
-    match made.coarse_error {
+    match M::TABLEAU.coarse_error {
         None => fine,
-        Some(coarse) => fine * fine / (fine * fine + 0.01 * size(&coarse).powi(2)).sqrt(),
+        Some(_) => fine * fine / (fine * fine + 0.01 * size(&made.coarse_error).powi(2)).sqrt(),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::free::Free;
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::stages::attempt;
-use slidercrank::integrator::{Method, Problem};
+use slidercrank::integrator::stages::Attempt;
+use slidercrank::integrator::{Front, Method, Problem};
 
 /// Position, velocity and acceleration of tⁿ.
 fn monomial(n: i32, t: f64) -> [f64; 3] {
@@ -22,7 +22,8 @@ fn error<M: Method>(n: i32) -> f64 {
     let [q, v, _] = monomial(n, t);
     let mut rates = [0.0; 2];
     problem.rates(&(), t, &[q, v], &mut rates);
-    let made = attempt::<2, M, _>(&problem, &(), t, &[q, v], &rates, h);
+    let mut made = Attempt::NONE;
+    made.make::<M, _>(&problem, &Front { t, y: [q, v], rates, modes: () }, h);
     let [q, v, _] = monomial(n, t + h);
     (made.y[0] - q).abs().max((made.y[1] - v).abs())
 }
@@ -53,7 +54,9 @@ fn each_method_is_exact_on_polynomials_up_to_its_order() {
 fn a_motion_at_constant_acceleration_has_no_error_estimate() {
     fn silent<M: Method>() {
         let problem = Free { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = -9.81 };
-        let made = attempt::<2, M, _>(&problem, &(), 0.0, &[1.0, 2.0], &[2.0, -9.81], 0.5);
+        let start = Front { t: 0.0, y: [1.0, 2.0], rates: [2.0, -9.81], modes: () };
+        let mut made = Attempt::NONE;
+        made.make::<M, _>(&problem, &start, 0.5);
         let sum: f64 = M::TABLEAU.error.iter().map(|weight| weight.abs()).sum();
         let bound = 8.0 * sum * 9.81 * f64::EPSILON;
         assert!(made.error.iter().all(|e| e.abs() <= bound), "{}: {:?}", M::NAME, made.error);

@@ -88,14 +88,14 @@ fn energy_is_kept_by_elastic_faces_and_better_so_at_a_tighter_tolerance() {
     for play in plays() {
         let scene = elastic(faced(play));
         let drift = |tolerance: f64| ledger(&at_tolerance(scene.clone(), tolerance), play);
-        let [(rough, seen, events), (fine, ..)] = [1e-8, 1e-10].map(drift);
+        let [(rough, seen, events), (fine, ..)] = [1e-7, 1e-9].map(drift);
         let [rough, fine] = [rough, fine].map(|list| list.into_iter().map(f64::abs).fold(0.0, f64::max));
         met = std::array::from_fn(|i| met[i] || seen[i]);
         println!("{}: {rough:.1e} then {fine:.1e}, {events} events, {seen:?}", letters(play));
         assert!(events > 4 && seen[1] && seen[2], "{}: {events} events", letters(play));
         // Measured: 7e-9 and 1e-10 at most; as in `conservation`.
-        assert!(rough < 3e-8, "{}: {rough:e} at 1e-8", letters(play));
-        assert!(fine < 5e-10, "{}: {fine:e} at 1e-10", letters(play));
+        assert!(rough < 3e-8, "{}: {rough:e} at 1e-7", letters(play));
+        assert!(fine < 5e-10, "{}: {fine:e} at 1e-9", letters(play));
         assert!(fine < 0.1 * rough, "{}: {rough:e} then {fine:e}", letters(play));
     }
     assert!(met.iter().all(|met| *met), "free, a corner, a face, opposite corners: {met:?}");

@@ -2,10 +2,10 @@
 
 use super::closed::Closed;
 use crate::integrator::complementarity::NORMAL;
+use crate::integrator::controller::lost_state;
 use crate::integrator::error::IntegrationError;
 use crate::integrator::memory::Front;
 use crate::integrator::problem::Extent;
-use crate::integrator::step::lost_state;
 use crate::integrator::unilateral::{Impulses, Unilateral};
 
 /// An attempted step.

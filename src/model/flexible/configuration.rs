@@ -1,5 +1,8 @@
 //! Where every joint centre of a mechanism with a flexible rod is, how it moves, and how its
-//! acceleration depends on the accelerations of the coordinates: a = J·q̈ + bias.
+//! acceleration depends on the accelerations of the coordinates.
+//!
+//! Modes move joint centres through one number only, the chord's length L. Places are therefore given
+//! over the coordinates x = (rigid coordinates, L): a = J·ẍ + bias, where L̈ = ∂L/∂η·η̈ + bias.
 
 use crate::math;
 use crate::model::coordinates::Layout;
@@ -11,22 +14,25 @@ use crate::model::plane::{Rotation, Vec2, perp};
 use crate::model::rod::{Rod, Shape};
 use crate::model::state::Pose;
 
+/// Room for x: nine rigid coordinates at most, then L.
+pub const PLACES: usize = 10;
+
 /// A joint centre.
 #[derive(Clone, Copy, Debug)]
-pub struct Centre<const Q: usize> {
+pub struct Centre {
     /// [m]
     pub place: Vec2,
     /// [m/s]
     pub velocity: Vec2,
     /// [m/s²] Acceleration at q̈ = 0.
     pub bias: Vec2,
-    /// ∂x/∂q and ∂y/∂q.
-    pub slope: [[f64; Q]; 2],
+    /// ∂/∂x.
+    pub slope: [Vec2; PLACES],
 }
 
 /// The angle of a body.
 #[derive(Clone, Copy, Debug)]
-pub struct Heading<const Q: usize> {
+pub struct Heading {
     /// By the angle.
     pub rotation: Rotation,
     /// [rad]
@@ -35,27 +41,27 @@ pub struct Heading<const Q: usize> {
     pub speed: f64,
     /// [rad/s²] Acceleration at q̈ = 0.
     pub bias: f64,
-    /// ∂θ/∂q.
-    pub slope: [f64; Q],
+    /// ∂θ/∂x.
+    pub slope: [f64; PLACES],
 }
 
 /// All of them at one instant.
 #[derive(Clone, Copy, Debug)]
-pub struct Configuration<const Q: usize, const K: usize, const F: usize> {
+pub struct Configuration<const K: usize, const F: usize> {
     /// Crank, rod, slider.
-    pub heading: [Heading<Q>; 3],
+    pub heading: [Heading; 3],
     /// The rod.
     pub shape: Shape<K, F>,
     /// The crank's main journal and pin, the rod's ends, the slider's pin.
-    pub crank: Centre<Q>,
+    pub crank: Centre,
     /// The crank's pin.
-    pub crank_pin: Centre<Q>,
+    pub crank_pin: Centre,
     /// The rod's big end.
-    pub big_end: Centre<Q>,
+    pub big_end: Centre,
     /// The rod's small end.
-    pub small_end: Centre<Q>,
+    pub small_end: Centre,
     /// The slider's pin.
-    pub pin: Centre<Q>,
+    pub pin: Centre,
 }
 
 /// What places need to be known.
@@ -73,81 +79,88 @@ pub struct Geometry {
     pub rod: Rod,
 }
 
-impl<const Q: usize> Centre<Q> {
+impl Centre {
     const FIXED: Self = Self {
         place: Vec2::new(0.0, 0.0),
         velocity: Vec2::new(0.0, 0.0),
         bias: Vec2::new(0.0, 0.0),
-        slope: [[0.0; Q]; 2],
+        slope: [Vec2::new(0.0, 0.0); PLACES],
     };
 
-    /// A point whose coordinates are positions themselves.
-    fn root(place: Vec2, velocity: Vec2, coordinates: [Option<usize>; 2]) -> Self {
+    /// A point whose coordinates, from the place `first` on, are positions themselves.
+    #[inline(always)]
+    fn root(place: Vec2, velocity: Vec2, first: usize) -> Self {
         let mut centre = Self { place, velocity, ..Self::FIXED };
-        for (row, coordinate) in centre.slope.iter_mut().zip(coordinates) {
-            if let Some(k) = coordinate {
-                row[k] = 1.0;
-            }
-        }
+        centre.slope[first].x = 1.0;
+        centre.slope[first + 1].y = 1.0;
+        centre
+    }
+
+    /// The pin on an ideal guide, whose x is a position.
+    #[inline(always)]
+    fn on_rail(x: f64, speed: f64, height: f64, coordinate: usize) -> Self {
+        let mut centre = Self { place: Vec2::new(x, height), velocity: Vec2::new(speed, 0.0), ..Self::FIXED };
+        centre.slope[coordinate].x = 1.0;
         centre
     }
 
     /// The point `side`·`arm` further, `arm` turning with a body.
-    fn along(mut self, heading: &Heading<Q>, side: f64, arm: Vec2) -> Self {
+    #[inline(always)]
+    fn along(&self, heading: &Heading, side: f64, arm: Vec2) -> Self {
         let arm = side * arm;
         let across = perp(arm);
-        self.place += arm;
-        self.velocity += heading.speed * across;
-        self.bias += heading.bias * across - heading.speed * heading.speed * arm;
-        for k in 0..Q {
-            self.slope[0][k] += across.x * heading.slope[k];
-            self.slope[1][k] += across.y * heading.slope[k];
+        Self {
+            place: self.place + arm,
+            velocity: self.velocity + heading.speed * across,
+            bias: self.bias + heading.bias * across - heading.speed * heading.speed * arm,
+            slope: std::array::from_fn(|k| self.slope[k] + heading.slope[k] * across),
         }
-        self
     }
 
-    /// The other end of the rod, forwards or backwards.
+    /// The other end of the rod, forwards or backwards; L stands at `chord`.
+    #[inline(always)]
     fn across_rod<const K: usize, const F: usize>(
-        self,
-        rod: &Heading<Q>,
+        &self,
+        rod: &Heading,
         shape: &Shape<K, F>,
-        modes: std::ops::Range<usize>,
+        chord: usize,
         side: f64,
     ) -> Self {
-        let axis = rod.rotation.axis(1.0);
-        let mut end = self.along(rod, side, shape.chord * axis);
-        end.velocity += side * shape.chord_rate * axis;
-        end.bias += side * (shape.chord_bias * axis + 2.0 * shape.chord_rate * rod.speed * perp(axis));
-        for (k, slope) in modes.zip(shape.chord_slope) {
-            end.slope[0][k] += side * slope * axis.x;
-            end.slope[1][k] += side * slope * axis.y;
-        }
+        let axis = rod.rotation.axis(side);
+        let mut end = self.along(rod, 1.0, shape.chord * axis);
+        end.velocity += shape.chord_rate * axis;
+        end.bias += shape.chord_bias * axis + 2.0 * shape.chord_rate * rod.speed * perp(axis);
+        end.slope[chord] += axis;
         end
     }
 
     /// A point of a body, `arm` [m] away in its axes.
-    pub fn carried(&self, heading: &Heading<Q>, arm: Vec2) -> Self {
+    #[inline(always)]
+    pub fn carried(&self, heading: &Heading, arm: Vec2) -> Self {
         self.along(heading, 1.0, heading.rotation.apply(arm))
     }
 
-    /// [m/s²] At the accelerations `forced` of the coordinates.
-    pub fn acceleration(&self, forced: &[f64]) -> Vec2 {
-        let sum = |row: &[f64; Q]| row.iter().zip(forced).map(|(slope, a)| slope * a).sum::<f64>();
-        self.bias + Vec2::new(sum(&self.slope[0]), sum(&self.slope[1]))
+    /// [m/s²] At the accelerations `forced` of x, the bias of L apart.
+    pub fn acceleration(&self, forced: &[f64; PLACES]) -> Vec2 {
+        self.slope.iter().zip(forced).fold(self.bias, |sum, (slope, a)| sum + *a * slope)
     }
 }
 
-impl<const Q: usize> Heading<Q> {
+impl Heading {
+    /// Of a slider on an ideal guide.
+    const NONE: Self = Self { rotation: Rotation::NONE, angle: 0.0, speed: 0.0, bias: 0.0, slope: [0.0; PLACES] };
+
+    #[inline(always)]
     fn new(angle: f64, speed: f64, coordinate: Option<usize>) -> Self {
-        let mut slope = [0.0; Q];
+        let mut slope = [0.0; PLACES];
         if let Some(k) = coordinate {
             slope[k] = 1.0;
         }
         Self { rotation: Rotation::new(angle), angle, speed, bias: 0.0, slope }
     }
 
-    /// [rad/s²] At the accelerations `forced` of the coordinates.
-    pub fn acceleration(&self, forced: &[f64]) -> f64 {
+    /// [rad/s²] At the accelerations `forced` of x, the bias of L apart.
+    pub fn acceleration(&self, forced: &[f64; PLACES]) -> f64 {
         self.bias + self.slope.iter().zip(forced).map(|(slope, a)| slope * a).sum::<f64>()
     }
 }
@@ -164,68 +177,78 @@ impl Geometry {
         rigid..rigid + self.rod.modes()
     }
 
+    /// Accelerations of x at `forced` of the coordinates, the bias of L apart.
+    pub fn accelerations<const K: usize, const F: usize>(&self, shape: &Shape<K, F>, forced: &[f64]) -> [f64; PLACES] {
+        let rigid = self.rigid();
+        let mut all = [0.0; PLACES];
+        all[..rigid].copy_from_slice(&forced[..rigid]);
+        all[rigid] = shape.chord_slope.iter().zip(&forced[self.modes()]).map(|(slope, a)| slope * a).sum();
+        all
+    }
+
     /// The configuration of `positions` and `rates` at `t`.
-    pub fn configuration<const Q: usize, const K: usize, const F: usize>(
+    #[inline(always)]
+    pub fn configuration<const K: usize, const F: usize>(
         &self,
         t: f64,
         positions: &[f64],
         rates: &[f64],
-    ) -> Configuration<Q, K, F> {
+    ) -> Configuration<K, F> {
         let Topology { a, b, c, t: guided, speed } = self.topology;
+        let closed = self.topology.is_closed();
         let modes = self.modes();
         let shape = self.rod.shape(&positions[modes.clone()], &rates[modes.clone()]);
-        let place = |k: usize| self.layout.angle(k);
+        let chord = modes.start;
         let angle = |k: usize| {
-            Heading::new(place(k).map_or(0.0, |i| positions[i]), place(k).map_or(0.0, |i| rates[i]), place(k))
+            let place = self.layout.angle(k);
+            Heading::new(place.map_or(0.0, |i| positions[i]), place.map_or(0.0, |i| rates[i]), place)
         };
         let crank = if speed { Heading::new(self.rotor.at(t), self.rotor.speed, None) } else { angle(CRANK) };
-        let slider = angle(SLIDER);
-        let rod = if self.topology.is_closed() { self.closing_rod(&crank, &shape, modes.clone()) } else { angle(ROD) };
+        let slider = if guided { Heading::NONE } else { angle(SLIDER) };
+        let rod = if closed { self.closing_rod(&crank, &shape, chord) } else { angle(ROD) };
         let (roots, moving) = (self.layout.roots(positions), self.layout.roots(rates));
-        let two = |first: usize| [Some(first), Some(first + 1)];
         let throw = crank.rotation.axis(self.ideal.crank);
         // Roots stand in the order crank, rod, slider.
         let rod_root = if self.topology.crank_floats() { 2 } else { 0 };
         let slider_root = rod_root + if self.topology.rod_floats() { 2 } else { 0 };
-        let root = |place: Vec2, velocity: Vec2, first: usize| Centre::root(place, velocity, two(first));
+        let on_rail = || Centre::on_rail(roots.slider.x, moving.slider.x, self.ideal.height, slider_root);
+        let crank_root = || if a { Centre::FIXED } else { Centre::root(roots.crank, moving.crank, 0) };
 
         let (crank_centre, crank_pin, big_end, small_end, pin);
-        if c && guided && !self.topology.is_closed() {
-            let on_rail = Vec2::new(roots.slider.x, self.ideal.height);
-            pin = Centre::root(on_rail, Vec2::new(moving.slider.x, 0.0), [Some(slider_root), None]);
+        if c && guided && !closed {
+            pin = on_rail();
             small_end = pin;
-            big_end = pin.across_rod(&rod, &shape, modes, -1.0);
+            big_end = pin.across_rod(&rod, &shape, chord, -1.0);
             if b {
                 crank_pin = big_end;
                 crank_centre = big_end.along(&crank, -1.0, throw);
             } else {
-                crank_centre = if a { Centre::FIXED } else { root(roots.crank, moving.crank, 0) };
+                crank_centre = crank_root();
                 crank_pin = crank_centre.along(&crank, 1.0, throw);
             }
         } else {
-            crank_centre = if a { Centre::FIXED } else { root(roots.crank, moving.crank, 0) };
+            crank_centre = crank_root();
             crank_pin = crank_centre.along(&crank, 1.0, throw);
-            big_end = if b { crank_pin } else { root(roots.rod, moving.rod, rod_root) };
-            small_end = big_end.across_rod(&rod, &shape, modes, 1.0);
+            big_end = if b { crank_pin } else { Centre::root(roots.rod, moving.rod, rod_root) };
+            small_end = big_end.across_rod(&rod, &shape, chord, 1.0);
             pin = if c {
                 small_end
             } else if guided {
-                let on_rail = Vec2::new(roots.slider.x, self.ideal.height);
-                Centre::root(on_rail, Vec2::new(moving.slider.x, 0.0), [Some(slider_root), None])
+                on_rail()
             } else {
-                root(roots.slider, moving.slider, slider_root)
+                Centre::root(roots.slider, moving.slider, slider_root)
             };
         }
         Configuration { heading: [crank, rod, slider], shape, crank: crank_centre, crank_pin, big_end, small_end, pin }
     }
 
     /// The rod's angle where all joints are ideal: r·sin θ1 + L·sin θ2 = height, differentiated twice.
-    fn closing_rod<const Q: usize, const K: usize, const F: usize>(
+    fn closing_rod<const K: usize, const F: usize>(
         &self,
-        crank: &Heading<Q>,
+        crank: &Heading,
         shape: &Shape<K, F>,
-        modes: std::ops::Range<usize>,
-    ) -> Heading<Q> {
+        chord: usize,
+    ) -> Heading {
         let IdealMechanism { crank: r, height, .. } = self.ideal;
         let (l, rate) = (shape.chord, shape.chord_rate);
         let sin = (height - r * crank.rotation.sin) / l;
@@ -238,14 +261,12 @@ impl Geometry {
             - sin * shape.chord_bias)
             * per_reach;
         let mut slope = crank.slope.map(|slope| -throw * slope * per_reach);
-        for (k, chord) in modes.zip(shape.chord_slope) {
-            slope[k] -= sin * chord * per_reach;
-        }
+        slope[chord] -= sin * per_reach;
         Heading { rotation: Rotation { cos, sin }, angle: math::atan2(sin, cos), speed, bias, slope }
     }
 }
 
-impl<const Q: usize, const K: usize, const F: usize> Configuration<Q, K, F> {
+impl<const K: usize, const F: usize> Configuration<K, F> {
     /// Places and velocities without their slopes.
     pub fn pose(&self) -> Pose {
         let [crank, rod, slider] = &self.heading;
@@ -263,7 +284,7 @@ impl<const Q: usize, const K: usize, const F: usize> Configuration<Q, K, F> {
     }
 
     /// One vector of every joint centre.
-    pub fn each(&self, of: impl Fn(&Centre<Q>) -> Vec2) -> JointCentres {
+    pub fn each(&self, of: impl Fn(&Centre) -> Vec2) -> JointCentres {
         JointCentres {
             crank: of(&self.crank),
             crank_pin: of(&self.crank_pin),

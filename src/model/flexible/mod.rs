@@ -17,20 +17,21 @@ use super::ideal::IdealMechanism;
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::Vec2;
 use super::plant::Plant;
-use super::rod::{Inertia, Rod, most_functions};
+use super::rod::{Inertia, Integrals, Rod, most_functions};
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, FlexibleInstant, Instant, Pose};
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset, Unilateral};
 use crate::scene::Scene;
 use configuration::{Configuration, Geometry};
-use equations::{Equations, Moving, add_rigid_bodies};
+use equations::{Equations, Moving, Places};
 
 /// A mechanism with a flexible rod, in arrays with room for `N` states, `Q` = `N`/2 coordinates, `K`
 /// modes and `F` functions of the rod.
 #[derive(Clone, Debug)]
 pub struct Flexible<const N: usize, const Q: usize, const K: usize, const F: usize> {
     geometry: Geometry,
+    integrals: Integrals<K, F>,
     bodies: Bodies,
     gravity: f64,
     clear: [bool; 4],
@@ -83,8 +84,10 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
             *scale = deflection;
         }
         let Topology { a, b, c, t, .. } = topology;
+        let integrals = Integrals::new(&geometry.rod);
         Self {
             geometry,
+            integrals,
             bodies: bodies(scene),
             gravity: scene.gravity,
             clear: [!a, !b, !c, !t],
@@ -99,11 +102,13 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         }
     }
 
-    fn configuration(&self, t: f64, y: &[f64; N]) -> Configuration<Q, K, F> {
+    #[inline(always)]
+    fn configuration(&self, t: f64, y: &[f64; N]) -> Configuration<K, F> {
         let p = self.extent.positions;
         self.geometry.configuration(t, &y[..p], &y[p..2 * p])
     }
 
+    #[inline(always)]
     fn loads(&self, contacts: &Contacts, t: f64, y: &[f64; N], pose: &Pose) -> Loads {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
@@ -119,26 +124,27 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         loads
     }
 
-    fn inertia(&self, configuration: &Configuration<Q, K, F>, y: &[f64; N]) -> Inertia<K> {
+    #[inline(always)]
+    fn inertia(&self, configuration: &Configuration<K, F>, y: &[f64; N]) -> Inertia<K> {
         let (modes, p) = (self.geometry.modes(), self.extent.positions);
         let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
-        self.geometry.rod.inertia(&configuration.shape, eta, rate, configuration.heading[ROD].speed)
+        self.integrals.inertia(&configuration.shape, eta, rate, configuration.heading[ROD].speed)
     }
 
-    fn moving<'a>(&'a self, configuration: &'a Configuration<Q, K, F>, inertia: &'a Inertia<K>) -> Moving<'a, Q, K, F> {
+    fn moving<'a>(&'a self, configuration: &'a Configuration<K, F>, inertia: &'a Inertia<K>) -> Moving<'a, K, F> {
         Moving { rod: &self.geometry.rod, inertia, configuration, modes: self.geometry.modes() }
     }
 
-    fn accelerations(&self, moving: &Moving<'_, Q, K, F>, y: &[f64; N], loads: &Loads) -> [f64; Q] {
+    #[inline(always)]
+    fn accelerations(&self, moving: &Moving<'_, K, F>, y: &[f64; N], loads: &Loads) -> [f64; Q] {
         let p = self.extent.positions;
         let modes = moving.modes.clone();
         let mut modal_force = [0.0; K];
         let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
         moving.rod.add_modal_forces(eta, rate, &loads.end_couple, &mut modal_force);
-        let mut equations = Equations::new(p);
-        add_rigid_bodies(&mut equations, &self.bodies, moving.configuration, loads, self.gravity);
-        equations.add_rod(moving, loads, self.gravity, &modal_force);
-        equations.solve()
+        let mut places = Places::new(modes.start);
+        places.add_rigid_bodies(&self.bodies, moving.configuration, loads, self.gravity);
+        Equations::new(places, moving, loads, self.gravity, &modal_force).solve()
     }
 }
 
@@ -236,16 +242,17 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
         let inertia = self.inertia(&configuration, y);
         let moving = self.moving(&configuration, &inertia);
         let forced = self.accelerations(&moving, y, &loads);
+        let places = self.geometry.accelerations(&configuration.shape, &forced);
         let p = self.extent.positions;
         let modes = moving.modes.clone();
         let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
         Instant {
             pose,
-            acceleration: configuration.each(|centre| centre.acceleration(&forced)),
-            angle_acceleration: [CRANK, ROD, SLIDER].map(|k| configuration.heading[k].acceleration(&forced)),
+            acceleration: configuration.each(|centre| centre.acceleration(&places)),
+            angle_acceleration: [CRANK, ROD, SLIDER].map(|k| configuration.heading[k].acceleration(&places)),
             loads,
             flexible: Some(FlexibleInstant {
-                demand: moving.demand(&forced, self.gravity),
+                demand: moving.demand(&places, &forced, self.gravity),
                 elastic: moving.rod.elastic(&configuration.shape, eta, rate),
                 kinetic: moving.kinetic(rate),
                 mass_height: moving.mass_height(),

@@ -1,7 +1,9 @@
 //! Inertia of the deformed rod: mass matrix blocks, and the centrifugal and Coriolis terms beside them.
 
-use super::{Rod, Shape, dot};
-use crate::model::plane::Vec2;
+#![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
+
+use super::{Rod, Shape};
+use crate::model::plane::{Vec2, perp};
 
 /// Inertia of the rod in its own frame, for the acceleration of its origin, its angle and η, and what
 /// its motion asks for besides.
@@ -15,7 +17,7 @@ pub struct Inertia<const K: usize> {
     pub first_slope: [Vec2; K],
     /// [kg·m] Of the angle with η.
     pub turning: [f64; K],
-    /// [kg] Of η with η.
+    /// [kg] Of η with η; the lower triangle.
     pub modal: [[f64; K]; K],
     /// [N] What centrifugal and Coriolis accelerations ask for: force along the frame's axes,
     pub force: Vec2,
@@ -25,133 +27,153 @@ pub struct Inertia<const K: usize> {
     pub modal_force: [f64; K],
 }
 
-impl Rod {
-    /// The inertia of a shape whose frame turns at `speed` [rad/s].
-    pub fn inertia<const K: usize, const F: usize>(
-        &self,
-        shape: &Shape<K, F>,
-        eta: &[f64],
-        rate: &[f64],
-        speed: f64,
-    ) -> Inertia<K> {
-        let Self { bending: n, axial, .. } = *self;
-        let count = self.first.len();
+/// The rod's integrals in arrays for the inner loop: room for `K` modes and `F` functions, zero where
+/// there is none, so that sums over functions have a length known to the compiler.
+#[derive(Clone, Debug)]
+pub struct Integrals<const K: usize, const F: usize> {
+    bending: usize,
+    axial: usize,
+    /// How many bending modes foreshorten: all, or none without geometric stiffness.
+    shortening: usize,
+    /// Where the foreshortening of two bending modes stands among the functions.
+    pair: [[usize; K]; K],
+    /// [kg·m] ∫B dm.
+    first: [f64; F],
+    /// [kg·m²] ∫B·Bᵀ dm.
+    second: [[f64; F]; F],
+    /// [kg·m] ∫φ·Bᵀ dm.
+    coupling: [[f64; F]; K],
+    /// [kg] ∫φ dm.
+    moment: [f64; K],
+    /// [kg] ∫φ² dm.
+    modal_mass: [f64; K],
+}
+
+impl<const K: usize, const F: usize> Integrals<K, F> {
+    /// Of a rod that has room here.
+    pub fn new(rod: &Rod) -> Self {
+        let (n, count) = (rod.bending, rod.first.len());
+        let mut integrals = Self {
+            bending: n,
+            axial: rod.axial,
+            shortening: if rod.pairs.is_empty() { 0 } else { n },
+            pair: [[0; K]; K],
+            first: [0.0; F],
+            second: [[0.0; F]; F],
+            coupling: [[0.0; F]; K],
+            moment: [0.0; K],
+            modal_mass: [0.0; K],
+        };
+        integrals.first[..count].copy_from_slice(&rod.first);
+        integrals.moment[..n].copy_from_slice(&rod.moment);
+        integrals.modal_mass[..n].copy_from_slice(&rod.modal_mass[..n]);
+        for k in 0..count {
+            integrals.second[k][..count].copy_from_slice(&rod.second[k * count..][..count]);
+            for i in 0..n {
+                integrals.coupling[i][k] = rod.coupling[k * n + i];
+            }
+        }
+        for (place, &(i, j)) in rod.pairs.iter().enumerate() {
+            integrals.pair[i][j] = 1 + rod.axial + place;
+            integrals.pair[j][i] = 1 + rod.axial + place;
+        }
+        integrals
+    }
+
+    /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
+    /// [rad/s].
+    #[inline(always)]
+    pub fn inertia(&self, shape: &Shape<K, F>, eta: &[f64], rate: &[f64], speed: f64) -> Inertia<K> {
+        let Self { bending: n, axial, shortening, .. } = *self;
+        let Shape { xi, xi_rate, xi_bias, .. } = shape;
         let (q, dq) = (&eta[..n], &rate[..n]);
-        let (xi, xi_bias) = (&shape.xi[..count], &shape.xi_bias[..count]);
+        // S·∂ξ/∂q_i, S·ξ, S·ξ_bias over the functions, where S = ∫B·Bᵀ dm. Foreshortenings are of second
+        // degree: their part of ξ is half of Σ q_i·∂ξ/∂q_i.
+        let mut moved = [[0.0; F]; K];
+        let mut of_xi = self.second[0];
+        let mut of_bias = [0.0; F];
+        for j in 0..axial {
+            add(&mut of_xi, xi[1 + j], &self.second[1 + j]);
+        }
+        for i in 0..shortening {
+            for j in 0..n {
+                add(&mut moved[i], -2.0 * q[j], &self.second[self.pair[i][j]]);
+            }
+            add(&mut of_xi, 0.5 * q[i], &moved[i]);
+            for j in 0..=i {
+                let place = self.pair[i][j];
+                add(&mut of_bias, xi_bias[place], &self.second[place]);
+            }
+        }
+        // Cᵀ·q, Cᵀ·q̇ over the functions, where C = ∫φ·Bᵀ dm.
+        let (mut across, mut across_rate) = ([0.0; F], [0.0; F]);
+        for i in 0..n {
+            add(&mut across, q[i], &self.coupling[i]);
+            add(&mut across_rate, dq[i], &self.coupling[i]);
+        }
+        let square = speed * speed;
+        // What accelerations at ξ̈ = ξ_bias, q̈ = 0 ask of each function.
+        let asked: [f64; F] = std::array::from_fn(|k| of_bias[k] - square * of_xi[k] - 2.0 * speed * across_rate[k]);
+
         let mut inertia = Inertia {
-            first: Vec2::zeros(),
-            about_origin: 0.0,
+            first: Vec2::new(dot(&self.first, xi), 0.0),
+            about_origin: dot(&of_xi, xi),
             first_slope: [Vec2::zeros(); K],
             turning: [0.0; K],
             modal: [[0.0; K]; K],
             force: Vec2::zeros(),
-            couple: 0.0,
+            couple: 2.0 * speed * dot(&of_xi, xi_rate) - dot(&across, xi_bias),
             modal_force: [0.0; K],
         };
-        // Rates of ξ, and K·ξ, K·ξ_bias, C·q, C·q̇ over the functions; Cᵀ·ξ, Cᵀ·ξ̇ over the modes.
-        let mut dxi = [0.0; F];
-        dxi[1..=axial].copy_from_slice(&rate[n..n + axial]);
-        for (k, &(i, j)) in self.pairs.iter().enumerate() {
-            let twice = if i == j { 1.0 } else { 2.0 };
-            dxi[1 + axial + k] = -twice * (q[i] * dq[j] + dq[i] * q[j]);
-        }
-        let (mut kxi, mut kbias) = ([0.0; F], [0.0; F]);
-        let (mut cq, mut cdq) = ([0.0; F], [0.0; F]);
-        let (mut ctxi, mut ctdxi) = ([0.0; K], [0.0; K]);
-        for k in 0..count {
-            let row = &self.second[k * count..(k + 1) * count];
-            kxi[k] = dot(row, xi);
-            kbias[k] = if self.pairs.is_empty() { 0.0 } else { dot(&row[1 + axial..], &xi_bias[1 + axial..]) };
-            let row = &self.coupling[k * n..(k + 1) * n];
-            (cq[k], cdq[k]) = (dot(row, q), dot(row, dq));
-            for (i, c) in row.iter().enumerate() {
-                ctxi[i] += c * xi[k];
-                ctdxi[i] += c * dxi[k];
-            }
-        }
-        let dxi = &dxi[..count];
-        let modal = &self.modal_mass[..n];
-        let along = dot(&self.first, xi);
-        let across = dot(&self.moment, q);
-        let spread: f64 = modal.iter().zip(q).map(|(m, q)| m * q * q).sum();
-        let opening: f64 = modal.iter().zip(q).zip(dq).map(|((m, q), dq)| m * q * dq).sum();
-        inertia.first = Vec2::new(along, across);
-        inertia.about_origin = dot(&kxi[..count], xi) + spread;
-        let first_rate = Vec2::new(dot(&self.first, dxi), dot(&self.moment, dq));
-        let square = speed * speed;
-        inertia.force = -square * inertia.first
-            + 2.0 * speed * Vec2::new(-first_rate.y, first_rate.x)
-            + Vec2::new(dot(&self.first, xi_bias), 0.0);
-        inertia.couple = 2.0 * speed * (dot(&kxi[..count], dxi) + opening) - dot(&cq[..count], xi_bias);
-
-        // Columns of ∂ξ/∂η: one place of an axial mode, the pairs of a bending mode.
-        for j in 0..axial {
-            let (a, k) = (n + j, 1 + j);
-            inertia.first_slope[a] = Vec2::new(self.first[k], 0.0);
-            inertia.turning[a] = -cq[k];
-            inertia.modal_force[a] = -square * kxi[k] - 2.0 * speed * cdq[k] + kbias[k];
-            for i in 0..axial {
-                inertia.modal[a][n + i] = self.second[k * count + 1 + i];
-            }
-        }
+        let mut first_rate = Vec2::new(dot(&self.first, xi_rate), 0.0);
         for i in 0..n {
-            inertia.first_slope[i] = Vec2::new(0.0, self.moment[i]);
-            inertia.turning[i] = ctxi[i];
-            inertia.modal_force[i] = -square * modal[i] * q[i] + 2.0 * speed * ctdxi[i];
-            inertia.modal[i][i] = modal[i];
+            let (m, moment) = (self.modal_mass[i], self.moment[i]);
+            inertia.first.y += moment * q[i];
+            first_rate.y += moment * dq[i];
+            inertia.about_origin += m * q[i] * q[i];
+            inertia.couple += 2.0 * speed * m * q[i] * dq[i];
+            inertia.first_slope[i] = Vec2::new(0.0, moment);
+            inertia.turning[i] = dot(&self.coupling[i], xi);
+            inertia.modal_force[i] = 2.0 * speed * dot(&self.coupling[i], xi_rate) - square * m * q[i];
+            inertia.modal[i][i] = m;
         }
-        self.add_foreshortening(&mut inertia, q, speed, &kxi, &kbias, &cq, &cdq);
+        for i in 0..shortening {
+            for k in 0..n {
+                let (place, slope) = (self.pair[i][k], -2.0 * q[k]);
+                inertia.first_slope[i].x += slope * self.first[place];
+                inertia.turning[i] -= slope * across[place];
+                inertia.modal_force[i] += slope * asked[place];
+                for j in 0..=i {
+                    inertia.modal[i][j] += slope * moved[j][place];
+                }
+            }
+        }
+        for j in 0..axial {
+            let (a, place) = (n + j, 1 + j);
+            inertia.first_slope[a] = Vec2::new(self.first[place], 0.0);
+            inertia.turning[a] = -across[place];
+            inertia.modal_force[a] = asked[place];
+            for i in 0..shortening {
+                inertia.modal[a][i] = moved[i][place];
+            }
+            for i in 0..=j {
+                inertia.modal[a][n + i] = self.second[place][1 + i];
+            }
+        }
+        inertia.force =
+            Vec2::new(dot(&self.first, xi_bias), 0.0) - square * inertia.first + 2.0 * speed * perp(first_rate);
         inertia
     }
+}
 
-    /// What ∂ξ/∂q adds: each pair (i, j) moves with q_i by −2·q_j and with q_j by −2·q_i (with q_i by
-    /// −2·q_i where they are the same).
-    #[allow(clippy::too_many_arguments)]
-    fn add_foreshortening<const K: usize, const F: usize>(
-        &self,
-        inertia: &mut Inertia<K>,
-        q: &[f64],
-        speed: f64,
-        kxi: &[f64; F],
-        kbias: &[f64; F],
-        cq: &[f64; F],
-        cdq: &[f64; F],
-    ) {
-        let Self { bending: n, axial, .. } = *self;
-        let count = self.first.len();
-        let square = speed * speed;
-        // K·∂ξ/∂q_i, column by column.
-        let mut moved = [[0.0; F]; K];
-        for (k, &(i, j)) in self.pairs.iter().enumerate() {
-            let place = 1 + axial + k;
-            let row = &self.second[place * count..(place + 1) * count];
-            let ends = [(i, -2.0 * q[j]), (j, -2.0 * q[i])];
-            for &(mode, slope) in &ends[..if i == j { 1 } else { 2 }] {
-                inertia.first_slope[mode].x += slope * self.first[place];
-                inertia.turning[mode] -= slope * cq[place];
-                inertia.modal_force[mode] += slope * (kbias[place] - square * kxi[place] - 2.0 * speed * cdq[place]);
-                for (moved, element) in moved[mode].iter_mut().zip(row) {
-                    *moved += slope * element;
-                }
-            }
-        }
-        if self.pairs.is_empty() {
-            return;
-        }
-        for (k, &(i, j)) in self.pairs.iter().enumerate() {
-            let place = 1 + axial + k;
-            let ends = [(i, -2.0 * q[j]), (j, -2.0 * q[i])];
-            for &(mode, slope) in &ends[..if i == j { 1 } else { 2 }] {
-                for (other, moved) in moved.iter().enumerate().take(n) {
-                    inertia.modal[mode][other] += slope * moved[place];
-                }
-            }
-        }
-        for (i, moved) in moved.iter().enumerate().take(n) {
-            for j in 0..axial {
-                inertia.modal[i][n + j] = moved[1 + j];
-                inertia.modal[n + j][i] = moved[1 + j];
-            }
-        }
+#[inline(always)]
+fn add<const F: usize>(sum: &mut [f64; F], factor: f64, column: &[f64; F]) {
+    for (sum, element) in sum.iter_mut().zip(column) {
+        *sum += factor * element;
     }
+}
+
+#[inline(always)]
+fn dot<const F: usize>(a: &[f64; F], b: &[f64; F]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -9,7 +9,7 @@
 pub mod beam;
 mod inertia;
 
-pub use inertia::Inertia;
+pub use inertia::{Inertia, Integrals};
 
 use super::mechanism::Body;
 use super::plane::Vec2;
@@ -66,7 +66,8 @@ pub struct Shape<const K: usize, const F: usize> {
     /// [rad/s] Rates of the end slopes.
     pub slope_rate: [f64; 2],
     xi: [f64; F],
-    /// ξ̈ at η̈ = 0; its foreshortenings' places, the others are 0.
+    xi_rate: [f64; F],
+    /// ξ̈ at η̈ = 0.
     xi_bias: [f64; F],
 }
 
@@ -166,6 +167,7 @@ impl Rod {
     }
 
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
+    #[inline(always)]
     pub fn shape<const K: usize, const F: usize>(&self, eta: &[f64], rate: &[f64]) -> Shape<K, F> {
         let Self { bending, axial, .. } = *self;
         let mut shape = Shape {
@@ -175,12 +177,14 @@ impl Rod {
             chord_slope: [0.0; K],
             slope_rate: [0.0; 2],
             xi: [0.0; F],
+            xi_rate: [0.0; F],
             xi_bias: [0.0; F],
         };
         let (q, dq) = (&eta[..bending], &rate[..bending]);
         shape.xi[0] = 1.0;
         for j in 0..axial {
             shape.xi[1 + j] = eta[bending + j];
+            shape.xi_rate[1 + j] = rate[bending + j];
             shape.chord_slope[bending + j] = self.end[1 + j];
             shape.chord_rate += self.end[1 + j] * rate[bending + j];
         }
@@ -188,11 +192,12 @@ impl Rod {
             let place = 1 + axial + k;
             let twice = if i == j { 1.0 } else { 2.0 };
             shape.xi[place] = -twice * q[i] * q[j];
+            shape.xi_rate[place] = -twice * (q[i] * dq[j] + dq[i] * q[j]);
             shape.xi_bias[place] = -2.0 * twice * dq[i] * dq[j];
             let end = self.end[place] * twice;
             shape.chord_slope[i] -= end * q[j];
             shape.chord_slope[j] -= end * q[i];
-            shape.chord_rate -= end * (q[i] * dq[j] + dq[i] * q[j]);
+            shape.chord_rate += self.end[place] * shape.xi_rate[place];
             shape.chord_bias += self.end[place] * shape.xi_bias[place];
         }
         shape.chord = self.length + self.stretch(&shape.xi);
@@ -207,6 +212,7 @@ impl Rod {
     }
 
     /// [N] Adds what elasticity, modal damping and the couples [N·m] on the end sections do to η.
+    #[inline(always)]
     pub fn add_modal_forces(&self, eta: &[f64], rate: &[f64], couple: &[f64; 2], force: &mut [f64]) {
         for k in 0..self.modes() {
             let (m, omega) = (self.modal_mass[k], self.frequency[k]);
