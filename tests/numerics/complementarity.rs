@@ -152,7 +152,7 @@ fn impulses_are_among_all_that_there_are() {
         let friction = [0.0, 0.05, 0.5, 2.0][case % 4];
         let impact = Impact::random(&mut dice, freedoms, count, friction, [0.0, 0.4, 1.0][case % 3]);
         let all = impact.all();
-        let Some(found) = impact.touching().impulses() else {
+        let Some(found) = impact.touching().impulses(&Pairs::default()) else {
             assert!(all.is_empty(), "case {case}: {} solutions, none found", all.len());
             none += 1;
             continue;
@@ -188,11 +188,32 @@ fn redundant_contacts_have_impulses_too() {
         if case % 7 == 0 {
             impact.arriving.fill(0.0);
         }
-        let found = impact.touching().impulses();
+        let found = impact.touching().impulses(&Pairs::default());
         let found = found.unwrap_or_else(|| unreachable!("case {case}: {count} contacts, {freedoms} freedoms"));
         worst = worst.max(impact.violation(&found));
         assert!(impact.violation(&found) < 1e-6, "case {case}: {:e}", impact.violation(&found));
         assert!(impact.loss(&found) > -1e-9, "case {case}: gains {:e}", -impact.loss(&found));
     }
     println!("redundant contacts violate their laws by {worst:.1e}");
+}
+
+#[test]
+fn contacts_that_go_on_as_they_were_have_the_same_impulses() {
+    let mut dice = Dice(0xBEEF);
+    let mut largest = 0.0f64;
+    for case in 0..5000 {
+        let count = 1 + dice.below(4);
+        let mut impact = Impact::random(&mut dice, 2 * count + 1, count, [0.0, 0.1, 0.4][case % 3], 0.5);
+        let before = impact.touching().impulses(&Pairs::default()).expect("independent contacts have impulses");
+        // A little later, or something else altogether: the laws are the same.
+        let change = [1e-6, 3.0][case % 2];
+        impact.arriving.iter_mut().for_each(|velocity| *velocity += change * dice.throw());
+        let found = impact.touching().impulses(&before).expect("impulses");
+        let anew = impact.touching().impulses(&Pairs::default()).expect("impulses");
+        assert!(impact.violation(&found) < 1e-7, "case {case}: {:e}", impact.violation(&found));
+        if impact.all().len() == 1 {
+            largest = largest.max(apart(&found, &anew));
+        }
+    }
+    assert!(largest < 1e-6, "{largest:e}");
 }

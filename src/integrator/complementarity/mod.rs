@@ -9,6 +9,7 @@
 //! With redundant contacts G is singular: then the impulses may not be unique, though the motion is, and one set of
 //! them is returned. No answer leaves unchecked.
 
+mod continued;
 mod lemke;
 
 pub use lemke::{LinearComplementarity, MOST_UNKNOWNS};
@@ -18,6 +19,8 @@ pub const MOST_CONTACTS: usize = MOST_UNKNOWNS / 4;
 
 /// Largest violation of the laws, where velocities and impulses are scaled to 1.
 const VIOLATION: f64 = 1e-8;
+/// The same for contacts that go on as they were.
+const CONTINUED: f64 = 1e-11;
 /// A tangent that answers to impulses with less than this share of what the normal does is held fast.
 const RIGID: f64 = 1e-12;
 /// Ways that are tried before the contacts are given up; nearly always the first leads to the end.
@@ -54,11 +57,18 @@ struct Scaled<'a> {
 }
 
 impl Touching {
-    /// [N·s] Λ of every contact; `None` if there is none, or none to be found.
-    pub fn impulses(&self) -> Option<Pairs> {
+    /// [N·s] Λ of every contact; `None` if there is none, or none to be found. Where impulses `before` are not all 0,
+    /// every contact is first thought to stick, slip or be open as it was with them.
+    pub fn impulses(&self, before: &Pairs) -> Option<Pairs> {
         let scaled = Scaled::new(self)?;
         if scaled.size == 0.0 {
             return Some(Pairs::default());
+        }
+        if before.iter().any(|impulse| impulse[NORMAL] > 0.0) {
+            let found = scaled.continued(before).filter(|found| scaled.violation(found) <= CONTINUED);
+            if let Some(found) = found {
+                return Some(scaled.impulses(&found));
+            }
         }
         let linear = scaled.linear();
         let ways = (0..WAYS).filter_map(|way| linear.solve(|i| 1.0 + way as f64 * (i as f64 * GOLDEN).fract()));

@@ -69,11 +69,11 @@ where
     let count = closed.count();
     let lost = IntegrationError::Complementarity { time: middle.start.t, contacts: count };
     closed.set_bias(problem, middle, free);
-    let mut impulses = closed.solve().ok_or(lost)?;
+    let mut impulses = closed.solve(&closed.last(middle)).ok_or(lost)?;
     let mut y = closed.after(middle, free, &impulses);
     let better = middle.free(problem, &middle.halfway(&y));
     closed.set_bias(problem, middle, &better);
-    if let Some(found) = closed.solve() {
+    if let Some(found) = closed.solve(&impulses) {
         impulses = found;
         y = closed.after(middle, &better, &impulses);
     }

@@ -105,14 +105,21 @@ impl<const N: usize> Closed<N> {
         }
     }
 
-    /// The impulses of the laws. A wedge that friction locks may have none that return speed; it has some that return
-    /// nothing.
-    pub fn solve(&self) -> Option<Pairs> {
-        self.touching.impulses().or_else(|| {
+    /// The impulses of the laws, sought first among those of contacts that do as with the impulses `before`. A wedge
+    /// that friction locks may have none that return speed; it has some that return nothing.
+    pub fn solve(&self, before: &Pairs) -> Option<Pairs> {
+        self.touching.impulses(before).or_else(|| {
             let mut plastic = self.touching.clone();
             plastic.bias = self.leaving;
-            plastic.impulses()
+            plastic.impulses(before)
         })
+    }
+
+    /// The forces of the last step, in the order of these contacts.
+    pub fn last(&self, middle: &Middle<'_, N>) -> Pairs {
+        let mut forces = self.contacts.map(|contact| middle.start.modes.forces[contact]);
+        forces[self.count()..].fill([0.0; 2]);
+        forces
     }
 
     /// The velocities of `free` with these impulses.
@@ -149,7 +156,7 @@ impl<const N: usize> Closed<N> {
             places.bias[slot] = [if lifted { SHARE * spare } else { spare.max(0.0) }, 0.0];
             deep |= lifted;
         }
-        let Some(shifts) = deep.then(|| places.impulses()).flatten() else {
+        let Some(shifts) = deep.then(|| places.impulses(impulses)).flatten() else {
             return;
         };
         for (response, shift) in self.response.iter().zip(shifts).take(places.count) {
