@@ -7,6 +7,7 @@ use super::clearances::Clearances;
 use super::dynamics::{Loads, accelerate};
 use super::joint::guide::CORNERS;
 use super::kinematics::Turning;
+use super::linkage::{Arrangement, Linkage};
 use super::open::Open;
 use super::state::{CONTACTS, Contacts, Pose};
 use crate::integrator::complementarity::{MOST_CONTACTS, Pairs};
@@ -59,12 +60,13 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
 {
     /// Loads under the forces of `impulses`, which act as they did at the middle of their step.
     pub(super) fn loads_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N], pose: &Pose) -> Loads {
-        let mut loads = self.loads(&Contacts::default(), t, y, pose);
+        let bristles = &y[2 * Self::P..];
+        let mut loads = self.linkage.loads(Self::ARRANGEMENT, &Contacts::default(), t, bristles, pose);
         let mut acting = (0..CONTACTS).filter(|&contact| impulses.acts(contact)).peekable();
         if acting.peek().is_some() {
             let there = self.pose(impulses.t, &impulses.y);
             for contact in acting {
-                self.clearances.add_rigid(contact, &there, impulses.forces[contact], &mut loads);
+                self.linkage.clearances.add_rigid(contact, &there, impulses.forces[contact], &mut loads);
             }
         }
         loads
@@ -75,14 +77,14 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     for Open<A, B, C, T, SPEED, N>
 {
     fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
-        self.clearances.laws
+        self.linkage.clearances.laws
     }
 
     fn contacts(&self, t: f64, y: &[f64; N]) -> Relative {
         let pose = self.pose(t, y);
         Relative {
-            gap: self.clearances.depths(Self::CLEAR, &pose).map(|depth| -depth),
-            velocity: self.clearances.contact_velocities(Self::CLEAR, &pose),
+            gap: self.linkage.clearances.depths(Self::ARRANGEMENT.clear, &pose).map(|depth| -depth),
+            velocity: self.linkage.clearances.contact_velocities(Self::ARRANGEMENT.clear, &pose),
         }
     }
 
@@ -91,11 +93,14 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         let mut loads = Loads::default();
         let mut unit = [0.0; 2];
         unit[part] = 1.0;
-        self.clearances.add_rigid(contact, &pose, unit, &mut loads);
+        self.linkage.clearances.add_rigid(contact, &pose, unit, &mut loads);
         let still = Turning { speed: [0.0; 3], ..pose.turning };
-        let accelerations = accelerate(Self::TOPOLOGY, &self.bodies, &self.chains, 0.0, &still, &loads);
+        let Arrangement { topology, layout, positions: p, .. } = Self::ARRANGEMENT;
+        let Linkage { bodies, chains, .. } = &self.linkage;
+        let accelerations = accelerate(topology, bodies, chains, 0.0, &still, &loads);
         let mut rates = [0.0; N];
-        self.write_rates(&[0.0; N], &accelerations, &mut rates);
+        layout.set_roots(&accelerations.roots, &mut rates[p..2 * p]);
+        layout.set_angles(&accelerations.angle, &mut rates[p..2 * p]);
         rates
     }
 }

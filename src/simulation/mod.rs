@@ -1,11 +1,13 @@
 //! Model, state and integrator: a mechanism that moves through time.
 
 mod assemble;
+mod equations;
 mod record;
 mod run;
 mod snapshot;
 mod time_stepping;
 
+pub use equations::Linearization;
 pub use snapshot::Snapshot;
 
 use crate::model::drive::InputSignal;
@@ -126,11 +128,6 @@ impl Simulation {
     /// How large its equations of motion are.
     pub fn size(&self) -> Size {
         self.motion.size()
-    }
-
-    /// Evaluates the equations of motion so many times, for nothing: where the next step starts, to be timed.
-    pub fn evaluate(&self, times: usize) {
-        self.motion.evaluate(times);
     }
 
     /// All that is needed to go on from here.

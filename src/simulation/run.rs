@@ -1,9 +1,10 @@
 //! One mechanism under one method.
 
 use super::Size;
+use super::equations::Linearization;
 use super::record;
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Extent, Front, IntegrationError, Integrator, Method, Settings, Statistics};
+use crate::integrator::{Extent, Front, IntegrationError, Integrator, Jacobian, Method, Settings, Statistics};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
@@ -29,6 +30,14 @@ pub trait Motion: Send {
     fn size(&self) -> Size;
     /// Evaluates the right-hand side where the next step starts.
     fn evaluate(&self, times: usize);
+    /// Evaluates its derivatives there.
+    fn differentiate(&self, times: usize);
+    /// Time and states there.
+    fn front(&self) -> (f64, Vec<f64>);
+    /// Rates of the right-hand side that holds there.
+    fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64>;
+    /// The same, with derivatives.
+    fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization;
     /// Appends all that it remembers.
     fn save(&self, snapshot: &mut Snapshot);
     /// Takes back what `save` appended; `None` if it does not fit.
@@ -36,7 +45,7 @@ pub trait Motion: Send {
 }
 
 /// A mechanism of `N` states under the method `M`.
-pub struct Run<const N: usize, M> {
+pub struct Run<const N: usize, M: Method> {
     plant: Box<dyn Plant<N>>,
     integrator: Integrator<N, Contacts, M>,
     settings: Settings,
@@ -131,6 +140,31 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         }
     }
 
+    fn differentiate(&self, times: usize) {
+        let Front { t, y, modes, .. } = &self.integrator.memory().front;
+        let mut jacobian = Jacobian::ZERO;
+        for _ in 0..times {
+            self.plant.jacobian(black_box(modes), *t, black_box(y), &mut jacobian);
+            black_box(&jacobian);
+        }
+    }
+
+    fn front(&self) -> (f64, Vec<f64>) {
+        let Front { t, y, .. } = &self.integrator.memory().front;
+        (*t, y[..Extent::of(self.plant.as_ref()).states].to_vec())
+    }
+
+    fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
+        let mut rates = [0.0; N];
+        self.plant.rates(&self.integrator.memory().front.modes, time, &filled(states), &mut rates);
+        rates[..Extent::of(self.plant.as_ref()).states].to_vec()
+    }
+
+    fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
+        let modes = &self.integrator.memory().front.modes;
+        linearization(self.plant.as_ref(), modes, time, &filled(states))
+    }
+
     fn save(&self, snapshot: &mut Snapshot) {
         record::save(self.plant.as_ref(), self.integrator.memory(), snapshot);
     }
@@ -152,4 +186,34 @@ pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
         evaluations: count(evaluations),
         events: count(events),
     }
+}
+
+/// The equations of motion of `plant` near `y` and `time` [s].
+pub fn linearization<const N: usize>(
+    plant: &dyn Plant<N>,
+    contacts: &Contacts,
+    time: f64,
+    y: &[f64; N],
+) -> Linearization {
+    let Extent { positions, states: count, .. } = Extent::of(plant);
+    let (mut rates, mut jacobian) = ([0.0; N], Jacobian::ZERO);
+    plant.rates(contacts, time, y, &mut rates);
+    plant.jacobian(contacts, time, y, &mut jacobian);
+    Linearization {
+        time,
+        states: y[..count].to_vec(),
+        positions,
+        rates: rates[..count].to_vec(),
+        by_state: jacobian.state[..count].iter().map(|row| row[..count].to_vec()).collect(),
+        by_time: jacobian.time[..count].to_vec(),
+    }
+}
+
+/// A list in an array with room, or as much of it as has room.
+pub fn filled<const N: usize>(list: &[f64]) -> [f64; N] {
+    let mut array = [0.0; N];
+    for (place, value) in array.iter_mut().zip(list) {
+        *place = *value;
+    }
+    array
 }

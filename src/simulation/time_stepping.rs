@@ -1,10 +1,11 @@
 //! One mechanism with rigid contacts under time stepping.
 
 use super::Size;
+use super::equations::Linearization;
 use super::record;
-use super::run::{DIFFERENCE, Motion, solver_outputs};
+use super::run::{DIFFERENCE, Motion, filled, linearization, solver_outputs};
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Extent, Front, Impulses, IntegrationError, Moreau};
+use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
@@ -103,6 +104,30 @@ impl<const N: usize> Motion for TimeStepping<N> {
             self.plant.rates(&Contacts::default(), *t, black_box(y), &mut rates);
             black_box(&rates);
         }
+    }
+
+    fn differentiate(&self, times: usize) {
+        let Front { t, y, .. } = &self.integrator.memory().front;
+        let mut jacobian = Jacobian::ZERO;
+        for _ in 0..times {
+            self.plant.jacobian(&Contacts::default(), *t, black_box(y), &mut jacobian);
+            black_box(&jacobian);
+        }
+    }
+
+    fn front(&self) -> (f64, Vec<f64>) {
+        let Front { t, y, .. } = &self.integrator.memory().front;
+        (*t, y[..Extent::of(self.plant.as_ref()).states].to_vec())
+    }
+
+    fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
+        let mut rates = [0.0; N];
+        self.plant.rates(&Contacts::default(), time, &filled(states), &mut rates);
+        rates[..Extent::of(self.plant.as_ref()).states].to_vec()
+    }
+
+    fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
+        linearization(self.plant.as_ref(), &Contacts::default(), time, &filled(states))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {

@@ -2,7 +2,9 @@
 
 use super::free::Free;
 use slidercrank::integrator::methods::{Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Crossed, GUARDS, Guard, IntegrationError, Integrator, Problem, Reset, Settings};
+use slidercrank::integrator::{
+    Crossed, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Problem, Reset, Settings,
+};
 
 const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3 };
 
@@ -69,6 +71,10 @@ impl Problem<2> for Stuck {
         *rates = [y[1], -2.0];
     }
 
+    fn jacobian(&self, _: &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
+        jacobian.state = [[f64::NAN; 2]; 2]; // no explicit method asks
+    }
+
     fn scales(&self) -> &[f64; 2] {
         &[1.0, 1.0]
     }
@@ -107,11 +113,20 @@ fn events_without_end_are_refused_where_they_happen() {
     assert!((q - (1.0 - t * t)).abs() < 1e-13 && (v + 2.0 * t).abs() < 1e-13, "{q}, {v} at {t}");
 }
 
+/// At rest on the floor the guard is not falling yet, and falls in every step at its very start.
+#[test]
+fn events_at_the_start_of_every_step_are_refused_too() {
+    let mut integrator = Integrator::<2, (), Verner7>::start(&Stuck, SETTINGS, 0.0, [0.0, 0.0], ());
+    let error = integrator.advance(&Stuck, 3.0).expect_err("time stands still");
+    assert_eq!(error, IntegrationError::EventsAccumulate { time: 0.0, guard: 1 });
+    assert_eq!(integrator.state_at(&Stuck, 0.0).0, [0.0, 0.0]);
+}
+
 #[test]
 fn errors_say_what_where_and_how_much() {
     let error = IntegrationError::StepUnderflow { time: 0.1234, step: 3.1e-18, component: 2 };
     assert_eq!(error.to_string(), "a step of 3.1e-18 s no longer moves time; component 2 sets the error");
     assert_eq!(error.time(), 0.1234);
     let error = IntegrationError::EventsAccumulate { time: 2.0, guard: 4 };
-    assert_eq!(error.to_string(), "events accumulate; the last was of guard 4");
+    assert_eq!(error.to_string(), "events accumulate; guard 4 is lowest");
 }

@@ -2,6 +2,7 @@
 
 mod complementarity;
 mod dense_output;
+mod dual;
 mod events;
 mod failures;
 mod first_order;

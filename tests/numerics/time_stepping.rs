@@ -2,7 +2,7 @@
 
 use slidercrank::integrator::complementarity::{MOST_CONTACTS, NORMAL, Pairs};
 use slidercrank::integrator::{
-    ContactLaw, Crossed, GUARDS, Guard, IntegrationError, Moreau, Problem, Relative, Reset, Unilateral,
+    ContactLaw, Crossed, GUARDS, Guard, IntegrationError, Jacobian, Moreau, Problem, Relative, Reset, Unilateral,
 };
 
 /// A ball of unit mass that falls at `weight` [m/s²] on as many floors as `floors`, from the time `lost` on by a force
@@ -23,6 +23,11 @@ impl Problem<2> for Ball {
 
     fn rates(&self, (): &(), t: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
         *rates = [y[1], if t < self.lost { -self.weight } else { f64::NAN }];
+    }
+
+    fn jacobian(&self, (): &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
+        jacobian.state = [[0.0, 1.0], [0.0, 0.0]];
+        jacobian.time = [0.0; 2];
     }
 
     fn scales(&self) -> &[f64; 2] {

@@ -3,11 +3,15 @@
 mod effects;
 mod inspect;
 mod package;
+mod precision;
+mod realtime;
 mod run;
 
 pub use effects::Effects;
 pub use inspect::Inspect;
 pub use package::Package;
+pub use precision::Precision;
+pub use realtime::Realtime;
 pub use run::Run;
 
 use crate::package::build::workspace;

@@ -2,8 +2,11 @@
 
 pub mod bars;
 pub mod figure;
+pub mod loglog;
 pub mod plot;
+pub mod precision;
 pub mod price;
+pub mod realtime;
 pub mod summary;
 pub mod table;
 pub mod units;

@@ -16,7 +16,7 @@ impl Revolute {
             return [0.0; 2];
         }
         let n = play.eccentricity / epsilon;
-        [-play.rate.dot(&n), self.sliding(play, epsilon, perp(n))]
+        [-play.rate.dot(n), self.sliding(play, epsilon, perp(n))]
     }
 
     /// The load of the forces `normal` and `tangential` [N] on the journal at the contact point.
