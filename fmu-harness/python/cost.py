@@ -75,16 +75,21 @@ def started(mechanism, job):
 
 
 def run(slave, inputs, step, end, references, look=lambda now, values: None):
-    """[s] CPU time of stepping to the end and reading outputs at each point."""
+    """[s] CPU time of stepping to the last point before the end and reading outputs at each."""
     step_on, read = slave.fmu.doStep, slave.fmu.getReal
     begin = time.process_time()
-    for point in range(round(end / step)):
+    for point in range(points(end, step)):
         now = point * step
         if not inputs.constant:
             inputs.set(now)
         step_on(now, step)
         look(now + step, read(references))
     return time.process_time() - begin
+
+
+def points(end, step):
+    """A millionth of a step is what remains of a quotient that was meant to be whole."""
+    return int(end / step + 1e-6)
 
 
 def keep(mechanism, job, step, file):
@@ -126,7 +131,7 @@ def main(file):
             keep(mechanism, job, step, Path(job["folder"]) / f"{number}.csv")
             total, work = least(mechanism, job, step)
             host, _ = least(mechanism, job, step, library)
-            simulated = round(job["span"] / step) * step
+            simulated = points(job["span"], step) * step
             results.append({
                 "total": total / simulated,
                 "host": host / simulated,

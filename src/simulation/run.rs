@@ -4,6 +4,7 @@ use super::Size;
 use super::equations::Linearization;
 use super::record;
 use super::snapshot::{Reader, Snapshot};
+use super::system::{Bare, Equations};
 use crate::integrator::{Extent, Front, IntegrationError, Integrator, Jacobian, Method, Settings, Statistics};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -30,6 +31,8 @@ pub trait Motion: Send {
     fn size(&self) -> Size;
     /// Evaluates the right-hand side where the next step starts.
     fn evaluate(&self, times: usize);
+    /// Its equations, from where the next step starts.
+    fn equations(self: Box<Self>) -> Box<dyn Equations>;
     /// Evaluates its derivatives there.
     fn differentiate(&self, times: usize);
     /// Time and states there.
@@ -138,6 +141,11 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
             self.plant.rates(black_box(modes), *t, black_box(y), &mut rates);
             black_box(&rates);
         }
+    }
+
+    fn equations(self: Box<Self>) -> Box<dyn Equations> {
+        let start = self.integrator.memory().front;
+        Box::new(Bare::new(self.plant, self.observer, start))
     }
 
     fn differentiate(&self, times: usize) {

@@ -5,6 +5,7 @@ use super::equations::Linearization;
 use super::record;
 use super::run::{DIFFERENCE, Motion, filled, linearization, solver_outputs};
 use super::snapshot::{Reader, Snapshot};
+use super::system::{Bare, Equations};
 use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -128,6 +129,12 @@ impl<const N: usize> Motion for TimeStepping<N> {
 
     fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
         linearization(self.plant.as_ref(), &Contacts::default(), time, &filled(states))
+    }
+
+    fn equations(self: Box<Self>) -> Box<dyn Equations> {
+        let Front { t, y, rates, .. } = self.integrator.memory().front;
+        let start = Front { t, y, rates, modes: self.plant.start_contacts(t, &y) };
+        Box::new(Bare::new(self.plant, self.observer, start))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {

@@ -4,8 +4,10 @@
 use super::diagram::{Diagram, Point, Verdict};
 use slidercrank::scene::Method;
 
-/// Errors that one digit's price is taken between, at most.
-const DIGITS: std::ops::RangeInclusive<i32> = -8..=-1;
+/// Above this error a run says little about the price of a digit.
+const ROUGH: f64 = 0.1;
+/// So many times the reference's own error is told apart from it.
+const CLEAR: f64 = 10.0;
 
 impl Diagram {
     /// The coarsest run of the method from which on every finer one keeps to `error` too: an error that is small by
@@ -22,18 +24,15 @@ impl Diagram {
         runs.min_by(|a, b| cost(a).total_cmp(&cost(b)))
     }
 
-    /// By what factor the method's cost rises for one more digit: the mean over the decades of error that its runs
-    /// straddle, down to the reference's own error.
+    /// By what factor the method's cost rises for one more digit: the mean from the coarsest run that keeps to [`ROUGH`]
+    /// to the finest whose error stands clear of the reference's; `None` over less than one digit.
     pub fn digit(&self, method: Method) -> Option<f64> {
-        let straddled = |exponent: &i32| {
-            let error = 10f64.powi(*exponent);
-            let coarser = self.of_method(method).any(|point| point.error.is_some_and(|own| own > error));
-            let run = self.keeping(method, error).filter(|_| coarser && error > self.floor)?;
-            Some((*exponent, cost(run)))
-        };
-        let prices: Vec<(i32, f64)> = DIGITS.filter_map(|exponent| straddled(&exponent)).collect();
-        let ((fine, dear), (coarse, cheap)) = (prices.first()?, prices.last()?);
-        (coarse > fine).then(|| (dear / cheap).powf(1.0 / f64::from(coarse - fine)))
+        let coarse = self.keeping(method, ROUGH)?;
+        let is_clear =
+            |point: &&Point| point.keeps(ROUGH) && point.error.is_some_and(|error| error > CLEAR * self.floor);
+        let fine = self.of_method(method).filter(is_clear).last()?;
+        let digits = (coarse.error? / fine.error?).log10();
+        (digits >= 1.0).then(|| (cost(fine) / cost(coarse)).powf(1.0 / digits))
     }
 
     /// How many runs failed, and how many were stopped.

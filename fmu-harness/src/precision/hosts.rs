@@ -38,8 +38,8 @@ pub struct HostPoint {
 /// What FMPy found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// The largest error at the communication points of the window.
-    pub error: f64,
+    /// The largest error at the communication points of the window, if there is one after the start.
+    pub error: Option<f64>,
     /// [s/s] CPU time of the host's process per simulated second, four outputs read at each point.
     pub total: f64,
     /// [s/s] The same less that of an FMU that does nothing.
@@ -92,7 +92,7 @@ fn found(
         "inputs": inputs::of_scene(&subject.file.inputs).iter().map(input).collect::<Vec<Value>>(),
         "steps": STEPS,
         "window": window,
-        "span": span,
+        "span": STEPS.into_iter().fold(span, f64::max),
         "kept": ruler.outputs(),
         "read": READ,
         "repeats": REPEATS,
@@ -106,7 +106,7 @@ fn found(
         let run = Trajectory::read_csv(&folder.path().join(format!("{place}.csv")))?;
         let (total, host) = (number("total")?, number("host")?);
         Ok(Found {
-            error: ruler.error(&run, &reference.trajectory, window)?,
+            error: if run.len() > 1 { Some(ruler.error(&run, &reference.trajectory, window)?) } else { None },
             total,
             unit: total - host,
             evaluations: number("evaluations")?,

@@ -152,7 +152,7 @@ pub fn hosts(points: &[HostPoint]) -> Table {
             Ok(found) => table.row([
                 name,
                 format!("{} µs", three_digits(step * 1e6)),
-                format!("{:.0e}", found.error),
+                found.error.map_or("–".into(), |error| format!("{error:.0e}")),
                 three_digits(found.total),
                 three_digits(found.unit),
                 three_digits(1.0 / found.total),
@@ -204,8 +204,7 @@ pub fn write_csv(diagrams: &[Diagram], hosts: &[HostPoint], file: &Path) -> Resu
         let (numbers, ending) = match outcome {
             Ok(found) => {
                 let window = Some(found.window);
-                let numbers =
-                    [Some(found.error), Some(found.total), Some(found.evaluations), Some(found.over), window, None];
+                let numbers = [found.error, Some(found.total), Some(found.evaluations), Some(found.over), window, None];
                 (numbers, ["reached".to_owned(), String::new()])
             }
             Err(why) => ([None; 6], ["not measured".to_owned(), why.clone()]),

@@ -7,6 +7,7 @@
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
 mod packages;
+mod price;
 
 use fmu_harness::python::{Missing, environment, sources};
 use std::io::Write;
