@@ -36,6 +36,13 @@ pub enum IntegrationError {
         /// The bound.
         steps: u64,
     },
+    /// No impulses satisfy the laws of the rigid contacts that are closed.
+    Complementarity {
+        /// [s] Time reached.
+        time: f64,
+        /// How many are closed.
+        contacts: usize,
+    },
 }
 
 impl IntegrationError {
@@ -51,7 +58,8 @@ impl IntegrationError {
             Self::StepUnderflow { time, .. }
             | Self::NotFinite { time, .. }
             | Self::EventsAccumulate { time, .. }
-            | Self::TooManySteps { time, .. } => time,
+            | Self::TooManySteps { time, .. }
+            | Self::Complementarity { time, .. } => time,
         }
     }
 }
@@ -70,6 +78,9 @@ impl fmt::Display for IntegrationError {
             }
             Self::TooManySteps { steps, .. } => {
                 write!(f, "{steps} steps did not reach the communication point")
+            }
+            Self::Complementarity { contacts, .. } => {
+                write!(f, "no impulses satisfy the laws of {contacts} closed contacts at once")
             }
         }
     }

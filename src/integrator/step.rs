@@ -13,7 +13,7 @@ use super::statistics::Statistics;
 /// Most events without time passing.
 pub(super) const STANDSTILL: usize = 64;
 /// Most steps of one advance.
-const STEPS: u64 = 200_000_000;
+pub(super) const STEPS: u64 = 200_000_000;
 
 /// A one-step integrator with event location.
 pub struct Integrator<const N: usize, D, M: Method> {

@@ -1,6 +1,7 @@
 //! Chooses the compiled mechanism and method that a scene calls for.
 
 use super::run::{Motion, Run};
+use super::time_stepping::TimeStepping;
 use crate::integrator::ROOM;
 use crate::integrator::methods::{Bs3, Dop853, Dopri5, Rk4, Rk4Unlocated, Rodas4, Verner7};
 use crate::model::audit::{self, Audited};
@@ -129,5 +130,6 @@ fn with_method<const N: usize, P: Plant<N> + 'static>(
         Method::Bs3 => Box::new(Run::<N, Bs3>::start(scene, time, pose, plant)),
         Method::Rodas4 => Box::new(Run::<N, Rodas4>::start(scene, time, pose, plant)),
         Method::Rk4Unlocated => Box::new(Run::<N, Rk4Unlocated>::start(scene, time, pose, plant)),
+        Method::Moreau => Box::new(TimeStepping::<N>::start(scene, time, pose, plant)),
     }
 }

@@ -2,9 +2,11 @@
 
 mod assemble;
 mod equations;
+mod record;
 mod run;
 mod snapshot;
 mod system;
+mod time_stepping;
 
 pub use equations::Linearization;
 pub use snapshot::Snapshot;
@@ -76,8 +78,9 @@ impl Simulation {
     /// Assembles the scene's mechanism and puts it in its start position at `time` [s].
     ///
     /// # Errors
-    /// `Scene` if the start position does not close the loop.
+    /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
+        scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
         let pose = start_pose(scene)?;
         let signal = InputSignal { at: time, value: inputs, rate: Inputs::default() };
         Ok(Self { motion: assemble::start(scene, time, &pose, signal), time })
