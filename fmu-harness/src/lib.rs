@@ -6,6 +6,7 @@ pub mod host;
 pub mod inputs;
 pub mod inspect;
 pub mod package;
+pub mod peers;
 pub mod precision;
 pub mod python;
 pub mod realtime;

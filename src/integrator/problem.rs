@@ -52,6 +52,20 @@ impl Extent {
     }
 }
 
+/// How the rates of a problem depend on its states and on time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jacobian<const N: usize> {
+    /// [1/s · unit of state i / unit of state j] ∂ẏ_i/∂y_j in row i, column j.
+    pub state: [[f64; N]; N],
+    /// [unit of state i / s²] ∂ẏ_i/∂t at constant states.
+    pub time: [f64; N],
+}
+
+impl<const N: usize> Jacobian<N> {
+    /// Of rates that depend on nothing.
+    pub const ZERO: Self = Self { state: [[0.0; N]; N], time: [0.0; N] };
+}
+
 /// A hybrid system of second order in its positions, with first-order states beside them where it has
 /// room for more than `ROOM` states.
 pub trait Problem<const N: usize> {
@@ -66,6 +80,11 @@ pub trait Problem<const N: usize> {
     /// Writes the rates of the state `y` at time `t`: the velocities, then the accelerations, then the
     /// rates of first-order states.
     fn rates(&self, modes: &Self::Modes, t: f64, y: &[f64; N], rates: &mut [f64; N]);
+
+    /// Writes the exact derivatives of the rates at `t` and `y` into the rows and columns of the
+    /// problem's states; what lies beyond keeps its value. Where a rate has a corner, the derivative is
+    /// that of the branch that `rates` takes.
+    fn jacobian(&self, modes: &Self::Modes, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>);
 
     /// [unit of each state] An error of `tolerance` times this is just tolerable in one step.
     fn scales(&self) -> &[f64; N];

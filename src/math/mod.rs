@@ -1,20 +1,31 @@
-//! The elementary functions, in one place: the same bits on every platform.
+//! Numbers, vectors and the elementary functions, in one place: the same bits on every platform.
 //!
 //! `f64`'s own come from the platform's C library, whose last digits differ. Square roots are exact
 //! by IEEE 754 everywhere and stay `f64::sqrt`.
 
+mod dual;
+mod real;
 mod sin_cos;
+mod vec2;
 
-pub use sin_cos::sin_cos;
+pub use dual::Dual;
+pub use real::Real;
+pub use vec2::Vec2;
+
+/// (sin x, cos x).
+#[inline(always)]
+pub fn sin_cos<R: Real>(x: R) -> (R, R) {
+    R::sin_cos(x)
+}
 
 /// x^y.
-pub fn powf(x: f64, y: f64) -> f64 {
-    libm::pow(x, y)
+pub fn powf<R: Real>(x: R, y: f64) -> R {
+    R::powf(x, y)
 }
 
 /// e^x.
-pub fn exp(x: f64) -> f64 {
-    libm::exp(x)
+pub fn exp<R: Real>(x: R) -> R {
+    R::exp(x)
 }
 
 /// Natural logarithm of 1 + x.
@@ -23,18 +34,18 @@ pub fn ln_1p(x: f64) -> f64 {
 }
 
 /// Hyperbolic tangent.
-pub fn tanh(x: f64) -> f64 {
-    libm::tanh(x)
+pub fn tanh<R: Real>(x: R) -> R {
+    R::tanh(x)
 }
 
 /// Inverse hyperbolic sine.
-pub fn asinh(x: f64) -> f64 {
-    libm::asinh(x)
+pub fn asinh<R: Real>(x: R) -> R {
+    R::asinh(x)
 }
 
 /// Angle in (−π/2, π/2] of the point (x, y), x ≥ 0.
-pub fn atan2(y: f64, x: f64) -> f64 {
-    libm::atan2(y, x)
+pub fn atan2<R: Real>(y: R, x: R) -> R {
+    R::atan2(y, x)
 }
 
 /// x^y to a few parts in a thousand, for positive normal x and moderate powers.

@@ -10,15 +10,18 @@
 
 use super::contact::Account;
 use super::drive::InputSignal;
+use super::jacobian::differentiate;
 use super::joint::guide::CORNERS;
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::perp;
 use super::plant::Plant;
 use super::reactions::reactions;
+use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, Reset};
+use crate::math::Real;
 use crate::scene::Scene;
 
 /// Number of states of an audit.
@@ -45,12 +48,15 @@ struct Viscous {
 
 impl Viscous {
     /// [W]
-    fn loss(&self, pose: &Pose) -> f64 {
+    fn loss<R: Real>(&self, pose: &Pose<R>) -> R {
         let Pose { turning, section_speed, velocity, .. } = pose;
         let relative =
             [turning.speed[CRANK], turning.speed[CRANK] - section_speed[0], turning.speed[SLIDER] - section_speed[1]];
-        let rotary: f64 = self.revolute.iter().zip(relative).map(|(damping, speed)| damping * speed * speed).sum();
-        rotary + self.guide * velocity.pin.x * velocity.pin.x
+        let mut loss = R::ZERO;
+        for (&damping, speed) in self.revolute.iter().zip(relative) {
+            loss += speed * damping * speed;
+        }
+        loss + velocity.pin.x * self.guide * velocity.pin.x
     }
 }
 
@@ -93,6 +99,25 @@ impl<const N: usize> Audited<N> {
         (kinetic, self.gravity * moment)
     }
 
+    /// [W] Rates of the audit's states.
+    fn powers<R: Real>(&self, t: R, instant: &Instant<R>, account: &Account<R>) -> [R; STATES] {
+        let Instant { pose, loads, flexible, .. } = instant;
+        let torque = if self.topology.speed {
+            reactions(self.topology, &self.bodies, self.gravity, instant).torque
+        } else {
+            self.plant.signal().at(t).crank_torque
+        };
+        [
+            torque * pose.turning.speed[CRANK],
+            loads.slider_load * pose.velocity.pin.x,
+            account.normal_power,
+            account.friction_loss,
+            self.viscous.loss(pose),
+            flexible.map_or(R::ZERO, |flexible| flexible.elastic.modal_loss),
+            R::ZERO,
+        ]
+    }
+
     /// Kinetic and potential energies alone.
     fn stored(&self, instant: &Instant, account: &Account) -> EnergyOutputs {
         let (kinetic, gravity) = self.mechanical(instant);
@@ -120,24 +145,14 @@ impl<const N: usize> Problem<N> for Audited<N> {
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         self.plant.rates(contacts, t, y, rates);
         let instant = self.plant.instant(contacts, t, y);
-        let Instant { pose, loads, flexible, .. } = &instant;
-        let account = self.plant.account(contacts, pose, y);
-        let inputs = self.plant.signal().at(t);
-        let torque = if self.topology.speed {
-            reactions(self.topology, &self.bodies, self.gravity, &instant).torque
-        } else {
-            inputs.crank_torque
-        };
-        let powers = [
-            torque * pose.turning.speed[CRANK],
-            loads.slider_load * pose.velocity.pin.x,
-            account.normal_power,
-            account.friction_loss,
-            self.viscous.loss(pose),
-            flexible.map_or(0.0, |flexible| flexible.elastic.modal_loss),
-            0.0,
-        ];
-        rates[self.first()..][..STATES].copy_from_slice(&powers);
+        let account = self.plant.account(contacts, &instant.pose, y);
+        rates[self.first()..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
+    }
+
+    /// The audit's own rows are exact, too; its columns are 0.
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
+        let first = self.first();
+        differentiate(first + STATES, first, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
     }
 
     fn scales(&self) -> &[f64; N] {
@@ -208,6 +223,21 @@ impl<const N: usize> Plant<N> for Audited<N> {
 
     fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
         self.plant.account(contacts, pose, y)
+    }
+
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
+        self.plant.tangent_rates(contacts, t, y, rates);
+        let (instant, account) = self.plant.tangent_instant(contacts, t, y);
+        rates[self.first()..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
+    }
+
+    fn tangent_instant(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent; N],
+    ) -> (Instant<Tangent>, Account<Tangent>) {
+        self.plant.tangent_instant(contacts, t, y)
     }
 
     fn energies(&self, contacts: &Contacts, instant: &Instant, y: &[f64; N]) -> EnergyOutputs {

@@ -6,17 +6,17 @@ use crate::scene::{FrictionLaw, JointModel, Scene};
 
 /// One number for the bristles of each contact: their deflection [m] or its rate [m/s].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bristles {
+pub struct Bristles<R = f64> {
     /// Of the joints A, B, C.
-    pub revolute: [f64; 3],
+    pub revolute: [R; 3],
     /// Of the guide's contacts.
-    pub guide: [f64; GUIDE_CONTACTS],
+    pub guide: [R; GUIDE_CONTACTS],
 }
 
-impl Bristles {
+impl<R> Bristles<R> {
     /// Of one of all contacts.
     #[inline(always)]
-    pub fn of(&mut self, contact: usize) -> &mut f64 {
+    pub fn of(&mut self, contact: usize) -> &mut R {
         if contact < 3 { &mut self.revolute[contact] } else { &mut self.guide[contact - 3] }
     }
 }

@@ -8,6 +8,7 @@ use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, Guide};
 use super::joint::revolute::Revolute;
 use super::mechanism::{CRANK, ROD, SLIDER, bodies};
+use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
 use crate::integrator::{Crossed, GUARDS, Guard, Reset};
 use crate::scene::Scene;
@@ -40,13 +41,13 @@ impl Clearances {
 
     /// Adds the forces of the closed contacts, whose bristles are deflected by `deflections` [m].
     #[inline(always)]
-    pub fn add_loads(
+    pub fn add_loads<R: Scalar>(
         &self,
         clear: [bool; 4],
         contacts: &Contacts,
-        pose: &Pose,
-        deflections: &[f64],
-        loads: &mut Loads,
+        pose: &Pose<R>,
+        deflections: &[R],
+        loads: &mut Loads<R>,
     ) {
         let z = self.deflections(deflections);
         for (joint, revolute) in self.revolute.iter().enumerate() {
@@ -61,7 +62,13 @@ impl Clearances {
     }
 
     /// Elastic energy of the closed contacts, and the powers that they take.
-    pub fn account(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, deflections: &[f64]) -> Account {
+    pub fn account<R: Scalar>(
+        &self,
+        clear: [bool; 4],
+        contacts: &Contacts,
+        pose: &Pose<R>,
+        deflections: &[R],
+    ) -> Account<R> {
         let z = self.deflections(deflections);
         let mut account = Account::default();
         for (joint, revolute) in self.revolute.iter().enumerate() {
@@ -77,7 +84,7 @@ impl Clearances {
 
     /// Each contact's share in the states of bristles; 0 for those that have none.
     #[inline(always)]
-    fn deflections(&self, states: &[f64]) -> Bristles {
+    fn deflections<R: Scalar>(&self, states: &[R]) -> Bristles<R> {
         let mut z = Bristles::default();
         for (&deflection, &contact) in states.iter().zip(&self.bristles) {
             *z.of(contact) = deflection;
@@ -87,7 +94,7 @@ impl Clearances {
 
     /// Writes the rates of the bristles' states.
     #[inline(always)]
-    pub fn write_bristle_rates(&self, rate: &Bristles, rates: &mut [f64]) {
+    pub fn write_bristle_rates<R: Scalar>(&self, rate: &Bristles<R>, rates: &mut [R]) {
         let mut rate = *rate;
         for (place, &contact) in rates.iter_mut().zip(&self.bristles) {
             *place = *rate.of(contact);

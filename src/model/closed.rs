@@ -1,18 +1,21 @@
 //! The closed loop: all joints ideal, one degree of freedom, no contact.
 
+use super::contact::Account;
 use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::Loads;
 use super::ideal::{IdealMechanism, IdealMotion};
+use super::jacobian::differentiate;
 use super::joint::guide::CORNERS;
 use super::kinematics::{JointCentres, Turning};
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, bodies};
 use super::plane::{Rotation, Vec2, perp};
 use super::plant::Plant;
+use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
-use crate::math;
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
+use crate::math::{self, Real};
 use crate::scene::Scene;
 
 /// The ideal mechanism with its constants and its inputs.
@@ -55,15 +58,15 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
     }
 
     #[inline(always)]
-    fn crank(&self, t: f64, y: &[f64; N]) -> (f64, f64) {
-        if SPEED { (self.rotor.at(t), self.rotor.speed) } else { (y[0], y[Self::P]) }
+    fn crank<R: Real>(&self, t: R, y: &[R; N]) -> (R, R) {
+        if SPEED { (self.rotor.at(t), R::constant(self.rotor.speed)) } else { (y[0], y[Self::P]) }
     }
 
     #[inline(always)]
-    fn loads(&self, t: f64, speed: &[f64; 3], pin_speed: f64) -> Loads {
+    fn loads<R: Real>(&self, t: R, speed: &[R; 3], pin_speed: R) -> Loads<R> {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
-        let mut loads = Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
+        let mut loads = Loads { pin: Vec2::new(slider_load, R::ZERO), slider_load, ..Loads::default() };
         if !SPEED {
             loads.crank_couple = inputs.crank_torque;
         }
@@ -76,7 +79,7 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
 
     /// [rad/s²] Crank acceleration: the principle of virtual power with K_i = ∂ṙ_i/∂θ̇.
     #[inline(always)]
-    fn acceleration(&self, crank: Rotation, speed: f64, motion: &IdealMotion, loads: &Loads) -> f64 {
+    fn acceleration<R: Real>(&self, crank: Rotation<R>, speed: R, motion: &IdealMotion<R>, loads: &Loads<R>) -> R {
         let [first, second, third] = &self.bodies;
         let ratio = motion.rod_ratio;
         let rod_speed = ratio * speed;
@@ -85,18 +88,77 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
         let rod_com = motion.rod.apply(second.com);
         let rod_jacobian = perp(crank_arm) + ratio * perp(rod_com);
         let rod_bias = -speed * speed * crank_arm + motion.rod_bias * perp(rod_com) - rod_speed * rod_speed * rod_com;
-        let inertia = first.inertia
-            + first.mass * crank_com.norm_squared()
-            + second.inertia * ratio * ratio
-            + second.mass * rod_jacobian.norm_squared()
-            + third.mass * motion.x_ratio * motion.x_ratio;
+        let inertia = crank_com.norm_squared() * first.mass
+            + first.inertia
+            + ratio * second.inertia * ratio
+            + rod_jacobian.norm_squared() * second.mass
+            + motion.x_ratio * third.mass * motion.x_ratio;
         let couples = loads.couples();
         let power = couples[CRANK] + couples[ROD] * ratio + loads.pin.x * motion.x_ratio
-            - self.gravity * (first.mass * crank_com.y + second.mass * rod_jacobian.y)
-            - second.inertia * ratio * motion.rod_bias
-            - second.mass * rod_jacobian.dot(&rod_bias)
-            - third.mass * motion.x_ratio * motion.x_bias;
+            - (crank_com.y * first.mass + rod_jacobian.y * second.mass) * self.gravity
+            - ratio * second.inertia * motion.rod_bias
+            - rod_jacobian.dot(rod_bias) * second.mass
+            - motion.x_ratio * third.mass * motion.x_bias;
         power / inertia
+    }
+
+    #[inline(always)]
+    fn write_rates<R: Real>(&self, t: R, y: &[R; N], rates: &mut [R; N]) {
+        if SPEED {
+            return;
+        }
+        let (angle, speed) = self.crank(t, y);
+        let crank = Rotation::new(angle);
+        let motion = self.ideal.motion(crank, speed);
+        let speeds = [speed, motion.rod_ratio * speed, R::ZERO];
+        let loads = self.loads(t, &speeds, motion.x_ratio * speed);
+        rates[0] = speed;
+        rates[Self::P] = self.acceleration(crank, speed, &motion, &loads);
+    }
+
+    fn everything<R: Real>(&self, t: R, y: &[R; N]) -> Instant<R> {
+        let (angle, speed) = self.crank(t, y);
+        let crank = Rotation::new(angle);
+        let motion = self.ideal.motion(crank, speed);
+        let rod_speed = motion.rod_ratio * speed;
+        let speeds = [speed, rod_speed, R::ZERO];
+        let loads = self.loads(t, &speeds, motion.x_ratio * speed);
+        let acceleration = if SPEED { R::ZERO } else { self.acceleration(crank, speed, &motion, &loads) };
+        let rod_acceleration = motion.rod_ratio * acceleration + motion.rod_bias;
+        let crank_arm = crank.axis(self.bodies[CRANK].length);
+        let at = |crank_pin: Vec2<R>, pin: Vec2<R>| JointCentres {
+            crank: Vec2::ZERO,
+            crank_pin,
+            big_end: crank_pin,
+            small_end: pin,
+            pin,
+        };
+        let along = |x: R| Vec2::new(x, R::ZERO);
+        let turning = Turning {
+            angle: [angle, math::atan2(motion.rod.sin, motion.rod.cos), R::ZERO],
+            speed: speeds,
+            rotation: [crank, motion.rod, Rotation::NONE],
+        };
+        let pose = Pose {
+            turning,
+            section_speed: [rod_speed; 2],
+            place: at(crank_arm, Vec2::new(motion.x, R::constant(self.ideal.height))),
+            velocity: at(speed * perp(crank_arm), along(motion.x_ratio * speed)),
+        };
+        let mut angle_acceleration = [R::ZERO; 3];
+        angle_acceleration[CRANK] = acceleration;
+        angle_acceleration[ROD] = rod_acceleration;
+        angle_acceleration[SLIDER] = R::ZERO;
+        Instant {
+            pose,
+            acceleration: at(
+                acceleration * perp(crank_arm) - speed * speed * crank_arm,
+                along(motion.x_ratio * acceleration + motion.x_bias),
+            ),
+            angle_acceleration,
+            loads,
+            flexible: None,
+        }
     }
 }
 
@@ -108,16 +170,12 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
     }
 
     fn rates(&self, _: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        if SPEED {
-            return;
-        }
-        let (angle, speed) = self.crank(t, y);
-        let crank = Rotation::new(angle);
-        let motion = self.ideal.motion(crank, speed);
-        let speeds = [speed, motion.rod_ratio * speed, 0.0];
-        let loads = self.loads(t, &speeds, motion.x_ratio * speed);
-        rates[0] = speed;
-        rates[Self::P] = self.acceleration(crank, speed, &motion, &loads);
+        self.write_rates(t, y, rates);
+    }
+
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
+        let states = 2 * Self::P;
+        differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
     }
 
     fn scales(&self) -> &[f64; N] {
@@ -173,51 +231,18 @@ impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
     }
 
     fn instant(&self, _: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        let (angle, speed) = self.crank(t, y);
-        let crank = Rotation::new(angle);
-        let motion = self.ideal.motion(crank, speed);
-        let rod_speed = motion.rod_ratio * speed;
-        let speeds = [speed, rod_speed, 0.0];
-        let loads = self.loads(t, &speeds, motion.x_ratio * speed);
-        let acceleration = if SPEED { 0.0 } else { self.acceleration(crank, speed, &motion, &loads) };
-        let rod_acceleration = motion.rod_ratio * acceleration + motion.rod_bias;
-        let crank_arm = crank.axis(self.bodies[CRANK].length);
-        let at = |crank_pin: Vec2, pin: Vec2| JointCentres {
-            crank: Vec2::zeros(),
-            crank_pin,
-            big_end: crank_pin,
-            small_end: pin,
-            pin,
-        };
-        let along = |x: f64| Vec2::new(x, 0.0);
-        let turning = Turning {
-            angle: [angle, math::atan2(motion.rod.sin, motion.rod.cos), 0.0],
-            speed: speeds,
-            rotation: [crank, motion.rod, Rotation::NONE],
-        };
-        let pose = Pose {
-            turning,
-            section_speed: [rod_speed; 2],
-            place: at(crank_arm, Vec2::new(motion.x, self.ideal.height)),
-            velocity: at(speed * perp(crank_arm), along(motion.x_ratio * speed)),
-        };
-        let mut angle_acceleration = [0.0; 3];
-        angle_acceleration[CRANK] = acceleration;
-        angle_acceleration[ROD] = rod_acceleration;
-        angle_acceleration[SLIDER] = 0.0;
-        Instant {
-            pose,
-            acceleration: at(
-                acceleration * perp(crank_arm) - speed * speed * crank_arm,
-                along(motion.x_ratio * acceleration + motion.x_bias),
-            ),
-            angle_acceleration,
-            loads,
-            flexible: None,
-        }
+        self.everything(t, y)
     }
 
     fn penetration(&self, _: &Pose) -> [f64; 3 + CORNERS] {
         [f64::NEG_INFINITY; 3 + CORNERS]
+    }
+
+    fn tangent_rates(&self, _: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
+        self.write_rates(t, y, rates);
+    }
+
+    fn tangent_instant(&self, _: &Contacts, t: Tangent, y: &[Tangent; N]) -> (Instant<Tangent>, Account<Tangent>) {
+        (self.everything(t, y), Account::default())
     }
 }

@@ -8,6 +8,7 @@
 use super::kinematics::Roots;
 use super::mechanism::{CRANK, ROD, SLIDER, Topology};
 use super::plane::Vec2;
+use crate::math::Real;
 
 /// Places of the coordinates among the positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,7 +52,7 @@ impl Layout {
 
     /// The roots in a list of positions (or of rates, or of accelerations).
     #[inline(always)]
-    pub fn roots(&self, list: &[f64]) -> Roots {
+    pub fn roots<R: Real>(&self, list: &[R]) -> Roots<R> {
         let mut roots = Roots::default();
         if self.topology.crank_floats() {
             roots.crank = Vec2::new(list[0], list[1]);
@@ -69,23 +70,23 @@ impl Layout {
 
     /// Writes the roots into such a list.
     #[inline(always)]
-    pub fn set_roots(&self, roots: &Roots, list: &mut [f64]) {
+    pub fn set_roots<R: Real>(&self, roots: &Roots<R>, list: &mut [R]) {
         if self.topology.crank_floats() {
-            list[..2].copy_from_slice(roots.crank.as_slice());
+            list[..2].copy_from_slice(&<[R; 2]>::from(roots.crank));
         }
         if self.topology.rod_floats() {
-            list[self.rod..self.rod + 2].copy_from_slice(roots.rod.as_slice());
+            list[self.rod..self.rod + 2].copy_from_slice(&<[R; 2]>::from(roots.rod));
         }
         if self.topology.t {
             list[self.slider] = roots.slider.x;
         } else if self.topology.slider_floats() {
-            list[self.slider..self.slider + 2].copy_from_slice(roots.slider.as_slice());
+            list[self.slider..self.slider + 2].copy_from_slice(&<[R; 2]>::from(roots.slider));
         }
     }
 
     /// Writes the angles (or their rates or accelerations) into such a list.
     #[inline(always)]
-    pub fn set_angles(&self, angles: &[f64; 3], list: &mut [f64]) {
+    pub fn set_angles<R: Real>(&self, angles: &[R; 3], list: &mut [R]) {
         for (k, &angle) in angles.iter().enumerate() {
             if let Some(place) = self.angle(k) {
                 list[place] = angle;

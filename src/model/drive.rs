@@ -5,6 +5,7 @@ use super::joint::guide;
 use super::mechanism::{CRANK, SLIDER};
 use super::plane::Vec2;
 use super::signals::Inputs;
+use crate::math::Real;
 use crate::scene::Scene;
 
 /// Inputs from a communication point on: u(t) = value + rate·(t − at).
@@ -21,11 +22,11 @@ pub struct InputSignal {
 impl InputSignal {
     /// Inputs at `t`.
     #[inline(always)]
-    pub fn at(&self, t: f64) -> Inputs {
+    pub fn at<R: Real>(&self, t: R) -> Inputs<R> {
         let passed = t - self.at;
         Inputs {
-            crank_torque: self.value.crank_torque + passed * self.rate.crank_torque,
-            slider_load: self.value.slider_load + passed * self.rate.slider_load,
+            crank_torque: passed * self.rate.crank_torque + self.value.crank_torque,
+            slider_load: passed * self.rate.slider_load + self.value.slider_load,
         }
     }
 
@@ -57,8 +58,8 @@ impl Rotor {
 
     /// [rad] at `t`.
     #[inline(always)]
-    pub fn at(&self, t: f64) -> f64 {
-        self.angle + self.speed * (t - self.start_time)
+    pub fn at<R: Real>(&self, t: R) -> R {
+        (t - self.start_time) * self.speed + self.angle
     }
 }
 
@@ -74,14 +75,14 @@ pub struct RotaryDamper {
 
 /// Adds the couples of viscous friction at the speeds [rad/s] of crank, rod's ends and slider.
 #[inline(always)]
-pub fn add_viscous(dampers: &[RotaryDamper], speed: &[f64; 3], ends: &[f64; 2], loads: &mut Loads) {
+pub fn add_viscous<R: Real>(dampers: &[RotaryDamper], speed: &[R; 3], ends: &[R; 2], loads: &mut Loads<R>) {
     for damper in dampers {
         let relative = match damper.joint {
             0 => speed[CRANK],
             1 => speed[CRANK] - ends[0],
             _ => speed[SLIDER] - ends[1],
         };
-        let couple = damper.coefficient * relative;
+        let couple = relative * damper.coefficient;
         loads.add_couples(damper.joint, -couple, couple);
     }
 }
@@ -99,6 +100,6 @@ pub fn rotary_dampers(scene: &Scene) -> Vec<RotaryDamper> {
 
 /// The guide's viscous friction on a slider whose pin moves along it at `speed` [m/s].
 #[inline(always)]
-pub fn viscous_guide(damping: f64, speed: f64) -> guide::Load {
-    guide::Load { force: Vec2::new(-damping * speed, 0.0), couple: 0.0 }
+pub fn viscous_guide<R: Real>(damping: f64, speed: R) -> guide::Load<R> {
+    guide::Load { force: Vec2::new(speed * -damping, R::ZERO), couple: R::ZERO }
 }

@@ -5,39 +5,40 @@ use super::joint::{guide, revolute};
 use super::kinematics::{Roots, Turning};
 use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology};
 use super::plane::{Vec2, cross};
+use crate::math::Real;
 
 /// Loads on the bodies but for gravity and the reactions of ideal joints: forces at the joint
 /// centres and couples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Loads {
+pub struct Loads<R = f64> {
     /// [N] On the crank at its main journal.
-    pub crank: Vec2,
+    pub crank: Vec2<R>,
     /// [N] On the crank at its pin.
-    pub crank_pin: Vec2,
+    pub crank_pin: Vec2<R>,
     /// [N] On the rod at its big end.
-    pub big_end: Vec2,
+    pub big_end: Vec2<R>,
     /// [N] On the rod at its small end.
-    pub small_end: Vec2,
+    pub small_end: Vec2<R>,
     /// [N] On the slider at its pin.
-    pub pin: Vec2,
+    pub pin: Vec2<R>,
     /// [N·m] On the crank.
-    pub crank_couple: f64,
+    pub crank_couple: R,
     /// [N·m] On the rod's sections at its big and small end.
-    pub end_couple: [f64; 2],
+    pub end_couple: [R; 2],
     /// [N·m] On the slider, about its pin.
-    pub slider_couple: f64,
+    pub slider_couple: R,
     /// The input's part of the force at the slider's pin [N].
-    pub slider_load: f64,
+    pub slider_load: R,
     /// The guide's part: contact, or viscous friction of an ideal guide.
-    pub guide: guide::Load,
+    pub guide: guide::Load<R>,
     /// [m/s] Rates of the bristles' deflections in the contacts.
-    pub bristle_rate: Bristles,
+    pub bristle_rate: Bristles<R>,
 }
 
-impl Loads {
+impl<R: Real> Loads<R> {
     /// Adds the contact of joint A, B or C (0, 1, 2).
     #[inline(always)]
-    pub fn add_contact(&mut self, joint: usize, load: &revolute::Load) {
+    pub fn add_contact(&mut self, joint: usize, load: &revolute::Load<R>) {
         match joint {
             0 => self.crank += load.force,
             1 => {
@@ -55,7 +56,7 @@ impl Loads {
 
     /// Adds couples on the journal and the bearing of joint A, B or C (0, 1, 2).
     #[inline(always)]
-    pub fn add_couples(&mut self, joint: usize, journal: f64, bearing: f64) {
+    pub fn add_couples(&mut self, joint: usize, journal: R, bearing: R) {
         match joint {
             0 => self.crank_couple += journal,
             1 => {
@@ -71,13 +72,13 @@ impl Loads {
 
     /// [N·m] On crank, rod and slider.
     #[inline(always)]
-    pub fn couples(&self) -> [f64; 3] {
+    pub fn couples(&self) -> [R; 3] {
         [self.crank_couple, self.end_couple[0] + self.end_couple[1], self.slider_couple]
     }
 
     /// Adds forces and moment of the guide.
     #[inline(always)]
-    pub fn add_guide(&mut self, load: &guide::Load) {
+    pub fn add_guide(&mut self, load: &guide::Load<R>) {
         self.pin += load.force;
         self.slider_couple += load.couple;
         self.guide.force += load.force;
@@ -87,11 +88,11 @@ impl Loads {
 
 /// Accelerations of the roots and of the three angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Accelerations {
+pub struct Accelerations<R = f64> {
     /// [m/s²]
-    pub roots: Roots,
+    pub roots: Roots<R>,
     /// [rad/s²] Of crank, rod and slider.
-    pub angle: [f64; 3],
+    pub angle: [R; 3],
 }
 
 /// Index of a pair of angles in [`ChainInertia`]'s arrays.
@@ -99,14 +100,14 @@ const PAIRS: [(usize, usize); 3] = [(CRANK, ROD), (ROD, SLIDER), (CRANK, SLIDER)
 
 /// Solves the equations of motion of an open mechanism.
 #[inline(always)]
-pub fn accelerate(
+pub fn accelerate<R: Real>(
     topology: Topology,
     bodies: &Bodies,
     chains: &ChainInertia,
     gravity: f64,
-    turning: &Turning,
-    loads: &Loads,
-) -> Accelerations {
+    turning: &Turning<R>,
+    loads: &Loads<R>,
+) -> Accelerations<R> {
     let Topology { a, b, c, t, speed } = topology;
     let rotation = &turning.rotation;
     let crank_length = rotation[CRANK].axis(bodies[CRANK].length);
@@ -173,27 +174,27 @@ pub fn accelerate(
 
     // Elements of the mass matrix and the centrifugal terms.
     let linked = [b, c && !t, b && c && !t];
-    let mut m = [0.0; 3];
+    let mut m = [R::ZERO; 3];
     for pair in 0..3 {
         if linked[pair] {
             let (k, l) = PAIRS[pair];
             let cos = rotation[k].cos * rotation[l].cos + rotation[k].sin * rotation[l].sin;
             let sin = rotation[l].sin * rotation[k].cos - rotation[l].cos * rotation[k].sin;
-            m[pair] = chains.cos[pair] * cos + chains.sin[pair] * sin;
-            let centrifugal = chains.cos[pair] * sin - chains.sin[pair] * cos;
+            m[pair] = cos * chains.cos[pair] + sin * chains.sin[pair];
+            let centrifugal = sin * chains.cos[pair] - cos * chains.sin[pair];
             q[k] += centrifugal * square[l];
             q[l] -= centrifugal * square[k];
         }
     }
-    let mut d = chains.diagonal;
+    let mut d = chains.diagonal.map(R::constant);
 
     // Gravity on the chains that do not float, and the coupling with the pin on an ideal guide.
     let rooted = [a || rail_crank, (b && a) || rail_rod, b && c && a && !t];
-    let mut first_moment = [Vec2::zeros(); 3];
+    let mut first_moment = [Vec2::<R>::ZERO; 3];
     for k in 0..3 {
         if rooted[k] {
             first_moment[k] = rotation[k].apply(chains.moment[k]);
-            q[k] -= gravity * first_moment[k].x;
+            q[k] -= first_moment[k].x * gravity;
         }
     }
     let per_mass = 1.0 / chains.mass[SLIDER];
@@ -222,18 +223,18 @@ pub fn accelerate(
                 along += first_moment[k].y * result.angle[k];
             }
         }
-        result.roots.slider = Vec2::new(along * per_mass, 0.0);
+        result.roots.slider = Vec2::new(along * per_mass, R::ZERO);
     }
     result
 }
 
 /// Angular accelerations from the diagonal `d`, the pairs' elements `m` and the right sides `q`.
 #[inline(always)]
-fn solve(topology: Topology, d: &[f64; 3], m: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+fn solve<R: Real>(topology: Topology, d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R; 3] {
     let Topology { b, c, t, speed, .. } = topology;
     let with_crank = b && !speed;
     let with_slider = c && !t;
-    let mut angle = [0.0; 3];
+    let mut angle = [R::ZERO; 3];
     match (with_crank, with_slider) {
         (true, true) => angle = solve_three(d, m, q),
         (true, false) => {
@@ -254,16 +255,16 @@ fn solve(topology: Topology, d: &[f64; 3], m: &[f64; 3], q: &[f64; 3]) -> [f64; 
 }
 
 #[inline(always)]
-fn solve_two(d: [f64; 2], m: f64, q: [f64; 2]) -> [f64; 2] {
-    let per_determinant = 1.0 / (d[0] * d[1] - m * m);
+fn solve_two<R: Real>(d: [R; 2], m: R, q: [R; 2]) -> [R; 2] {
+    let per_determinant = (d[0] * d[1] - m * m).recip();
     [(q[0] * d[1] - m * q[1]) * per_determinant, (q[1] * d[0] - m * q[0]) * per_determinant]
 }
 
 /// By L·D·Lᵀ without pivoting: a mass matrix is positive definite.
 #[inline(always)]
-fn solve_three(d: &[f64; 3], m: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+fn solve_three<R: Real>(d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R; 3] {
     let [crank_rod, rod_slider, crank_slider] = *m;
-    let per_first = 1.0 / d[0];
+    let per_first = d[0].recip();
     let (l1, l2) = (crank_rod * per_first, crank_slider * per_first);
     let d1 = d[1] - l1 * crank_rod;
     let off = rod_slider - l1 * crank_slider;

@@ -1,6 +1,7 @@
 //! The ideal slider-crank: rod and slider as functions of the crank's angle.
 
 use super::plane::Rotation;
+use crate::math::Real;
 use crate::scene::Scene;
 
 /// Lengths of an ideal slider-crank.
@@ -16,19 +17,19 @@ pub struct IdealMechanism {
 
 /// Where the rod and the slider are, and how they move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IdealMotion {
+pub struct IdealMotion<R = f64> {
     /// Rotation of the rod.
-    pub rod: Rotation,
+    pub rod: Rotation<R>,
     /// dφ/dθ: rod speed over crank speed.
-    pub rod_ratio: f64,
+    pub rod_ratio: R,
     /// [rad/s²] Rod acceleration at a steady crank speed.
-    pub rod_bias: f64,
+    pub rod_bias: R,
     /// [m] Pin along the guide.
-    pub x: f64,
+    pub x: R,
     /// [m] dx/dθ.
-    pub x_ratio: f64,
+    pub x_ratio: R,
     /// [m/s²] d²x/dt² at a steady crank speed.
-    pub x_bias: f64,
+    pub x_bias: R,
 }
 
 impl IdealMechanism {
@@ -39,22 +40,22 @@ impl IdealMechanism {
 
     /// At the crank's rotation and speed [rad/s]. Not finite where the mechanism cannot be.
     #[inline(always)]
-    pub fn motion(&self, crank: Rotation, speed: f64) -> IdealMotion {
+    pub fn motion<R: Real>(&self, crank: Rotation<R>, speed: R) -> IdealMotion<R> {
         let Self { crank: r, rod: l, height } = *self;
-        let sin = (height - r * crank.sin) / l;
-        let cos = ((1.0 - sin) * (1.0 + sin)).sqrt();
+        let sin = (-(crank.sin * r) + height) / l;
+        let cos = ((-sin + 1.0) * (sin + 1.0)).sqrt();
         // r·sin θ + l·sin φ = height, once and twice differentiated.
-        let per_reach = 1.0 / (l * cos);
-        let rod_ratio = -r * crank.cos * per_reach;
+        let per_reach = (cos * l).recip();
+        let rod_ratio = crank.cos * -r * per_reach;
         let rod_speed = rod_ratio * speed;
-        let rod_bias = (r * crank.sin * speed * speed + l * sin * rod_speed * rod_speed) * per_reach;
+        let rod_bias = (crank.sin * r * speed * speed + sin * l * rod_speed * rod_speed) * per_reach;
         IdealMotion {
             rod: Rotation { cos, sin },
             rod_ratio,
             rod_bias,
-            x: r * crank.cos + l * cos,
-            x_ratio: -r * crank.sin - l * sin * rod_ratio,
-            x_bias: -r * crank.cos * speed * speed - l * (cos * rod_speed * rod_speed + sin * rod_bias),
+            x: crank.cos * r + cos * l,
+            x_ratio: crank.sin * -r - sin * l * rod_ratio,
+            x_bias: crank.cos * -r * speed * speed - (cos * rod_speed * rod_speed + sin * rod_bias) * l,
         }
     }
 }

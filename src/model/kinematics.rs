@@ -5,109 +5,110 @@
 
 use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology};
 use super::plane::{Rotation, Vec2, perp};
+use crate::math::Real;
 
 /// One vector (a position, velocity or acceleration) for every joint centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct JointCentres {
+pub struct JointCentres<R = f64> {
     /// The crank's main journal.
-    pub crank: Vec2,
+    pub crank: Vec2<R>,
     /// The crank's pin journal.
-    pub crank_pin: Vec2,
+    pub crank_pin: Vec2<R>,
     /// The rod's big end.
-    pub big_end: Vec2,
+    pub big_end: Vec2<R>,
     /// The rod's small end.
-    pub small_end: Vec2,
+    pub small_end: Vec2<R>,
     /// The slider's pin.
-    pub pin: Vec2,
+    pub pin: Vec2<R>,
 }
 
 /// What the roots of the chains contribute: positions, velocities or accelerations of floating
 /// centres of mass and of the pin on an ideal guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Roots {
+pub struct Roots<R = f64> {
     /// Of the chain with the crank, where it floats.
-    pub crank: Vec2,
+    pub crank: Vec2<R>,
     /// Of the chain that starts with the rod, where it floats.
-    pub rod: Vec2,
+    pub rod: Vec2<R>,
     /// Of the slider: its pin on an ideal guide, its centre of mass where it floats alone.
-    pub slider: Vec2,
+    pub slider: Vec2<R>,
 }
 
 /// Angles, rates and rotations of crank, rod and slider.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning {
+pub struct Turning<R = f64> {
     /// [rad]
-    pub angle: [f64; 3],
+    pub angle: [R; 3],
     /// [rad/s]
-    pub speed: [f64; 3],
+    pub speed: [R; 3],
     /// Rotations by the angles.
-    pub rotation: [Rotation; 3],
+    pub rotation: [Rotation<R>; 3],
 }
 
 /// A linear map of a body's arm, given in body axes.
-pub trait Turn: Copy {
+pub trait Turn<R>: Copy {
     /// What becomes of an arm of body `k`.
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2;
+    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R>;
     /// What becomes of an arm of `length` along the x axis of body `k`.
-    fn axis(&self, k: usize, length: f64) -> Vec2;
+    fn axis(&self, k: usize, length: f64) -> Vec2<R>;
 }
 
 /// Positions.
 #[derive(Clone, Copy)]
-pub struct Place<'a>(pub &'a Turning);
+pub struct Place<'a, R>(pub &'a Turning<R>);
 
 /// Velocities.
 #[derive(Clone, Copy)]
-pub struct Velocity<'a>(pub &'a Turning);
+pub struct Velocity<'a, R>(pub &'a Turning<R>);
 
 /// Accelerations, with the angular accelerations.
 #[derive(Clone, Copy)]
-pub struct Acceleration<'a>(pub &'a Turning, pub &'a [f64; 3]);
+pub struct Acceleration<'a, R>(pub &'a Turning<R>, pub &'a [R; 3]);
 
-impl Turn for Place<'_> {
+impl<R: Real> Turn<R> for Place<'_, R> {
     #[inline(always)]
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2 {
+    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R> {
         self.0.rotation[k].apply(arm)
     }
     #[inline(always)]
-    fn axis(&self, k: usize, length: f64) -> Vec2 {
+    fn axis(&self, k: usize, length: f64) -> Vec2<R> {
         self.0.rotation[k].axis(length)
     }
 }
 
-impl Turn for Velocity<'_> {
+impl<R: Real> Turn<R> for Velocity<'_, R> {
     #[inline(always)]
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2 {
+    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R> {
         self.0.speed[k] * perp(self.0.rotation[k].apply(arm))
     }
     #[inline(always)]
-    fn axis(&self, k: usize, length: f64) -> Vec2 {
-        perp(self.0.rotation[k].axis(length * self.0.speed[k]))
+    fn axis(&self, k: usize, length: f64) -> Vec2<R> {
+        perp(self.0.rotation[k].axis(self.0.speed[k] * length))
     }
 }
 
-impl Turn for Acceleration<'_> {
+impl<R: Real> Turn<R> for Acceleration<'_, R> {
     #[inline(always)]
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2 {
+    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R> {
         let arm = self.0.rotation[k].apply(arm);
         let speed = self.0.speed[k];
         self.1[k] * perp(arm) - speed * speed * arm
     }
     #[inline(always)]
-    fn axis(&self, k: usize, length: f64) -> Vec2 {
+    fn axis(&self, k: usize, length: f64) -> Vec2<R> {
         self.arm(k, Vec2::new(length, 0.0))
     }
 }
 
 /// Walks the chains of an open mechanism from their roots.
 #[inline(always)]
-pub fn walk<V: Turn>(
+pub fn walk<R: Real, V: Turn<R>>(
     topology: Topology,
     bodies: &Bodies,
     chains: &ChainInertia,
-    roots: &Roots,
+    roots: &Roots<R>,
     turn: V,
-) -> JointCentres {
+) -> JointCentres<R> {
     let mut centres = JointCentres::default();
     let arm = |k: usize| turn.arm(k, chains.anchor[k]);
     let crank_length = turn.axis(CRANK, bodies[CRANK].length);
@@ -156,7 +157,12 @@ pub fn walk<V: Turn>(
 }
 
 /// The roots of an open mechanism whose joint centres are known: the way back from [`walk`].
-pub fn roots<V: Turn>(topology: Topology, chains: &ChainInertia, centres: &JointCentres, turn: V) -> Roots {
+pub fn roots<R: Real, V: Turn<R>>(
+    topology: Topology,
+    chains: &ChainInertia,
+    centres: &JointCentres<R>,
+    turn: V,
+) -> Roots<R> {
     let Topology { b, c, t, .. } = topology;
     let arm = |k: usize| turn.arm(k, chains.anchor[k]);
     let mut roots = Roots { crank: centres.crank, rod: centres.big_end, slider: centres.pin };

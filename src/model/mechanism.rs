@@ -130,7 +130,7 @@ impl ChainInertia {
         let Topology { a, b, c, t, .. } = topology;
         let mut sum = Self::default();
         let along = |length: f64| Vec2::new(length, 0.0);
-        let zero = Vec2::zeros();
+        let zero = Vec2::ZERO;
         // Forward from the crank's or the rod's first joint; backward from the pin on a rail.
         let rail_rod = c && t;
         let rail_crank = b && c && t;
@@ -185,8 +185,8 @@ impl ChainInertia {
         }
         for (pair, (k, l)) in [(0, 1), (1, 2), (0, 2)].into_iter().enumerate() {
             for i in (0..3).filter(|&i| first[i] == first[k] && first[i] == first[l]) {
-                sum.cos[pair] += bodies[i].mass * arms[i][k].dot(&arms[i][l]);
-                sum.sin[pair] += bodies[i].mass * arms[i][k].dot(&perp(arms[i][l]));
+                sum.cos[pair] += bodies[i].mass * arms[i][k].dot(arms[i][l]);
+                sum.sin[pair] += bodies[i].mass * arms[i][k].dot(perp(arms[i][l]));
             }
         }
         sum

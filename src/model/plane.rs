@@ -1,51 +1,57 @@
 //! Vectors and rotations of the plane.
 
-use crate::math;
+use crate::math::{self, Real};
+use std::ops::Mul;
 
-/// A vector of the plane, in inertial axes unless said otherwise.
-pub type Vec2 = nalgebra::Vector2<f64>;
+pub use crate::math::Vec2;
 
 /// (−v_y, v_x).
 #[inline(always)]
-pub fn perp(v: Vec2) -> Vec2 {
+pub fn perp<R: Real>(v: Vec2<R>) -> Vec2<R> {
     Vec2::new(-v.y, v.x)
 }
 
 /// a_x·b_y − a_y·b_x: the moment of the force `b` at the arm `a`.
 #[inline(always)]
-pub fn cross(a: Vec2, b: Vec2) -> f64 {
+pub fn cross<R: Real>(a: Vec2<R>, b: Vec2<R>) -> R {
     a.x * b.y - a.y * b.x
 }
 
 /// rot(θ), as its cosine and sine.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rotation {
+pub struct Rotation<R = f64> {
     /// cos θ
-    pub cos: f64,
+    pub cos: R,
     /// sin θ
-    pub sin: f64,
+    pub sin: R,
 }
 
-impl Rotation {
+impl<R: Real> Rotation<R> {
     /// No rotation.
-    pub const NONE: Self = Self { cos: 1.0, sin: 0.0 };
+    pub const NONE: Self = Self { cos: R::ONE, sin: R::ZERO };
 
     /// By `angle` [rad].
     #[inline(always)]
-    pub fn new(angle: f64) -> Self {
+    pub fn new(angle: R) -> Self {
         let (sin, cos) = math::sin_cos(angle);
         Self { cos, sin }
     }
 
     /// A vector of body axes in inertial axes.
     #[inline(always)]
-    pub fn apply(self, v: Vec2) -> Vec2 {
+    pub fn apply<S: Copy>(self, v: Vec2<S>) -> Vec2<R>
+    where
+        R: Mul<S, Output = R>,
+    {
         Vec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 
     /// `length` along the body's x axis, in inertial axes.
     #[inline(always)]
-    pub fn axis(self, length: f64) -> Vec2 {
+    pub fn axis<S: Copy>(self, length: S) -> Vec2<R>
+    where
+        R: Mul<S, Output = R>,
+    {
         Vec2::new(self.cos * length, self.sin * length)
     }
 }

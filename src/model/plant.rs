@@ -3,6 +3,7 @@
 use super::contact::Account;
 use super::drive::InputSignal;
 use super::joint::guide::CORNERS;
+use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
@@ -38,6 +39,17 @@ pub trait Plant<const N: usize>: Problem<N, Modes = Contacts> + Send {
     fn account(&self, _: &Contacts, _: &Pose, _: &[f64; N]) -> Account {
         Account::default()
     }
+
+    /// [`Problem::rates`] with derivatives.
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]);
+
+    /// [`Plant::instant`] and [`Plant::account`] with derivatives.
+    fn tangent_instant(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent; N],
+    ) -> (Instant<Tangent>, Account<Tangent>);
 
     /// Energies, works and losses; 0 without an audit.
     fn energies(&self, _: &Contacts, _: &Instant, _: &[f64; N]) -> EnergyOutputs {

@@ -7,48 +7,49 @@
 use super::mechanism::{Bodies, Body, CRANK, ROD, SLIDER, Topology};
 use super::plane::{Rotation, Vec2, cross, perp};
 use super::state::Instant;
+use crate::math::Real;
 
 /// Forces of the joints, each on the body that interface and model name first: ground on crank, crank
 /// on rod, rod on slider, guide on slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reactions {
+pub struct Reactions<R = f64> {
     /// [N] Main bearing on crank.
-    pub a: Vec2,
+    pub a: Vec2<R>,
     /// [N] Crank on rod.
-    pub b: Vec2,
+    pub b: Vec2<R>,
     /// [N] Rod on slider.
-    pub c: Vec2,
+    pub c: Vec2<R>,
     /// [N] Guide on slider.
-    pub t: Vec2,
+    pub t: Vec2<R>,
     /// [N·m] Guide on slider, about the pin.
-    pub moment: f64,
+    pub moment: R,
     /// [N·m] What a speed drive adds to the couples on the crank.
-    pub torque: f64,
+    pub torque: R,
 }
 
 /// What a body's motion needs of forces and of moments about its reference point, gravity subtracted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Demand {
+pub struct Demand<R = f64> {
     /// [N]
-    pub force: Vec2,
+    pub force: Vec2<R>,
     /// [N·m] About the body's reference point.
-    pub moment: f64,
+    pub moment: R,
 }
 
-impl Demand {
-    fn new(body: &Body, rotation: Rotation, speed: f64, alpha: f64, point: Vec2, gravity: f64) -> Self {
+impl<R: Real> Demand<R> {
+    fn new(body: &Body, rotation: Rotation<R>, speed: R, alpha: R, point: Vec2<R>, gravity: f64) -> Self {
         let com = rotation.apply(body.com);
         let acceleration = point + alpha * perp(com) - speed * speed * com;
-        let force = body.mass * (acceleration + Vec2::new(0.0, gravity));
-        Self { force, moment: body.inertia * alpha + cross(com, force) }
+        let force = (acceleration + Vec2::new(0.0, gravity)) * body.mass;
+        Self { force, moment: alpha * body.inertia + cross(com, force) }
     }
 }
 
 /// The joint forces at `instant`.
-pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &Instant) -> Reactions {
+pub fn reactions<R: Real>(topology: Topology, bodies: &Bodies, gravity: f64, instant: &Instant<R>) -> Reactions<R> {
     let Instant { pose, acceleration, angle_acceleration, loads, flexible } = instant;
     let turning = &pose.turning;
-    let demand = |k: usize, point: Vec2| {
+    let demand = |k: usize, point: Vec2<R>| {
         Demand::new(&bodies[k], turning.rotation[k], turning.speed[k], angle_acceleration[k], point, gravity)
     };
     let of_crank = demand(CRANK, acceleration.crank);
@@ -58,7 +59,7 @@ pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &In
     };
     let of_slider = demand(SLIDER, acceleration.pin);
     let Topology { a, b, c, t, .. } = topology;
-    let load = Vec2::new(loads.slider_load, 0.0);
+    let load = Vec2::new(loads.slider_load, R::ZERO);
     let guide = loads.guide;
     // Zero where a joint is ideal, until it is its turn.
     let mut r = Reactions {
@@ -67,7 +68,7 @@ pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &In
         c: -loads.small_end,
         t: guide.force,
         moment: guide.couple,
-        torque: 0.0,
+        torque: R::ZERO,
     };
 
     if !t {
@@ -114,7 +115,7 @@ pub fn reactions(topology: Topology, bodies: &Bodies, gravity: f64, instant: &In
 }
 
 /// [N] Rod on slider where all joints are ideal, from its component `x` along the guide.
-fn closed_loop_pin_force(rod: &Demand, couple: f64, x: f64, arm: Vec2) -> Vec2 {
+fn closed_loop_pin_force<R: Real>(rod: &Demand<R>, couple: R, x: R, arm: Vec2<R>) -> Vec2<R> {
     // About the big end: what is needed = couple − arm × F_C.
     let moment = couple - rod.moment;
     Vec2::new(x, (moment + arm.y * x) / arm.x)

@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 /// Inputs at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Inputs {
+pub struct Inputs<R = f64> {
     /// [N·m] Torque on the crank; ignored with a speed drive.
-    pub crank_torque: f64,
+    pub crank_torque: R,
     /// [N] Force on the slider along +x at its pin centre.
-    pub slider_load: f64,
+    pub slider_load: R,
 }
 
 /// Outputs at one instant.

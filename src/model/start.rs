@@ -52,7 +52,7 @@ impl StartPose {
             speed: [omega, rod_speed, 0.0],
             place: JointCentres { crank, crank_pin, big_end, small_end, pin },
             velocity: JointCentres {
-                crank: Vec2::zeros(),
+                crank: Vec2::ZERO,
                 crank_pin: crank_velocity,
                 big_end: crank_velocity,
                 small_end: pin_velocity,

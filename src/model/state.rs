@@ -9,6 +9,7 @@ use super::mechanism::{CRANK, SLIDER};
 use super::plane::Rotation;
 use super::reactions::Demand;
 use super::rod::Elastic;
+use crate::math::Real;
 
 /// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.
 pub const CONTACTS: usize = 3 + CORNERS;
@@ -18,24 +19,24 @@ pub type Contacts = [ContactMode; CONTACTS];
 
 /// Angles, positions and velocities of an open mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
+pub struct Pose<R = f64> {
     /// Angles and angular speeds.
-    pub turning: Turning,
+    pub turning: Turning<R>,
     /// [m]
-    pub place: JointCentres,
+    pub place: JointCentres<R>,
     /// [m/s]
-    pub velocity: JointCentres,
+    pub velocity: JointCentres<R>,
     /// [rad/s] Of the rod's sections at its big and small end.
-    pub section_speed: [f64; 2],
+    pub section_speed: [R; 2],
 }
 
-impl Pose {
+impl<R: Real> Pose<R> {
     /// The journal in the bearing of joint A, B or C (0, 1, 2).
     #[inline(always)]
-    pub fn play(&self, joint: usize) -> Play {
+    pub fn play(&self, joint: usize) -> Play<R> {
         let (p, v, speed, section) = (&self.place, &self.velocity, &self.turning.speed, &self.section_speed);
         match joint {
-            0 => Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: 0.0 },
+            0 => Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: R::ZERO },
             1 => Play {
                 eccentricity: p.crank_pin - p.big_end,
                 rate: v.crank_pin - v.big_end,
@@ -53,7 +54,7 @@ impl Pose {
 
     /// The slider in its guide.
     #[inline(always)]
-    pub fn slider(&self) -> SliderPose {
+    pub fn slider(&self) -> SliderPose<R> {
         SliderPose {
             pin: self.place.pin,
             pin_velocity: self.velocity.pin,
@@ -65,35 +66,35 @@ impl Pose {
 
 /// Everything about one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instant {
+pub struct Instant<R = f64> {
     /// Angles, positions and velocities.
-    pub pose: Pose,
+    pub pose: Pose<R>,
     /// [m/s²] Of the joint centres.
-    pub acceleration: JointCentres,
+    pub acceleration: JointCentres<R>,
     /// [rad/s²] Of crank, rod and slider.
-    pub angle_acceleration: [f64; 3],
+    pub angle_acceleration: [R; 3],
     /// Loads, with the contact forces in them.
-    pub loads: Loads,
+    pub loads: Loads<R>,
     /// Of a flexible rod.
-    pub flexible: Option<FlexibleInstant>,
+    pub flexible: Option<FlexibleInstant<R>>,
 }
 
 /// What only a flexible rod has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlexibleInstant {
+pub struct FlexibleInstant<R = f64> {
     /// What the rod's motion needs of forces and moments.
-    pub demand: Demand,
+    pub demand: Demand<R>,
     /// Its elasticity.
-    pub elastic: Elastic,
+    pub elastic: Elastic<R>,
     /// [J] Its kinetic energy.
-    pub kinetic: f64,
+    pub kinetic: R,
     /// [kg·m] ∫y dm.
-    pub mass_height: f64,
+    pub mass_height: R,
 }
 
 /// Turning from angles and rates; the slider on an ideal guide does not turn.
 #[inline(always)]
-pub fn turning(angle: [f64; 3], speed: [f64; 3], slider_turns: bool) -> Turning {
+pub fn turning<R: Real>(angle: [R; 3], speed: [R; 3], slider_turns: bool) -> Turning<R> {
     let [crank, rod, slider] = angle;
     let slider = if slider_turns { Rotation::new(slider) } else { Rotation::NONE };
     Turning { angle, speed, rotation: [Rotation::new(crank), Rotation::new(rod), slider] }

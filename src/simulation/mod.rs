@@ -1,10 +1,14 @@
 //! Model, state and integrator: a mechanism that moves through time.
 
 mod assemble;
+mod equations;
 mod run;
 mod snapshot;
+mod system;
 
+pub use equations::Linearization;
 pub use snapshot::Snapshot;
+pub use system::System;
 
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
@@ -61,15 +65,20 @@ impl fmt::Display for SimulationError {
 
 impl std::error::Error for SimulationError {}
 
+/// Where a scene starts.
+fn start_pose(scene: &Scene) -> Result<StartPose, SimulationError> {
+    StartPose::of(scene).ok_or_else(|| {
+        SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
+    })
+}
+
 impl Simulation {
     /// Assembles the scene's mechanism and puts it in its start position at `time` [s].
     ///
     /// # Errors
     /// `Scene` if the start position does not close the loop.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
-        let pose = StartPose::of(scene).ok_or_else(|| {
-            SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
-        })?;
+        let pose = start_pose(scene)?;
         let signal = InputSignal { at: time, value: inputs, rate: Inputs::default() };
         Ok(Self { motion: assemble::start(scene, time, &pose, signal), time })
     }
@@ -123,11 +132,6 @@ impl Simulation {
     /// How large its equations of motion are.
     pub fn size(&self) -> Size {
         self.motion.size()
-    }
-
-    /// Evaluates the equations of motion so many times, for nothing: where the next step starts, to be timed.
-    pub fn evaluate(&self, times: usize) {
-        self.motion.evaluate(times);
     }
 
     /// All that is needed to go on from here.

@@ -1,8 +1,10 @@
 //! One mechanism under one method.
 
 use super::Size;
+use super::equations::Linearization;
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Extent, Front, IntegrationError, Integrator, Memory, Method, Settings, Statistics};
+use super::system::{Bare, Equations};
+use crate::integrator::{Extent, Front, IntegrationError, Integrator, Jacobian, Memory, Method, Settings, Statistics};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -29,6 +31,16 @@ pub trait Motion: Send {
     fn size(&self) -> Size;
     /// Evaluates the right-hand side where the next step starts.
     fn evaluate(&self, times: usize);
+    /// Its equations, from where the next step starts.
+    fn equations(self: Box<Self>) -> Box<dyn Equations>;
+    /// Evaluates its derivatives there.
+    fn differentiate(&self, times: usize);
+    /// Time and states there.
+    fn front(&self) -> (f64, Vec<f64>);
+    /// Rates of the right-hand side that holds there.
+    fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64>;
+    /// The same, with derivatives.
+    fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization;
     /// Appends all that it remembers.
     fn save(&self, snapshot: &mut Snapshot);
     /// Takes back what `save` appended; `None` if it does not fit.
@@ -36,7 +48,7 @@ pub trait Motion: Send {
 }
 
 /// A mechanism of `N` states under the method `M`.
-pub struct Run<const N: usize, M> {
+pub struct Run<const N: usize, M: Method> {
     plant: Box<dyn Plant<N>>,
     integrator: Integrator<N, Contacts, M>,
     settings: Settings,
@@ -138,6 +150,46 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         }
     }
 
+    fn equations(self: Box<Self>) -> Box<dyn Equations> {
+        let start = self.integrator.memory().front;
+        Box::new(Bare::new(self.plant, self.observer, start))
+    }
+
+    fn differentiate(&self, times: usize) {
+        let Front { t, y, modes, .. } = &self.integrator.memory().front;
+        let mut jacobian = Jacobian::ZERO;
+        for _ in 0..times {
+            self.plant.jacobian(black_box(modes), *t, black_box(y), &mut jacobian);
+            black_box(&jacobian);
+        }
+    }
+
+    fn front(&self) -> (f64, Vec<f64>) {
+        let Front { t, y, .. } = &self.integrator.memory().front;
+        (*t, y[..Extent::of(self.plant.as_ref()).states].to_vec())
+    }
+
+    fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
+        let mut rates = [0.0; N];
+        self.plant.rates(&self.integrator.memory().front.modes, time, &filled(states), &mut rates);
+        rates[..Extent::of(self.plant.as_ref()).states].to_vec()
+    }
+
+    fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
+        let Extent { positions, states: count, .. } = Extent::of(self.plant.as_ref());
+        let y = filled(states);
+        let mut jacobian = Jacobian::ZERO;
+        self.plant.jacobian(&self.integrator.memory().front.modes, time, &y, &mut jacobian);
+        Linearization {
+            time,
+            states: y[..count].to_vec(),
+            positions,
+            rates: self.rates_at(time, states),
+            by_state: jacobian.state[..count].iter().map(|row| row[..count].to_vec()).collect(),
+            by_time: jacobian.time[..count].to_vec(),
+        }
+    }
+
     fn save(&self, snapshot: &mut Snapshot) {
         let Memory { start, end, front, step, last_error, crossings, statistics } = self.integrator.memory();
         let InputSignal { at, value, rate } = self.plant.signal();
@@ -177,6 +229,15 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         self.integrator = Integrator::resume(self.plant.as_ref(), self.settings, memory);
         Some(())
     }
+}
+
+/// A list in an array with room, or as much of it as has room.
+fn filled<const N: usize>(list: &[f64]) -> [f64; N] {
+    let mut array = [0.0; N];
+    for (place, value) in array.iter_mut().zip(list) {
+        *place = *value;
+    }
+    array
 }
 
 fn front<const N: usize>(reader: &mut Reader<'_>) -> Option<Front<N, Contacts>> {

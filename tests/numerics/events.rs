@@ -2,7 +2,7 @@
 
 use super::free::power;
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Crossed, GUARDS, Guard, Integrator, Method, Problem, Reset, Settings};
+use slidercrank::integrator::{Crossed, GUARDS, Guard, Integrator, Jacobian, Method, Problem, Reset, Settings};
 use std::cell::RefCell;
 use std::f64::consts::PI;
 
@@ -49,6 +49,10 @@ where
 
     fn rates(&self, modes: &Crossed, t: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
         *rates = [y[1], (self.acceleration)(modes, t, y[0], y[1])];
+    }
+
+    fn jacobian(&self, _: &Crossed, _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
+        jacobian.state = [[f64::NAN; 2]; 2]; // no explicit method asks
     }
 
     fn scales(&self) -> &[f64; 2] {

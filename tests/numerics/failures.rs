@@ -2,7 +2,9 @@
 
 use super::free::Free;
 use slidercrank::integrator::methods::{Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Crossed, GUARDS, Guard, IntegrationError, Integrator, Problem, Reset, Settings};
+use slidercrank::integrator::{
+    Crossed, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Problem, Reset, Settings,
+};
 
 const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3 };
 
@@ -67,6 +69,10 @@ impl Problem<2> for Stuck {
 
     fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
         *rates = [y[1], -2.0];
+    }
+
+    fn jacobian(&self, _: &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
+        jacobian.state = [[f64::NAN; 2]; 2]; // no explicit method asks
     }
 
     fn scales(&self) -> &[f64; 2] {

@@ -2,7 +2,7 @@
 
 use slidercrank::integrator::dense_output::Step;
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Crossed, Extent, GUARDS, Guard, Integrator, Method, Problem, Reset, Settings};
+use slidercrank::integrator::{Crossed, Extent, GUARDS, Guard, Integrator, Jacobian, Method, Problem, Reset, Settings};
 
 const N: usize = 32;
 
@@ -24,6 +24,12 @@ impl Problem<N> for Following {
     fn rates(&self, (): &(), _: f64, y: &[f64; N], rates: &mut [f64; N]) {
         rates[..4].copy_from_slice(&[y[1], -y[0], y[0] - y[2], y[2]]);
         rates[4..].fill(f64::NAN); // nobody looks there
+    }
+
+    fn jacobian(&self, (): &(), _: f64, _: &[f64; N], jacobian: &mut Jacobian<N>) {
+        for (i, j, slope) in [(0, 1, 1.0), (1, 0, -1.0), (2, 0, 1.0), (2, 2, -1.0), (3, 2, 1.0)] {
+            jacobian.state[i][j] = slope;
+        }
     }
 
     fn scales(&self) -> &[f64; N] {

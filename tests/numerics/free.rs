@@ -1,6 +1,6 @@
 //! Problems without events whose solutions are known.
 
-use slidercrank::integrator::{Crossed, GUARDS, Guard, Problem, Reset};
+use slidercrank::integrator::{Crossed, GUARDS, Guard, Jacobian, Problem, Reset};
 
 /// A second-order problem of `N` states with these accelerations and no events.
 pub struct Free<A> {
@@ -19,6 +19,10 @@ impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Problem<N> for Free
         let (moving, forced) = rates.split_at_mut(N / 2);
         moving.copy_from_slice(velocities);
         (self.accelerations)(t, positions, velocities, forced);
+    }
+
+    fn jacobian(&self, (): &(), _: f64, _: &[f64; N], jacobian: &mut Jacobian<N>) {
+        jacobian.state = [[f64::NAN; N]; N]; // no explicit method asks
     }
 
     fn scales(&self) -> &[f64; N] {

@@ -1,6 +1,7 @@
 //! The integrator on problems with known answers.
 
 mod dense_output;
+mod dual;
 mod events;
 mod failures;
 mod first_order;

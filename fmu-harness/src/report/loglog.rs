@@ -213,7 +213,7 @@ impl Frame {
         let places: Vec<(i32, i32)> = places.collect();
         if series.dots {
             for place in &places {
-                area.draw(&Circle::new(*place, (0.7 * MARK * f64::from(FINE)) as i32, series.role.style().filled()))?;
+                area.draw(&Circle::new(*place, (0.7 * MARK * f64::from(FINE)) as i32, series.role.dot()))?;
             }
         }
         area.draw(&PathElement::new(places, series.role.style()))?;

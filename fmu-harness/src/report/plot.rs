@@ -61,6 +61,14 @@ impl Role {
         };
         ShapeStyle { color: color.to_rgba(), filled: false, stroke_width: (width * f64::from(FINE)) as u32 }
     }
+
+    /// Of a point: hollow where the colours come round again.
+    pub(super) fn dot(self) -> ShapeStyle {
+        match self {
+            Self::Member(number) if number >= MEMBERS.len() => self.style(),
+            _ => self.style().filled(),
+        }
+    }
 }
 
 /// One curve.

@@ -1,14 +1,14 @@
 //! Elastic force as a function of penetration.
 
 use super::ContactParameters;
-use crate::math;
+use crate::math::{self, Real};
 
 /// F(δ), δ > 0.
 pub trait Elastic {
     /// [N] at the penetration `depth` [m].
-    fn force(parameters: &ContactParameters, depth: f64) -> f64;
+    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R;
     /// [J] ∫F dδ from 0 to `depth` [m].
-    fn energy(parameters: &ContactParameters, depth: f64) -> f64;
+    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R;
 }
 
 /// K·δ^(3/2): Hertz's exponent without a power function.
@@ -27,56 +27,56 @@ pub struct Liu;
 
 impl Elastic for HertzThreeHalves {
     #[inline(always)]
-    fn force(parameters: &ContactParameters, depth: f64) -> f64 {
-        parameters.stiffness * depth * depth.sqrt()
+    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
+        depth * parameters.stiffness * depth.sqrt()
     }
-    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
-        0.4 * depth * Self::force(parameters, depth)
+    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
+        depth * 0.4 * Self::force(parameters, depth)
     }
 }
 
 impl Elastic for Power {
     #[inline(always)]
-    fn force(parameters: &ContactParameters, depth: f64) -> f64 {
-        parameters.stiffness * math::powf(depth, parameters.exponent)
+    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
+        math::powf(depth, parameters.exponent) * parameters.stiffness
     }
-    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
+    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
         depth * Self::force(parameters, depth) / (parameters.exponent + 1.0)
     }
 }
 
 impl Elastic for Linear {
     #[inline(always)]
-    fn force(parameters: &ContactParameters, depth: f64) -> f64 {
-        parameters.stiffness * depth
+    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
+        depth * parameters.stiffness
     }
-    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
-        0.5 * depth * Self::force(parameters, depth)
+    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
+        depth * 0.5 * Self::force(parameters, depth)
     }
 }
 
 impl Elastic for Liu {
     #[inline(always)]
-    fn force(parameters: &ContactParameters, depth: f64) -> f64 {
-        parameters.stiffness * depth * (depth / (2.0 * (parameters.clearance + depth))).sqrt()
+    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
+        depth * parameters.stiffness * (depth / ((depth + parameters.clearance) * 2.0)).sqrt()
     }
     /// With u = δ/c: K·c²/√2·∫u^(3/2)/√(1 + u) du; a series where the closed form is a small difference.
-    fn energy(parameters: &ContactParameters, depth: f64) -> f64 {
+    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
         let c = parameters.clearance;
         let u = depth / c;
         let integral = if u < 0.1 {
             // Coefficients of (1 + u)^(−1/2), each divided by its power + 5/2.
-            let mut coefficient = 1.0;
-            let mut sum = 0.0;
+            let mut coefficient = R::ONE;
+            let mut sum = R::ZERO;
             for k in 0..20 {
                 let k = f64::from(k);
                 sum += coefficient / (k + 2.5);
-                coefficient *= -u * (k + 0.5) / (k + 1.0);
+                coefficient = coefficient * (-u * (k + 0.5) / (k + 1.0));
             }
             sum * u * u * u.sqrt()
         } else {
-            0.25 * (u * (1.0 + u)).sqrt() * (2.0 * u - 3.0) + 0.75 * math::asinh(u.sqrt())
+            (u * (u + 1.0)).sqrt() * 0.25 * (u * 2.0 - 3.0) + math::asinh(u.sqrt()) * 0.75
         };
-        parameters.stiffness * c * c * std::f64::consts::FRAC_1_SQRT_2 * integral
+        integral * (parameters.stiffness * c * c * std::f64::consts::FRAC_1_SQRT_2)
     }
 }

@@ -10,7 +10,7 @@ mod elastic;
 pub use elastic::{Elastic, HertzThreeHalves, Linear, Liu, Power};
 
 use super::friction::{Friction, FrictionParameters, Rubbing};
-use crate::math;
+use crate::math::{self, Real};
 
 /// Numbers of one contact, ready for the inner loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ impl ContactMode {
 /// Whether χ is in the law.
 pub trait Damped {
     /// 1 + χ·s.
-    fn factor(parameters: &ContactParameters, rate: f64, per_approach: f64) -> f64;
+    fn factor<R: Real>(parameters: &ContactParameters, rate: R, per_approach: f64) -> R;
 }
 
 /// Hysteresis damping.
@@ -64,43 +64,43 @@ pub struct Undamped;
 
 impl Damped for Hysteresis {
     #[inline(always)]
-    fn factor(parameters: &ContactParameters, rate: f64, per_approach: f64) -> f64 {
-        1.0 + parameters.damping * (rate * per_approach).min(parameters.ratio_limit)
+    fn factor<R: Real>(parameters: &ContactParameters, rate: R, per_approach: f64) -> R {
+        (rate * per_approach).min(parameters.ratio_limit) * parameters.damping + 1.0
     }
 }
 
 impl Damped for Undamped {
     #[inline(always)]
-    fn factor(_: &ContactParameters, _: f64, _: f64) -> f64 {
-        1.0
+    fn factor<R: Real>(_: &ContactParameters, _: R, _: f64) -> R {
+        R::ONE
     }
 }
 
 /// Forces in a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Forces {
+pub struct Forces<R = f64> {
     /// [N] f_n.
-    pub normal: f64,
+    pub normal: R,
     /// [N] f_t.
-    pub tangential: f64,
+    pub tangential: R,
     /// [m/s] Rate of the bristles' deflection.
-    pub bristle_rate: f64,
+    pub bristle_rate: R,
 }
 
 /// Forces at the penetration `depth` [m], its `rate` [m/s], the bristles' deflection `z` [m] and the
 /// sliding speed that `sliding` gives [m/s]. They are 0 while f_n would pull: no adhesion.
 #[inline(always)]
-pub fn force<E: Elastic, D: Damped, F: Friction>(
+pub fn force<R: Real, E: Elastic, D: Damped, F: Friction>(
     parameters: &ContactParameters,
     per_approach: f64,
-    depth: f64,
-    rate: f64,
-    z: f64,
-    sliding: impl FnOnce() -> f64,
-) -> Forces {
-    let mut normal = 0.0;
+    depth: R,
+    rate: R,
+    z: R,
+    sliding: impl FnOnce() -> R,
+) -> Forces<R> {
+    let mut normal = R::ZERO;
     if depth > 0.0 {
-        normal = f64::max(E::force(parameters, depth) * D::factor(parameters, rate, per_approach), 0.0);
+        normal = (E::force(parameters, depth) * D::factor(parameters, rate, per_approach)).max(0.0);
     }
     if !F::PRESENT || (!F::BRISTLES && normal == 0.0) {
         return Forces { normal, ..Forces::default() };
@@ -111,16 +111,16 @@ pub fn force<E: Elastic, D: Damped, F: Friction>(
 
 /// What a contact does to energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Account {
+pub struct Account<R = f64> {
     /// [J] Elastic energy.
-    pub energy: f64,
+    pub energy: R,
     /// [W] That normal forces take, f_n·δ̇: the rate of `energy` and what hysteresis loses.
-    pub normal_power: f64,
+    pub normal_power: R,
     /// [W] That friction takes, bristles included.
-    pub friction_loss: f64,
+    pub friction_loss: R,
 }
 
-impl std::ops::AddAssign for Account {
+impl<R: Real> std::ops::AddAssign for Account<R> {
     fn add_assign(&mut self, other: Self) {
         self.energy += other.energy;
         self.normal_power += other.normal_power;
@@ -129,15 +129,15 @@ impl std::ops::AddAssign for Account {
 }
 
 /// The account of the [`force`] of the same arguments: what the bodies lose to it is f_n·δ̇ + f_t·v_t.
-pub fn account<E: Elastic, D: Damped, F: Friction>(
+pub fn account<R: Real, E: Elastic, D: Damped, F: Friction>(
     parameters: &ContactParameters,
     per_approach: f64,
-    depth: f64,
-    rate: f64,
-    z: f64,
-    sliding: f64,
-) -> Account {
-    let Forces { normal, tangential, .. } = force::<E, D, F>(parameters, per_approach, depth, rate, z, || sliding);
+    depth: R,
+    rate: R,
+    z: R,
+    sliding: R,
+) -> Account<R> {
+    let Forces { normal, tangential, .. } = force::<R, E, D, F>(parameters, per_approach, depth, rate, z, || sliding);
     Account {
         energy: E::energy(parameters, depth.max(0.0)),
         normal_power: normal * rate,

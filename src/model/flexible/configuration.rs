@@ -4,7 +4,7 @@
 //! Modes move joint centres through one number only, the chord's length L. Places are therefore given
 //! over the coordinates x = (rigid coordinates, L): a = J·ẍ + bias, where L̈ = ∂L/∂η·η̈ + bias.
 
-use crate::math;
+use crate::math::{self, Real};
 use crate::model::coordinates::Layout;
 use crate::model::drive::Rotor;
 use crate::model::ideal::IdealMechanism;
@@ -19,49 +19,49 @@ pub const PLACES: usize = 10;
 
 /// A joint centre.
 #[derive(Clone, Copy, Debug)]
-pub struct Centre {
+pub struct Centre<R> {
     /// [m]
-    pub place: Vec2,
+    pub place: Vec2<R>,
     /// [m/s]
-    pub velocity: Vec2,
+    pub velocity: Vec2<R>,
     /// [m/s²] Acceleration at q̈ = 0.
-    pub bias: Vec2,
+    pub bias: Vec2<R>,
     /// ∂/∂x.
-    pub slope: [Vec2; PLACES],
+    pub slope: [Vec2<R>; PLACES],
 }
 
 /// The angle of a body.
 #[derive(Clone, Copy, Debug)]
-pub struct Heading {
+pub struct Heading<R> {
     /// By the angle.
-    pub rotation: Rotation,
+    pub rotation: Rotation<R>,
     /// [rad]
-    pub angle: f64,
+    pub angle: R,
     /// [rad/s]
-    pub speed: f64,
+    pub speed: R,
     /// [rad/s²] Acceleration at q̈ = 0.
-    pub bias: f64,
+    pub bias: R,
     /// ∂θ/∂x.
-    pub slope: [f64; PLACES],
+    pub slope: [R; PLACES],
 }
 
 /// All of them at one instant.
 #[derive(Clone, Copy, Debug)]
-pub struct Configuration<const K: usize, const F: usize> {
+pub struct Configuration<R, const K: usize, const F: usize> {
     /// Crank, rod, slider.
-    pub heading: [Heading; 3],
+    pub heading: [Heading<R>; 3],
     /// The rod.
-    pub shape: Shape<K, F>,
+    pub shape: Shape<R, K, F>,
     /// The crank's main journal and pin, the rod's ends, the slider's pin.
-    pub crank: Centre,
+    pub crank: Centre<R>,
     /// The crank's pin.
-    pub crank_pin: Centre,
+    pub crank_pin: Centre<R>,
     /// The rod's big end.
-    pub big_end: Centre,
+    pub big_end: Centre<R>,
     /// The rod's small end.
-    pub small_end: Centre,
+    pub small_end: Centre<R>,
     /// The slider's pin.
-    pub pin: Centre,
+    pub pin: Centre<R>,
 }
 
 /// What places need to be known.
@@ -79,35 +79,31 @@ pub struct Geometry {
     pub rod: Rod,
 }
 
-impl Centre {
-    const FIXED: Self = Self {
-        place: Vec2::new(0.0, 0.0),
-        velocity: Vec2::new(0.0, 0.0),
-        bias: Vec2::new(0.0, 0.0),
-        slope: [Vec2::new(0.0, 0.0); PLACES],
-    };
+impl<R: Real> Centre<R> {
+    const FIXED: Self = Self { place: Vec2::ZERO, velocity: Vec2::ZERO, bias: Vec2::ZERO, slope: [Vec2::ZERO; PLACES] };
 
     /// A point whose coordinates, from the place `first` on, are positions themselves.
     #[inline(always)]
-    fn root(place: Vec2, velocity: Vec2, first: usize) -> Self {
+    fn root(place: Vec2<R>, velocity: Vec2<R>, first: usize) -> Self {
         let mut centre = Self { place, velocity, ..Self::FIXED };
-        centre.slope[first].x = 1.0;
-        centre.slope[first + 1].y = 1.0;
+        centre.slope[first].x = R::ONE;
+        centre.slope[first + 1].y = R::ONE;
         centre
     }
 
     /// The pin on an ideal guide, whose x is a position.
     #[inline(always)]
-    fn on_rail(x: f64, speed: f64, height: f64, coordinate: usize) -> Self {
-        let mut centre = Self { place: Vec2::new(x, height), velocity: Vec2::new(speed, 0.0), ..Self::FIXED };
-        centre.slope[coordinate].x = 1.0;
+    fn on_rail(x: R, speed: R, height: f64, coordinate: usize) -> Self {
+        let place = Vec2::new(x, R::constant(height));
+        let mut centre = Self { place, velocity: Vec2::new(speed, R::ZERO), ..Self::FIXED };
+        centre.slope[coordinate].x = R::ONE;
         centre
     }
 
     /// The point `side`·`arm` further, `arm` turning with a body.
     #[inline(always)]
-    fn along(&self, heading: &Heading, side: f64, arm: Vec2) -> Self {
-        let arm = side * arm;
+    fn along(&self, heading: &Heading<R>, side: f64, arm: Vec2<R>) -> Self {
+        let arm = arm * side;
         let across = perp(arm);
         Self {
             place: self.place + arm,
@@ -121,47 +117,48 @@ impl Centre {
     #[inline(always)]
     fn across_rod<const K: usize, const F: usize>(
         &self,
-        rod: &Heading,
-        shape: &Shape<K, F>,
+        rod: &Heading<R>,
+        shape: &Shape<R, K, F>,
         chord: usize,
         side: f64,
     ) -> Self {
         let axis = rod.rotation.axis(side);
         let mut end = self.along(rod, 1.0, shape.chord * axis);
         end.velocity += shape.chord_rate * axis;
-        end.bias += shape.chord_bias * axis + 2.0 * shape.chord_rate * rod.speed * perp(axis);
+        end.bias += shape.chord_bias * axis + shape.chord_rate * 2.0 * rod.speed * perp(axis);
         end.slope[chord] += axis;
         end
     }
 
     /// A point of a body, `arm` [m] away in its axes.
     #[inline(always)]
-    pub fn carried(&self, heading: &Heading, arm: Vec2) -> Self {
+    pub fn carried(&self, heading: &Heading<R>, arm: Vec2) -> Self {
         self.along(heading, 1.0, heading.rotation.apply(arm))
     }
 
     /// [m/s²] At the accelerations `forced` of x, the bias of L apart.
-    pub fn acceleration(&self, forced: &[f64; PLACES]) -> Vec2 {
-        self.slope.iter().zip(forced).fold(self.bias, |sum, (slope, a)| sum + *a * slope)
+    pub fn acceleration(&self, forced: &[R; PLACES]) -> Vec2<R> {
+        self.slope.iter().zip(forced).fold(self.bias, |sum, (slope, a)| sum + *a * *slope)
     }
 }
 
-impl Heading {
+impl<R: Real> Heading<R> {
     /// Of a slider on an ideal guide.
-    const NONE: Self = Self { rotation: Rotation::NONE, angle: 0.0, speed: 0.0, bias: 0.0, slope: [0.0; PLACES] };
+    const NONE: Self =
+        Self { rotation: Rotation::NONE, angle: R::ZERO, speed: R::ZERO, bias: R::ZERO, slope: [R::ZERO; PLACES] };
 
     #[inline(always)]
-    fn new(angle: f64, speed: f64, coordinate: Option<usize>) -> Self {
-        let mut slope = [0.0; PLACES];
+    fn new(angle: R, speed: R, coordinate: Option<usize>) -> Self {
+        let mut slope = [R::ZERO; PLACES];
         if let Some(k) = coordinate {
-            slope[k] = 1.0;
+            slope[k] = R::ONE;
         }
-        Self { rotation: Rotation::new(angle), angle, speed, bias: 0.0, slope }
+        Self { rotation: Rotation::new(angle), angle, speed, bias: R::ZERO, slope }
     }
 
     /// [rad/s²] At the accelerations `forced` of x, the bias of L apart.
-    pub fn acceleration(&self, forced: &[f64; PLACES]) -> f64 {
-        self.bias + self.slope.iter().zip(forced).map(|(slope, a)| slope * a).sum::<f64>()
+    pub fn acceleration(&self, forced: &[R; PLACES]) -> R {
+        self.bias + self.slope.iter().zip(forced).fold(R::ZERO, |sum, (slope, a)| sum + *slope * *a)
     }
 }
 
@@ -178,22 +175,28 @@ impl Geometry {
     }
 
     /// Accelerations of x at `forced` of the coordinates, the bias of L apart.
-    pub fn accelerations<const K: usize, const F: usize>(&self, shape: &Shape<K, F>, forced: &[f64]) -> [f64; PLACES] {
+    pub fn accelerations<R: Real, const K: usize, const F: usize>(
+        &self,
+        shape: &Shape<R, K, F>,
+        forced: &[R],
+    ) -> [R; PLACES] {
         let rigid = self.rigid();
-        let mut all = [0.0; PLACES];
+        let mut all = [R::ZERO; PLACES];
         all[..rigid].copy_from_slice(&forced[..rigid]);
-        all[rigid] = shape.chord_slope.iter().zip(&forced[self.modes()]).map(|(slope, a)| slope * a).sum();
+        for (slope, a) in shape.chord_slope.iter().zip(&forced[self.modes()]) {
+            all[rigid] += *slope * *a;
+        }
         all
     }
 
     /// The configuration of `positions` and `rates` at `t`.
     #[inline(always)]
-    pub fn configuration<const K: usize, const F: usize>(
+    pub fn configuration<R: Real, const K: usize, const F: usize>(
         &self,
-        t: f64,
-        positions: &[f64],
-        rates: &[f64],
-    ) -> Configuration<K, F> {
+        t: R,
+        positions: &[R],
+        rates: &[R],
+    ) -> Configuration<R, K, F> {
         let Topology { a, b, c, t: guided, speed } = self.topology;
         let closed = self.topology.is_closed();
         let modes = self.modes();
@@ -201,9 +204,10 @@ impl Geometry {
         let chord = modes.start;
         let angle = |k: usize| {
             let place = self.layout.angle(k);
-            Heading::new(place.map_or(0.0, |i| positions[i]), place.map_or(0.0, |i| rates[i]), place)
+            Heading::new(place.map_or(R::ZERO, |i| positions[i]), place.map_or(R::ZERO, |i| rates[i]), place)
         };
-        let crank = if speed { Heading::new(self.rotor.at(t), self.rotor.speed, None) } else { angle(CRANK) };
+        let driven = || Heading::new(self.rotor.at(t), R::constant(self.rotor.speed), None);
+        let crank = if speed { driven() } else { angle(CRANK) };
         let slider = if guided { Heading::NONE } else { angle(SLIDER) };
         let rod = if closed { self.closing_rod(&crank, &shape, chord) } else { angle(ROD) };
         let (roots, moving) = (self.layout.roots(positions), self.layout.roots(rates));
@@ -243,21 +247,21 @@ impl Geometry {
     }
 
     /// The rod's angle where all joints are ideal: r·sin θ1 + L·sin θ2 = height, differentiated twice.
-    fn closing_rod<const K: usize, const F: usize>(
+    fn closing_rod<R: Real, const K: usize, const F: usize>(
         &self,
-        crank: &Heading,
-        shape: &Shape<K, F>,
+        crank: &Heading<R>,
+        shape: &Shape<R, K, F>,
         chord: usize,
-    ) -> Heading {
+    ) -> Heading<R> {
         let IdealMechanism { crank: r, height, .. } = self.ideal;
         let (l, rate) = (shape.chord, shape.chord_rate);
-        let sin = (height - r * crank.rotation.sin) / l;
-        let cos = ((1.0 - sin) * (1.0 + sin)).sqrt();
-        let per_reach = 1.0 / (l * cos);
-        let throw = r * crank.rotation.cos;
+        let sin = (-(crank.rotation.sin * r) + height) / l;
+        let cos = ((-sin + 1.0) * (sin + 1.0)).sqrt();
+        let per_reach = (l * cos).recip();
+        let throw = crank.rotation.cos * r;
         let speed = -(throw * crank.speed + sin * rate) * per_reach;
-        let bias = (r * crank.rotation.sin * crank.speed * crank.speed - throw * crank.bias + l * sin * speed * speed
-            - 2.0 * rate * cos * speed
+        let bias = (crank.rotation.sin * r * crank.speed * crank.speed - throw * crank.bias + l * sin * speed * speed
+            - rate * 2.0 * cos * speed
             - sin * shape.chord_bias)
             * per_reach;
         let mut slope = crank.slope.map(|slope| -throw * slope * per_reach);
@@ -266,9 +270,9 @@ impl Geometry {
     }
 }
 
-impl<const K: usize, const F: usize> Configuration<K, F> {
+impl<R: Real, const K: usize, const F: usize> Configuration<R, K, F> {
     /// Places and velocities without their slopes.
-    pub fn pose(&self) -> Pose {
+    pub fn pose(&self) -> Pose<R> {
         let [crank, rod, slider] = &self.heading;
         let turning = Turning {
             angle: [crank.angle, rod.angle, slider.angle],
@@ -284,7 +288,7 @@ impl<const K: usize, const F: usize> Configuration<K, F> {
     }
 
     /// One vector of every joint centre.
-    pub fn each(&self, of: impl Fn(&Centre) -> Vec2) -> JointCentres {
+    pub fn each(&self, of: impl Fn(&Centre<R>) -> Vec2<R>) -> JointCentres<R> {
         JointCentres {
             crank: of(&self.crank),
             crank_pin: of(&self.crank_pin),

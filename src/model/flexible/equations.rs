@@ -4,6 +4,7 @@
 #![allow(clippy::needless_range_loop)] // triangles are read by their indices
 
 use super::configuration::{Centre, Configuration, Heading, PLACES};
+use crate::math::Real;
 use crate::model::dynamics::Loads;
 use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER};
 use crate::model::plane::{Vec2, cross, perp};
@@ -12,48 +13,48 @@ use crate::model::rod::{Inertia, Rod};
 use std::ops::Range;
 
 /// Mass matrix (lower triangle) and right side over x, the configuration's coordinates.
-pub struct Places {
+pub struct Places<R> {
     /// How many: the rigid coordinates and the chord's length.
     size: usize,
-    matrix: [[f64; PLACES]; PLACES],
-    right: [f64; PLACES],
+    matrix: [[R; PLACES]; PLACES],
+    right: [R; PLACES],
 }
 
-impl Places {
+impl<R: Real> Places<R> {
     /// Of `rigid` rigid coordinates, with nothing in them.
     #[inline(always)]
     pub fn new(rigid: usize) -> Self {
-        Self { size: rigid + 1, matrix: [[0.0; PLACES]; PLACES], right: [0.0; PLACES] }
+        Self { size: rigid + 1, matrix: [[R::ZERO; PLACES]; PLACES], right: [R::ZERO; PLACES] }
     }
 
     /// Adds `force` [N] at a joint centre.
     #[inline(always)]
-    fn push(&mut self, centre: &Centre, force: Vec2) {
+    fn push(&mut self, centre: &Centre<R>, force: Vec2<R>) {
         for (right, slope) in self.right[..self.size].iter_mut().zip(&centre.slope) {
-            *right += slope.dot(&force);
+            *right += slope.dot(force);
         }
     }
 
     /// Adds `couple` [N·m] on a body.
     #[inline(always)]
-    fn twist(&mut self, heading: &Heading, couple: f64) {
+    fn twist(&mut self, heading: &Heading<R>, couple: R) {
         for (right, slope) in self.right[..self.size].iter_mut().zip(&heading.slope) {
-            *right += slope * couple;
+            *right += *slope * couple;
         }
     }
 
     /// Adds a rigid body whose reference point is `centre`.
     #[inline(always)]
-    fn add_body(&mut self, body: &Body, heading: &Heading, centre: &Centre, gravity: f64) {
+    fn add_body(&mut self, body: &Body, heading: &Heading<R>, centre: &Centre<R>, gravity: f64) {
         let com = centre.carried(heading, body.com);
         for i in 0..self.size {
-            let (push, twist) = (body.mass * com.slope[i], body.inertia * heading.slope[i]);
+            let (push, twist) = (com.slope[i] * body.mass, heading.slope[i] * body.inertia);
             for j in 0..=i {
-                self.matrix[i][j] += push.dot(&com.slope[j]) + twist * heading.slope[j];
+                self.matrix[i][j] += push.dot(com.slope[j]) + twist * heading.slope[j];
             }
         }
-        self.push(&com, -body.mass * (com.bias + Vec2::new(0.0, gravity)));
-        self.twist(heading, -body.inertia * heading.bias);
+        self.push(&com, (com.bias + Vec2::new(0.0, gravity)) * -body.mass);
+        self.twist(heading, heading.bias * -body.inertia);
     }
 
     /// Adds forces and couples on crank and slider, with their inertia.
@@ -61,8 +62,8 @@ impl Places {
     pub fn add_rigid_bodies<const K: usize, const F: usize>(
         &mut self,
         bodies: &Bodies,
-        configuration: &Configuration<K, F>,
-        loads: &Loads,
+        configuration: &Configuration<R, K, F>,
+        loads: &Loads<R>,
         gravity: f64,
     ) {
         let Configuration { heading, crank, crank_pin, pin, .. } = configuration;
@@ -77,22 +78,22 @@ impl Places {
 }
 
 /// Mass matrix (lower triangle) and right side over all coordinates.
-pub struct Equations<const Q: usize> {
+pub struct Equations<R, const Q: usize> {
     size: usize,
-    matrix: [[f64; Q]; Q],
-    right: [f64; Q],
+    matrix: [[R; Q]; Q],
+    right: [R; Q],
 }
 
-impl<const Q: usize> Equations<Q> {
+impl<R: Real, const Q: usize> Equations<R, Q> {
     /// Adds the rod to the other bodies' equations: its inertia and, at its ends and on its modes, its
     /// loads.
     #[inline(always)]
     pub fn new<const K: usize, const F: usize>(
-        mut places: Places,
-        rod: &Moving<'_, K, F>,
-        loads: &Loads,
+        mut places: Places<R>,
+        rod: &Moving<'_, R, K, F>,
+        loads: &Loads<R>,
         gravity: f64,
-        modal_force: &[f64; K],
+        modal_force: &[R; K],
     ) -> Self {
         let Moving { rod: beam, inertia, configuration, modes } = rod;
         let Configuration { heading, big_end, small_end, shape, .. } = configuration;
@@ -103,31 +104,31 @@ impl<const Q: usize> Equations<Q> {
         let m = beam.mass();
         for i in 0..=rigid {
             let (slope, turn) = (big_end.slope[i], heading.slope[i]);
-            let push = m * slope + turn * lever;
-            let twist = lever.dot(&slope) + inertia.about_origin * turn;
+            let push = slope * m + turn * lever;
+            let twist = lever.dot(slope) + inertia.about_origin * turn;
             for j in 0..=i {
-                places.matrix[i][j] += push.dot(&big_end.slope[j]) + twist * heading.slope[j];
+                places.matrix[i][j] += push.dot(big_end.slope[j]) + twist * heading.slope[j];
             }
         }
         // Right side: loads less what the biases ask for.
         let bias = big_end.bias + Vec2::new(0.0, gravity);
-        let asked = m * bias + heading.bias * lever + heading.rotation.apply(inertia.force);
+        let asked = bias * m + heading.bias * lever + heading.rotation.apply(inertia.force);
         let couple = cross(first, bias) + inertia.about_origin * heading.bias + inertia.couple;
         places.push(big_end, loads.big_end - asked);
         places.push(small_end, loads.small_end);
         places.twist(heading, loads.end_couple[0] + loads.end_couple[1] - couple);
 
-        let mut all = Self { size: modes.end, matrix: [[0.0; Q]; Q], right: [0.0; Q] };
+        let mut all = Self { size: modes.end, matrix: [[R::ZERO; Q]; Q], right: [R::ZERO; Q] };
         for i in 0..rigid {
             all.matrix[i][..=i].copy_from_slice(&places.matrix[i][..=i]);
         }
         all.right[..rigid].copy_from_slice(&places.right[..rigid]);
         // A mode turns and shifts the rod's mass in its frame, and moves the frame through the chord.
         let of_chord = &places.matrix[rigid];
-        let mut by_chord = [0.0; K];
+        let mut by_chord = [R::ZERO; K];
         for a in 0..n {
             let (slope, turning) = (heading.rotation.apply(inertia.first_slope[a]), inertia.turning[a]);
-            let with = |i: usize| slope.dot(&big_end.slope[i]) + turning * heading.slope[i];
+            let with = |i: usize| slope.dot(big_end.slope[i]) + turning * heading.slope[i];
             let chord = shape.chord_slope[a];
             let row = &mut all.matrix[rigid + a];
             for i in 0..rigid {
@@ -140,7 +141,7 @@ impl<const Q: usize> Equations<Q> {
                     inertia.modal[a][b] + chord * other * of_chord[rigid] + chord * by_chord[b] + other * by_chord[a];
             }
             all.right[rigid + a] = chord * places.right[rigid] + modal_force[a]
-                - slope.dot(&bias)
+                - slope.dot(bias)
                 - turning * heading.bias
                 - inertia.modal_force[a];
         }
@@ -149,30 +150,32 @@ impl<const Q: usize> Equations<Q> {
 
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite.
     #[inline(always)]
-    pub fn solve(mut self) -> [f64; Q] {
+    pub fn solve(mut self) -> [R; Q] {
         let Self { size, matrix, right: x } = &mut self;
-        let mut per = [0.0; Q];
+        let mut per = [R::ZERO; Q];
         // Each pivot's column is taken out of the rows below it, and kept.
         for j in 0..*size {
             let (above, below) = matrix[..*size].split_at_mut(j + 1);
-            per[j] = 1.0 / above[j][j];
-            let mut column = [0.0; Q];
+            per[j] = above[j][j].recip();
+            let mut column = [R::ZERO; Q];
             for (row, kept) in below.iter().zip(&mut column) {
                 *kept = row[j];
             }
             for (i, row) in below.iter_mut().enumerate() {
                 let l = row[j] * per[j];
                 for (element, kept) in row[j + 1..].iter_mut().zip(&column[..=i]) {
-                    *element -= l * kept;
+                    *element -= l * *kept;
                 }
                 row[j] = l;
-                x[j + 1 + i] -= l * x[j];
+                let taken = l * x[j];
+                x[j + 1 + i] -= taken;
             }
         }
         for i in (0..*size).rev() {
-            x[i] *= per[i];
+            x[i] = x[i] * per[i];
             for k in i + 1..*size {
-                x[i] -= matrix[k][i] * x[k];
+                let taken = matrix[k][i] * x[k];
+                x[i] -= taken;
             }
         }
         *x
@@ -180,54 +183,55 @@ impl<const Q: usize> Equations<Q> {
 }
 
 /// The rod in motion.
-pub struct Moving<'a, const K: usize, const F: usize> {
+pub struct Moving<'a, R, const K: usize, const F: usize> {
     /// Its modes.
     pub rod: &'a Rod,
     /// Its inertia.
-    pub inertia: &'a Inertia<K>,
+    pub inertia: &'a Inertia<R, K>,
     /// Where it is.
-    pub configuration: &'a Configuration<K, F>,
+    pub configuration: &'a Configuration<R, K, F>,
     /// Where its modal coordinates stand.
     pub modes: Range<usize>,
 }
 
-impl<const K: usize, const F: usize> Moving<'_, K, F> {
+impl<R: Real, const K: usize, const F: usize> Moving<'_, R, K, F> {
     /// [J] Kinetic energy at the modal `rate` [m/s].
-    pub fn kinetic(&self, rate: &[f64]) -> f64 {
+    pub fn kinetic(&self, rate: &[R]) -> R {
         let Self { rod, inertia, configuration, .. } = self;
         let heading = &configuration.heading[ROD];
         let (velocity, speed) = (configuration.big_end.velocity, heading.speed);
-        let mut opening = Vec2::zeros();
-        let (mut turning, mut modal) = (0.0, 0.0);
-        for (a, rate_a) in rate.iter().enumerate() {
-            opening += *rate_a * inertia.first_slope[a];
+        let mut opening = Vec2::<R>::ZERO;
+        let (mut turning, mut modal) = (R::ZERO, R::ZERO);
+        for (a, &rate_a) in rate.iter().enumerate() {
+            opening += rate_a * inertia.first_slope[a];
             turning += rate_a * inertia.turning[a];
-            let row = inertia.modal[a].iter().zip(rate).take(a).map(|(m, rate)| m * rate).sum::<f64>();
-            modal += rate_a * (2.0 * row + inertia.modal[a][a] * rate_a);
+            let with = inertia.modal[a].iter().zip(rate).take(a);
+            let row = with.fold(R::ZERO, |sum, (m, rate)| sum + *m * *rate);
+            modal += rate_a * (row * 2.0 + inertia.modal[a][a] * rate_a);
         }
         let first_rate = speed * perp(heading.rotation.apply(inertia.first)) + heading.rotation.apply(opening);
-        0.5 * rod.mass() * velocity.norm_squared()
-            + velocity.dot(&first_rate)
-            + 0.5 * inertia.about_origin * speed * speed
+        velocity.norm_squared() * (0.5 * rod.mass())
+            + velocity.dot(first_rate)
+            + inertia.about_origin * 0.5 * speed * speed
             + speed * turning
-            + 0.5 * modal
+            + modal * 0.5
     }
 
     /// [kg·m] ∫y dm.
-    pub fn mass_height(&self) -> f64 {
+    pub fn mass_height(&self) -> R {
         let Self { rod, inertia, configuration, .. } = self;
-        rod.mass() * configuration.big_end.place.y + configuration.heading[ROD].rotation.apply(inertia.first).y
+        configuration.big_end.place.y * rod.mass() + configuration.heading[ROD].rotation.apply(inertia.first).y
     }
 
     /// What the rod's motion needs of forces and of moments about its big end, gravity subtracted, at the
     /// accelerations `places` of the configuration's coordinates and `forced` of all.
-    pub fn demand(&self, places: &[f64; PLACES], forced: &[f64], gravity: f64) -> Demand {
+    pub fn demand(&self, places: &[R; PLACES], forced: &[R], gravity: f64) -> Demand<R> {
         let Self { rod, inertia, configuration, modes } = self;
         let heading = &configuration.heading[ROD];
         let origin = configuration.big_end.acceleration(places) + Vec2::new(0.0, gravity);
         let turning = heading.acceleration(places);
         let first = heading.rotation.apply(inertia.first);
-        let mut force = rod.mass() * origin + turning * perp(first) + heading.rotation.apply(inertia.force);
+        let mut force = origin * rod.mass() + turning * perp(first) + heading.rotation.apply(inertia.force);
         let mut moment = cross(first, origin) + inertia.about_origin * turning + inertia.couple;
         for (a, i) in modes.clone().enumerate() {
             force += forced[i] * heading.rotation.apply(inertia.first_slope[a]);

@@ -6,25 +6,25 @@
 
 mod configuration;
 mod equations;
+mod motion;
 
 use super::bristles::bristled_contacts;
 use super::clearances::Clearances;
 use super::contact::Account;
 use super::coordinates::Layout;
-use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
-use super::dynamics::Loads;
+use super::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers};
 use super::ideal::IdealMechanism;
-use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
-use super::plane::Vec2;
+use super::jacobian::differentiate;
+use super::mechanism::{Bodies, CRANK, Topology, bodies};
 use super::plant::Plant;
-use super::rod::{Inertia, Integrals, Rod, most_functions};
+use super::rod::{Integrals, Rod, most_functions};
+use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
-use super::state::{CONTACTS, Contacts, FlexibleInstant, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Problem, ROOM, Reset};
+use super::state::{CONTACTS, Contacts, Instant, Pose};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
 use crate::scene::Scene;
-use configuration::{Configuration, Geometry};
-use equations::{Equations, Moving, Places};
+use configuration::Geometry;
 
 /// A mechanism with a flexible rod, in arrays with room for `N` states, `Q` = `N`/2 coordinates, `K`
 /// modes and `F` functions of the rod.
@@ -101,51 +101,6 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
             guard_scale: scale.length,
         }
     }
-
-    #[inline(always)]
-    fn configuration(&self, t: f64, y: &[f64; N]) -> Configuration<K, F> {
-        let p = self.extent.positions;
-        self.geometry.configuration(t, &y[..p], &y[p..2 * p])
-    }
-
-    #[inline(always)]
-    fn loads(&self, contacts: &Contacts, t: f64, y: &[f64; N], pose: &Pose) -> Loads {
-        let inputs = self.signal.at(t);
-        let slider_load = inputs.slider_load;
-        let mut loads = Loads { pin: Vec2::new(slider_load, 0.0), slider_load, ..Loads::default() };
-        if !self.geometry.topology.speed {
-            loads.crank_couple = inputs.crank_torque;
-        }
-        self.clearances.add_loads(self.clear, contacts, pose, &y[2 * self.extent.positions..], &mut loads);
-        add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
-        if let Some(damping) = self.guide_damping {
-            loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
-        }
-        loads
-    }
-
-    #[inline(always)]
-    fn inertia(&self, configuration: &Configuration<K, F>, y: &[f64; N]) -> Inertia<K> {
-        let (modes, p) = (self.geometry.modes(), self.extent.positions);
-        let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
-        self.integrals.inertia(&configuration.shape, eta, rate, configuration.heading[ROD].speed)
-    }
-
-    fn moving<'a>(&'a self, configuration: &'a Configuration<K, F>, inertia: &'a Inertia<K>) -> Moving<'a, K, F> {
-        Moving { rod: &self.geometry.rod, inertia, configuration, modes: self.geometry.modes() }
-    }
-
-    #[inline(always)]
-    fn accelerations(&self, moving: &Moving<'_, K, F>, y: &[f64; N], loads: &Loads) -> [f64; Q] {
-        let p = self.extent.positions;
-        let modes = moving.modes.clone();
-        let mut modal_force = [0.0; K];
-        let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
-        moving.rod.add_modal_forces(eta, rate, &loads.end_couple, &mut modal_force);
-        let mut places = Places::new(modes.start);
-        places.add_rigid_bodies(&self.bodies, moving.configuration, loads, self.gravity);
-        Equations::new(places, moving, loads, self.gravity, &modal_force).solve()
-    }
 }
 
 impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> for Flexible<N, Q, K, F> {
@@ -156,14 +111,12 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        let p = self.extent.positions;
-        let configuration = self.configuration(t, y);
-        let loads = self.loads(contacts, t, y, &configuration.pose());
-        let inertia = self.inertia(&configuration, y);
-        let forced = self.accelerations(&self.moving(&configuration, &inertia), y, &loads);
-        rates[..p].copy_from_slice(&y[p..2 * p]);
-        rates[p..2 * p].copy_from_slice(&forced[..p]);
-        self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * p..]);
+        self.write_rates(contacts, t, y, rates);
+    }
+
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
+        let Extent { states, .. } = self.extent;
+        differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
     }
 
     fn scales(&self) -> &[f64; N] {
@@ -234,28 +187,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        let configuration = self.configuration(t, y);
-        let pose = configuration.pose();
-        let loads = self.loads(contacts, t, y, &pose);
-        let inertia = self.inertia(&configuration, y);
-        let moving = self.moving(&configuration, &inertia);
-        let forced = self.accelerations(&moving, y, &loads);
-        let places = self.geometry.accelerations(&configuration.shape, &forced);
-        let p = self.extent.positions;
-        let modes = moving.modes.clone();
-        let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
-        Instant {
-            pose,
-            acceleration: configuration.each(|centre| centre.acceleration(&places)),
-            angle_acceleration: [CRANK, ROD, SLIDER].map(|k| configuration.heading[k].acceleration(&places)),
-            loads,
-            flexible: Some(FlexibleInstant {
-                demand: moving.demand(&places, &forced, self.gravity),
-                elastic: moving.rod.elastic(&configuration.shape, eta, rate),
-                kinetic: moving.kinetic(rate),
-                mass_height: moving.mass_height(),
-            }),
-        }
+        self.everything(contacts, t, y)
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
@@ -264,5 +196,21 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
 
     fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
         self.clearances.account(self.clear, contacts, pose, &y[2 * self.extent.positions..])
+    }
+
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
+        self.write_rates(contacts, t, y, rates);
+    }
+
+    fn tangent_instant(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent; N],
+    ) -> (Instant<Tangent>, Account<Tangent>) {
+        let instant = self.everything(contacts, t, y);
+        let bristles = &y[2 * self.extent.positions..];
+        let account = self.clearances.account(self.clear, contacts, &instant.pose, bristles);
+        (instant, account)
     }
 }

@@ -3,7 +3,7 @@
 //! Lugre alone has a state, the mean deflection of bristles between the surfaces, which a contact
 //! starts anew each time that it closes.
 
-use crate::math;
+use crate::math::{self, Real};
 use crate::scene;
 
 /// Numbers of a friction law, ready for the inner loop.
@@ -29,11 +29,11 @@ pub struct FrictionParameters {
 
 /// What sliding does to a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rubbing {
+pub struct Rubbing<R = f64> {
     /// f_t/f_n.
-    pub ratio: f64,
+    pub ratio: R,
     /// [m/s] Rate of the bristles' deflection; 0 of a law without them.
-    pub bristle_rate: f64,
+    pub bristle_rate: R,
 }
 
 /// A friction law.
@@ -43,11 +43,11 @@ pub trait Friction {
     /// It has bristles, which move whatever the normal force.
     const BRISTLES: bool = false;
     /// At the sliding speed `v` [m/s], with the bristles deflected by `z` [m].
-    fn rub(parameters: &FrictionParameters, v: f64, z: f64) -> Rubbing;
+    fn rub<R: Real>(parameters: &FrictionParameters, v: R, z: R) -> Rubbing<R>;
 }
 
-fn ratio(ratio: f64) -> Rubbing {
-    Rubbing { ratio, bristle_rate: 0.0 }
+fn ratio<R: Real>(ratio: R) -> Rubbing<R> {
+    Rubbing { ratio, bristle_rate: R::ZERO }
 }
 
 /// No friction, no friction term.
@@ -71,7 +71,7 @@ pub struct Lugre;
 impl Friction for Frictionless {
     const PRESENT: bool = false;
     #[inline(always)]
-    fn rub(_: &FrictionParameters, _: f64, _: f64) -> Rubbing {
+    fn rub<R: Real>(_: &FrictionParameters, _: R, _: R) -> Rubbing<R> {
         Rubbing::default()
     }
 }
@@ -79,24 +79,24 @@ impl Friction for Frictionless {
 impl Friction for Ambrosio {
     const PRESENT: bool = true;
     #[inline(always)]
-    fn rub(p: &FrictionParameters, v: f64, _: f64) -> Rubbing {
+    fn rub<R: Real>(p: &FrictionParameters, v: R, _: R) -> Rubbing<R> {
         let ramp = ((v.abs() - p.v0) * p.per_width).clamp(0.0, 1.0);
-        ratio((p.kinetic * ramp).copysign(v))
+        ratio((ramp * p.kinetic).copysign(v))
     }
 }
 
 impl Friction for Tanh {
     const PRESENT: bool = true;
     #[inline(always)]
-    fn rub(p: &FrictionParameters, v: f64, _: f64) -> Rubbing {
-        ratio(p.kinetic * math::tanh(v * p.per_width))
+    fn rub<R: Real>(p: &FrictionParameters, v: R, _: R) -> Rubbing<R> {
+        ratio(math::tanh(v * p.per_width) * p.kinetic)
     }
 }
 
 impl Friction for Stribeck {
     const PRESENT: bool = true;
     #[inline(always)]
-    fn rub(p: &FrictionParameters, v: f64, _: f64) -> Rubbing {
+    fn rub<R: Real>(p: &FrictionParameters, v: R, _: R) -> Rubbing<R> {
         ratio(p.falling(p.fading(v)) * math::tanh(v * p.per_width))
     }
 }
@@ -105,10 +105,10 @@ impl Friction for Lugre {
     const PRESENT: bool = true;
     const BRISTLES: bool = true;
     #[inline(always)]
-    fn rub(p: &FrictionParameters, v: f64, z: f64) -> Rubbing {
+    fn rub<R: Real>(p: &FrictionParameters, v: R, z: R) -> Rubbing<R> {
         let fading = p.fading(v);
-        let rate = v - p.sigma0 * v.abs() * z / p.falling(fading);
-        Rubbing { ratio: p.sigma0 * z + p.sigma1 * fading * rate + p.sigma2 * v, bristle_rate: rate }
+        let rate = v - v.abs() * p.sigma0 * z / p.falling(fading);
+        Rubbing { ratio: z * p.sigma0 + fading * p.sigma1 * rate + v * p.sigma2, bristle_rate: rate }
     }
 }
 
@@ -133,15 +133,15 @@ impl FrictionParameters {
 
     /// exp(−(v/v_s)²).
     #[inline(always)]
-    fn fading(&self, v: f64) -> f64 {
+    fn fading<R: Real>(&self, v: R) -> R {
         let share = v * self.per_stribeck;
         math::exp(-share * share)
     }
 
     /// μ_k + (μ_s − μ_k)·`fading`.
     #[inline(always)]
-    fn falling(&self, fading: f64) -> f64 {
-        self.kinetic + (self.static_ - self.kinetic) * fading
+    fn falling<R: Real>(&self, fading: R) -> R {
+        fading * (self.static_ - self.kinetic) + self.kinetic
     }
 
     /// [m] The deflection at which bristles at rest let go, μ_s/σ0.

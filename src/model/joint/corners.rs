@@ -3,9 +3,10 @@
 use super::guide::{CORNERS, Guide, SliderPose, Surface};
 use super::revolute::guard;
 use crate::integrator::Guard;
-use crate::math;
+use crate::math::{self, Real};
 use crate::model::contact::{ContactMode, ContactParameters};
 use crate::model::plane::Vec2;
+use std::ops::Mul;
 
 /// A point of the slider and the line that it may touch.
 #[derive(Clone, Copy, Debug)]
@@ -19,29 +20,35 @@ pub(super) struct Mark {
 }
 
 /// Where a contact's force acts, and the motion of the slider's material there.
-pub(super) struct Touch {
+pub(super) struct Touch<R = f64> {
     /// [m] From the pin.
-    pub arm: Vec2,
+    pub arm: Vec2<R>,
     /// Of the line's inner normal, as in [`Mark`].
     pub normal: f64,
     /// [m] Penetration; a face's mean.
-    pub depth: f64,
+    pub depth: R,
     /// [m/s] Into the line.
-    pub rate: f64,
+    pub rate: R,
     /// [m/s] Along the line.
-    pub sliding: f64,
+    pub sliding: R,
 }
 
 impl Mark {
     /// The contact of this point alone.
     #[inline(always)]
-    pub fn touch(&self, pose: &SliderPose) -> Touch {
-        let arm = pose.rotation.apply(self.offset);
+    pub fn touch<R: Real>(&self, pose: &SliderPose<R>) -> Touch<R> {
+        self.touch_at(self.offset, pose)
+    }
+
+    /// The contact of the point at another `offset` [m] with the same line.
+    #[inline(always)]
+    pub fn touch_at<R: Real + Mul<S, Output = R>, S: Copy>(&self, offset: Vec2<S>, pose: &SliderPose<R>) -> Touch<R> {
+        let arm = pose.rotation.apply(offset);
         Touch {
             arm,
             normal: self.normal,
-            depth: self.normal * (self.line - (pose.pin.y + arm.y)),
-            rate: -self.normal * (pose.pin_velocity.y + pose.speed * arm.x),
+            depth: (-(pose.pin.y + arm.y) + self.line) * self.normal,
+            rate: (pose.pin_velocity.y + pose.speed * arm.x) * -self.normal,
             sliding: pose.pin_velocity.x - pose.speed * arm.y,
         }
     }
@@ -54,7 +61,7 @@ impl Surface for Corners {
     const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 1, 2, 3];
 
     #[inline(always)]
-    fn touch(guide: &Guide, k: usize, pose: &SliderPose) -> Touch {
+    fn touch<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> Touch<R> {
         guide.corners[k].touch(pose)
     }
 
@@ -70,10 +77,10 @@ impl Surface for Corners {
         })
     }
 
-    fn energy(guide: &Guide, k: usize, pose: &SliderPose) -> f64 {
+    fn energy<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> R {
         // ∫K·δ^p dδ.
         let depth = guide.corners[k].touch(pose).depth.max(0.0);
         let ContactParameters { stiffness, exponent, .. } = guide.contact;
-        stiffness * math::powf(depth, exponent + 1.0) / (exponent + 1.0)
+        math::powf(depth, exponent + 1.0) * stiffness / (exponent + 1.0)
     }
 }

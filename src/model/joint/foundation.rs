@@ -12,64 +12,66 @@ use super::compliance;
 use super::corners::Touch;
 use super::guide::{CORNERS, Guide, SliderPose, Surface};
 use crate::integrator::Guard;
-use crate::math;
+use crate::math::{self, Real};
 use crate::model::contact::ContactMode;
+use crate::model::plane::Vec2;
 use crate::scene::Scene;
 use std::f64::consts::PI;
 
 /// The penetration of a face: δ(x) = middle + slope·x, |x| ≤ half.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bed {
+pub struct Bed<R = f64> {
     /// [m] a, half the face's length.
     pub half: f64,
     /// [m] δ in the middle.
-    pub middle: f64,
+    pub middle: R,
     /// dδ/dx.
-    pub slope: f64,
+    pub slope: R,
 }
 
 /// The part of a bed that is pressed in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pressed {
+pub struct Pressed<R = f64> {
     /// [m] ∫max(0, δ)dx/(2a).
-    pub mean: f64,
+    pub mean: R,
     /// [m] x of the centre of pressure, ∫x·max(0, δ)dx/∫max(0, δ)dx.
-    pub centre: f64,
+    pub centre: R,
 }
 
-impl Bed {
+impl<R: Real> Bed<R> {
     /// δ at the end that lies deeper and at the other.
     #[inline(always)]
-    fn ends(&self) -> (f64, f64) {
-        let rise = self.half * self.slope.abs();
+    fn ends(&self) -> (R, R) {
+        let rise = self.slope.abs() * self.half;
         (self.middle + rise, self.middle - rise)
     }
 
     /// Mean penetration and centre of pressure; 0 where nothing is pressed in.
     #[inline(always)]
-    pub fn pressed(&self) -> Pressed {
+    pub fn pressed(&self) -> Pressed<R> {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
         if deep <= 0.0 {
             Pressed::default()
         } else if shallow >= 0.0 {
             // A trapezoid. Parallel faces make no difference of large numbers here.
-            Pressed { mean: middle, centre: half / 3.0 * (half * slope / middle) }
+            Pressed { mean: middle, centre: slope * half / middle * (half / 3.0) }
         } else {
             // A triangle of this length at the deeper end.
             let length = deep / slope.abs();
-            Pressed { mean: deep * length / (4.0 * half), centre: (half - length / 3.0).copysign(slope) }
+            Pressed { mean: deep * length / (4.0 * half), centre: (-(length / 3.0) + half).copysign(slope) }
         }
     }
 
     /// [m²] Mean of max(0, δ)²: the energy is half the face's stiffness K times this.
-    pub fn mean_square(&self) -> f64 {
+    pub fn mean_square(&self) -> R {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
         if deep <= 0.0 {
-            0.0
+            R::ZERO
         } else if shallow >= 0.0 {
-            middle * middle + (half * slope).powi(2) / 3.0
+            let rise = slope * half;
+            middle * middle + rise * rise / 3.0
         } else {
             deep * deep * (deep / slope.abs()) / (6.0 * half)
         }
@@ -105,9 +107,9 @@ pub(super) struct Faces;
 
 impl Faces {
     #[inline(always)]
-    fn bed(guide: &Guide, face: usize, pose: &SliderPose) -> Bed {
+    fn bed<R: Real>(guide: &Guide, face: usize, pose: &SliderPose<R>) -> Bed<R> {
         let middle = &guide.middles[face];
-        Bed { half: guide.half_length, middle: middle.touch(pose).depth, slope: -middle.normal * pose.rotation.sin }
+        Bed { half: guide.half_length, middle: middle.touch(pose).depth, slope: pose.rotation.sin * -middle.normal }
     }
 
     /// The two ends of a face.
@@ -121,11 +123,11 @@ impl Surface for Faces {
     const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 0, 1, 1];
 
     #[inline(always)]
-    fn touch(guide: &Guide, face: usize, pose: &SliderPose) -> Touch {
+    fn touch<R: Real>(guide: &Guide, face: usize, pose: &SliderPose<R>) -> Touch<R> {
         let Pressed { mean, centre } = Self::bed(guide, face, pose).pressed();
-        let mut mark = guide.middles[face];
-        mark.offset.x += centre;
-        Touch { depth: mean, ..mark.touch(pose) }
+        let middle = &guide.middles[face];
+        let offset = Vec2::new(centre + middle.offset.x, R::constant(middle.offset.y));
+        Touch { depth: mean, ..middle.touch_at(offset, pose) }
     }
 
     fn approach(guide: &Guide, face: usize, pose: &SliderPose) -> (f64, f64) {
@@ -149,7 +151,7 @@ impl Surface for Faces {
         guards
     }
 
-    fn energy(guide: &Guide, face: usize, pose: &SliderPose) -> f64 {
-        0.5 * guide.contact.stiffness * Self::bed(guide, face, pose).mean_square()
+    fn energy<R: Real>(guide: &Guide, face: usize, pose: &SliderPose<R>) -> R {
+        Self::bed(guide, face, pose).mean_square() * (0.5 * guide.contact.stiffness)
     }
 }

@@ -7,11 +7,13 @@
 
 use super::corners::{Corners, Mark, Touch};
 use super::foundation::{self, Faces};
-use super::{KernelFamily, choose, compliance, parameters, with_damping};
+use super::{Kernel, KernelFamily, Kernels, choose, compliance, parameters, with_damping};
 use crate::integrator::{Crossed, Guard};
+use crate::math::Real;
 use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, Linear, force};
 use crate::model::friction::Friction;
 use crate::model::plane::{Rotation, Vec2, cross};
+use crate::model::scalar::Scalar;
 use crate::scene::{self, Elasticity};
 use std::marker::PhantomData;
 
@@ -22,24 +24,24 @@ pub const GUIDE_CONTACTS: usize = CORNERS;
 
 /// Where the slider is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SliderPose {
+pub struct SliderPose<R = f64> {
     /// [m] Pin centre.
-    pub pin: Vec2,
+    pub pin: Vec2<R>,
     /// [m/s] Its velocity.
-    pub pin_velocity: Vec2,
+    pub pin_velocity: Vec2<R>,
     /// Tilt.
-    pub rotation: Rotation,
+    pub rotation: Rotation<R>,
     /// [rad/s] Rate of tilt.
-    pub speed: f64,
+    pub speed: R,
 }
 
 /// The guide's forces on the slider, reduced to the pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Load {
+pub struct Load<R = f64> {
     /// [N]
-    pub force: Vec2,
+    pub force: Vec2<R>,
     /// [N·m] About the pin.
-    pub couple: f64,
+    pub couple: R,
 }
 
 /// What the slider touches its lines with.
@@ -49,13 +51,13 @@ pub(super) trait Surface {
     /// How many contacts there are.
     const CONTACTS: usize = Self::CONTACT_OF_CORNER[CORNERS - 1] + 1;
     /// Contact `k` as its force law needs it.
-    fn touch(guide: &Guide, k: usize, pose: &SliderPose) -> Touch;
+    fn touch<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> Touch<R>;
     /// [m], [m/s] Greatest penetration in contact `k`, and the approach speed if it closes now.
     fn approach(guide: &Guide, k: usize, pose: &SliderPose) -> (f64, f64);
     /// The events at which contacts change, each at the place of a corner.
     fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS];
     /// [J] Elastic energy of contact `k`.
-    fn energy(guide: &Guide, k: usize, pose: &SliderPose) -> f64;
+    fn energy<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> R;
 }
 
 /// The guide with clearance.
@@ -68,60 +70,63 @@ pub struct Guide {
     pub(super) half_length: f64,
     /// The contact's numbers, the same for every contact.
     pub contact: ContactParameters,
-    kernels: Kernels,
+    surface: OfSurface,
+    kernels: Kernels<ByLaws<f64>>,
 }
 
 /// What is compiled for each surface.
 #[derive(Clone, Copy, Debug)]
-struct Kernels {
+struct OfSurface {
     contact_of_corner: [usize; CORNERS],
-    by_laws: ByLaws,
     approaches: fn(&Guide, &SliderPose) -> [(f64, f64); CORNERS],
     guards: fn(&Guide, &[ContactMode], &SliderPose) -> [Guard; CORNERS],
 }
 
 /// One number for the bristles of each contact.
-type Bristles = [f64; GUIDE_CONTACTS];
+type Bristles<R> = [R; GUIDE_CONTACTS];
 
 /// What is compiled for each combination of laws.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ByLaws {
-    load: fn(&Guide, &[ContactMode], &SliderPose, &Bristles, &mut Bristles) -> Load,
-    account: fn(&Guide, &[ContactMode], &SliderPose, &Bristles) -> Account,
+pub struct ByLaws<R> {
+    load: fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>, &mut Bristles<R>) -> Load<R>,
+    account: fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>) -> Account<R>,
 }
 
-impl Kernels {
-    fn new<S: Surface>(by_laws: ByLaws) -> Self {
-        let contact_of_corner = S::CONTACT_OF_CORNER;
-        Self { contact_of_corner, by_laws, approaches: approaches::<S>, guards: S::guards }
+impl OfSurface {
+    fn new<S: Surface>() -> Self {
+        Self { contact_of_corner: S::CONTACT_OF_CORNER, approaches: approaches::<S>, guards: S::guards }
     }
+}
+
+impl Kernel for ByLaws<f64> {
+    type Of<R: Real> = ByLaws<R>;
 }
 
 /// The load kernels of a surface.
 pub(super) struct Family<S>(PhantomData<S>);
 
 impl<S: Surface> KernelFamily for Family<S> {
-    type Kernel = ByLaws;
-    fn kernel<E: Elastic, D: Damped, F: Friction>() -> ByLaws {
-        ByLaws { load: load::<S, E, D, F>, account: account::<S, E, D, F> }
+    type Kernel = ByLaws<f64>;
+    fn kernel<R: Real, E: Elastic, D: Damped, F: Friction>() -> ByLaws<R> {
+        ByLaws { load: load::<R, S, E, D, F>, account: account::<R, S, E, D, F> }
     }
 }
 
-fn load<S: Surface, E: Elastic, D: Damped, F: Friction>(
+fn load<R: Real, S: Surface, E: Elastic, D: Damped, F: Friction>(
     g: &Guide,
     modes: &[ContactMode],
-    pose: &SliderPose,
-    z: &Bristles,
-    bristle_rate: &mut Bristles,
-) -> Load {
+    pose: &SliderPose<R>,
+    z: &Bristles<R>,
+    bristle_rate: &mut Bristles<R>,
+) -> Load<R> {
     let mut load = Load::default();
     for (k, mode) in modes.iter().enumerate().take(S::CONTACTS) {
         if mode.closed {
             let Touch { arm, normal, depth, rate, sliding } = S::touch(g, k, pose);
             let Forces { normal: pressure, tangential, bristle_rate: moving } =
-                force::<E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], || sliding);
+                force::<R, E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], || sliding);
             bristle_rate[k] = moving;
-            let force = Vec2::new(-tangential, normal * pressure);
+            let force = Vec2::new(-tangential, pressure * normal);
             load.force += force;
             load.couple += cross(arm, force);
         }
@@ -134,16 +139,16 @@ fn approaches<S: Surface>(guide: &Guide, pose: &SliderPose) -> [(f64, f64); CORN
     std::array::from_fn(|k| if k < S::CONTACTS { S::approach(guide, k, pose) } else { none })
 }
 
-fn account<S: Surface, E: Elastic, D: Damped, F: Friction>(
+fn account<R: Real, S: Surface, E: Elastic, D: Damped, F: Friction>(
     g: &Guide,
     modes: &[ContactMode],
-    pose: &SliderPose,
-    z: &Bristles,
-) -> Account {
+    pose: &SliderPose<R>,
+    z: &Bristles<R>,
+) -> Account<R> {
     let mut sum = Account::default();
     for (k, mode) in modes.iter().enumerate().take(S::CONTACTS).filter(|(_, mode)| mode.closed) {
         let Touch { depth, rate, sliding, .. } = S::touch(g, k, pose);
-        let account = contact::account::<E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], sliding);
+        let account = contact::account::<R, E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], sliding);
         sum += Account { energy: S::energy(g, k, pose), ..account };
     }
     sum
@@ -162,17 +167,17 @@ impl Guide {
             line: scene.guide.offset + side * reach,
         };
         let contact = &joint.contact;
-        let (stiffness, exponent, kernels) = match joint.surface {
+        let (stiffness, exponent, surface, kernels) = match joint.surface {
             scene::Surface::Corner => {
                 // Sphere on plane.
                 let hertz = 4.0 / (3.0 * compliance(contact)) * joint.corner_radius.sqrt();
                 let stiffness = if contact.stiffness > 0.0 { contact.stiffness } else { hertz };
-                let load = choose::<Family<Corners>>(Elasticity::Hertz, contact);
-                (stiffness, contact.exponent, Kernels::new::<Corners>(load))
+                let kernels = choose::<Family<Corners>>(Elasticity::Hertz, contact);
+                (stiffness, contact.exponent, OfSurface::new::<Corners>(), kernels)
             }
             scene::Surface::Foundation => {
-                let load = with_damping::<Family<Faces>, Linear>(contact);
-                (foundation::stiffness(scene), 1.0, Kernels::new::<Faces>(load))
+                let kernels = with_damping::<Family<Faces>, Linear>(contact);
+                (foundation::stiffness(scene), 1.0, OfSurface::new::<Faces>(), kernels)
             }
         };
         Self {
@@ -180,6 +185,7 @@ impl Guide {
             middles: [mark(0.0, 1.0), mark(0.0, -1.0)],
             half_length: a,
             contact: ContactParameters { exponent, ..parameters(contact, stiffness, 0.0) },
+            surface,
             kernels,
         }
     }
@@ -192,19 +198,19 @@ impl Guide {
     /// [m], [m/s] Greatest penetration in every contact, and the approach speed if it closes now; far
     /// open where there is no contact.
     pub fn approaches(&self, pose: &SliderPose) -> [(f64, f64); CORNERS] {
-        (self.kernels.approaches)(self, pose)
+        (self.surface.approaches)(self, pose)
     }
 
     /// The events at which the contacts change.
     pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
-        (self.kernels.guards)(self, modes, pose)
+        (self.surface.guards)(self, modes, pose)
     }
 
     /// Which of the joints' and the guide's contacts change when these guards have fallen.
     pub fn contacts_of(&self, crossed: &Crossed) -> Crossed {
         let mut contacts = *crossed;
         contacts[3..].fill(false);
-        for (corner, contact) in self.kernels.contact_of_corner.into_iter().enumerate() {
+        for (corner, contact) in self.surface.contact_of_corner.into_iter().enumerate() {
             contacts[3 + contact] |= crossed[3 + corner];
         }
         contacts
@@ -213,23 +219,28 @@ impl Guide {
     /// The load of the closed contacts, whose bristles are deflected by `z` [m] and move at
     /// `bristle_rate` [m/s].
     #[inline(always)]
-    pub fn load(
+    pub fn load<R: Scalar>(
         &self,
         modes: &[ContactMode],
-        pose: &SliderPose,
-        z: &[f64; GUIDE_CONTACTS],
-        bristle_rate: &mut [f64; GUIDE_CONTACTS],
-    ) -> Load {
+        pose: &SliderPose<R>,
+        z: &[R; GUIDE_CONTACTS],
+        bristle_rate: &mut [R; GUIDE_CONTACTS],
+    ) -> Load<R> {
         if modes.iter().any(|mode| mode.closed) {
-            (self.kernels.by_laws.load)(self, modes, pose, z, bristle_rate)
+            (R::kernel(&self.kernels).load)(self, modes, pose, z, bristle_rate)
         } else {
             Load::default()
         }
     }
 
     /// Energy and losses of the closed contacts, whose bristles are deflected by `z` [m].
-    pub fn account(&self, modes: &[ContactMode], pose: &SliderPose, z: &[f64; GUIDE_CONTACTS]) -> Account {
-        (self.kernels.by_laws.account)(self, modes, pose, z)
+    pub fn account<R: Scalar>(
+        &self,
+        modes: &[ContactMode],
+        pose: &SliderPose<R>,
+        z: &[R; GUIDE_CONTACTS],
+    ) -> Account<R> {
+        (R::kernel(&self.kernels).account)(self, modes, pose, z)
     }
 }
 

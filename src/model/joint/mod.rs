@@ -7,18 +7,40 @@ pub mod revolute;
 
 use super::contact::{ContactParameters, Damped, Elastic, HertzThreeHalves, Hysteresis, Liu, Power, Undamped, damping};
 use super::friction::{Ambrosio, Friction, FrictionParameters, Frictionless, Lugre, Stribeck, Tanh};
+use crate::math::Real;
+use crate::model::scalar::Tangent;
 use crate::scene::{Contact, DampingLaw, Elasticity, FrictionLaw};
+
+/// What is compiled for each combination of laws.
+pub trait Kernel {
+    /// The kernel for the number `R`.
+    type Of<R: Real>: Clone + Copy + std::fmt::Debug;
+}
+
+/// The kernels of one combination of laws.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernels<K: Kernel> {
+    /// For plain numbers.
+    pub value: K::Of<f64>,
+    /// For numbers with derivatives.
+    pub tangent: K::Of<Tangent>,
+}
 
 /// Compiles a contact kernel for every combination of laws and hands out the scene's.
 pub trait KernelFamily {
-    /// The kernel's type.
-    type Kernel;
+    /// What it compiles.
+    type Kernel: Kernel;
     /// The kernel of one combination.
-    fn kernel<E: Elastic, D: Damped, F: Friction>() -> Self::Kernel;
+    fn kernel<R: Real, E: Elastic, D: Damped, F: Friction>() -> <Self::Kernel as Kernel>::Of<R>;
+
+    /// The kernels of one combination.
+    fn kernels<E: Elastic, D: Damped, F: Friction>() -> Kernels<Self::Kernel> {
+        Kernels { value: Self::kernel::<f64, E, D, F>(), tangent: Self::kernel::<Tangent, E, D, F>() }
+    }
 }
 
 /// The kernel of the laws that the scene calls for.
-pub fn choose<K: KernelFamily>(elasticity: Elasticity, contact: &Contact) -> K::Kernel {
+pub fn choose<K: KernelFamily>(elasticity: Elasticity, contact: &Contact) -> Kernels<K::Kernel> {
     match elasticity {
         Elasticity::Liu => with_damping::<K, Liu>(contact),
         Elasticity::Hertz if contact.exponent == 1.5 => with_damping::<K, HertzThreeHalves>(contact),
@@ -26,7 +48,7 @@ pub fn choose<K: KernelFamily>(elasticity: Elasticity, contact: &Contact) -> K::
     }
 }
 
-fn with_damping<K: KernelFamily, E: Elastic>(contact: &Contact) -> K::Kernel {
+fn with_damping<K: KernelFamily, E: Elastic>(contact: &Contact) -> Kernels<K::Kernel> {
     if damping::factor(contact.law, contact.restitution) == 0.0 {
         with_friction::<K, E, Undamped>(contact)
     } else {
@@ -34,13 +56,13 @@ fn with_damping<K: KernelFamily, E: Elastic>(contact: &Contact) -> K::Kernel {
     }
 }
 
-fn with_friction<K: KernelFamily, E: Elastic, D: Damped>(contact: &Contact) -> K::Kernel {
+fn with_friction<K: KernelFamily, E: Elastic, D: Damped>(contact: &Contact) -> Kernels<K::Kernel> {
     match contact.friction.law {
-        FrictionLaw::None => K::kernel::<E, D, Frictionless>(),
-        FrictionLaw::Ambrosio => K::kernel::<E, D, Ambrosio>(),
-        FrictionLaw::Tanh => K::kernel::<E, D, Tanh>(),
-        FrictionLaw::Stribeck => K::kernel::<E, D, Stribeck>(),
-        FrictionLaw::Lugre => K::kernel::<E, D, Lugre>(),
+        FrictionLaw::None => K::kernels::<E, D, Frictionless>(),
+        FrictionLaw::Ambrosio => K::kernels::<E, D, Ambrosio>(),
+        FrictionLaw::Tanh => K::kernels::<E, D, Tanh>(),
+        FrictionLaw::Stribeck => K::kernels::<E, D, Stribeck>(),
+        FrictionLaw::Lugre => K::kernels::<E, D, Lugre>(),
     }
 }
 

@@ -4,45 +4,47 @@
 //! contact force at the one point P + R_b·n. The journal's material speed there against the bearing's
 //! is v_t = ė·t + (R_b − ε)·ω_journal − R_b·ω_bearing: force times this speed is the power lost.
 
-use super::{KernelFamily, choose, compliance, parameters};
+use super::{Kernel, KernelFamily, Kernels, choose, compliance, parameters};
 use crate::integrator::Guard;
+use crate::math::Real;
 use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, force};
 use crate::model::friction::Friction;
 use crate::model::plane::{Vec2, perp};
+use crate::model::scalar::Scalar;
 use crate::scene::{self, Elasticity};
 
 /// Where the journal is in its bearing, and how both move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Play {
+pub struct Play<R = f64> {
     /// [m] e.
-    pub eccentricity: Vec2,
+    pub eccentricity: Vec2<R>,
     /// [m/s] ė.
-    pub rate: Vec2,
+    pub rate: Vec2<R>,
     /// [rad/s] Of the journal's body.
-    pub journal_speed: f64,
+    pub journal_speed: R,
     /// [rad/s] Of the bearing's body.
-    pub bearing_speed: f64,
+    pub bearing_speed: R,
 }
 
 /// What the contact does to both bodies: a force on the journal at its centre, the opposite force on
 /// the bearing at its centre, and a couple on each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Load {
+pub struct Load<R = f64> {
     /// [N] On the journal's body.
-    pub force: Vec2,
+    pub force: Vec2<R>,
     /// [N·m] On the journal's body, about the journal centre.
-    pub journal_couple: f64,
+    pub journal_couple: R,
     /// [N·m] On the bearing's body, about the bearing centre.
-    pub bearing_couple: f64,
+    pub bearing_couple: R,
     /// [m/s] Rate of the bristles' deflection.
-    pub bristle_rate: f64,
+    pub bristle_rate: R,
 }
 
 /// What is compiled for each combination of laws.
 #[derive(Clone, Copy, Debug)]
-struct Kernels {
-    load: fn(&Revolute, f64, &Play, f64) -> Load,
-    account: fn(&Revolute, f64, &Play, f64) -> Account,
+pub struct ByLaws<R> {
+    load: fn(&Revolute, f64, &Play<R>, R) -> Load<R>,
+    account: fn(&Revolute, f64, &Play<R>, R) -> Account<R>,
 }
 
 /// A revolute joint with clearance.
@@ -54,19 +56,29 @@ pub struct Revolute {
     clearance: f64,
     /// The contact's numbers.
     pub contact: ContactParameters,
-    kernels: Kernels,
+    kernels: Kernels<Family>,
 }
 
+#[derive(Clone, Copy, Debug)]
 struct Family;
 
+impl Kernel for Family {
+    type Of<R: Real> = ByLaws<R>;
+}
+
 impl KernelFamily for Family {
-    type Kernel = Kernels;
-    fn kernel<E: Elastic, D: Damped, F: Friction>() -> Kernels {
-        Kernels { load: load::<E, D, F>, account: account::<E, D, F> }
+    type Kernel = Self;
+    fn kernel<R: Real, E: Elastic, D: Damped, F: Friction>() -> ByLaws<R> {
+        ByLaws { load: load::<R, E, D, F>, account: account::<R, E, D, F> }
     }
 }
 
-fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64, play: &Play, z: f64) -> Load {
+fn load<R: Real, E: Elastic, D: Damped, F: Friction>(
+    joint: &Revolute,
+    per_approach: f64,
+    play: &Play<R>,
+    z: R,
+) -> Load<R> {
     let epsilon = play.eccentricity.norm();
     let depth = epsilon - joint.clearance;
     if depth <= 0.0 && !(F::BRISTLES && epsilon > 0.0) {
@@ -74,16 +86,16 @@ fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64,
     }
     let n = play.eccentricity / epsilon;
     let t = perp(n);
-    let rate = play.rate.dot(&n);
-    let to_contact = joint.radius - epsilon;
+    let rate = play.rate.dot(n);
+    let to_contact = -epsilon + joint.radius;
     let sliding = || joint.sliding(play, epsilon, t);
     let Forces { normal, tangential, bristle_rate } =
-        force::<E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding);
+        force::<R, E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding);
     if F::PRESENT {
         Load {
             force: -normal * n - tangential * t,
             journal_couple: -to_contact * tangential,
-            bearing_couple: joint.radius * tangential,
+            bearing_couple: tangential * joint.radius,
             bristle_rate,
         }
     } else {
@@ -91,15 +103,20 @@ fn load<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64,
     }
 }
 
-fn account<E: Elastic, D: Damped, F: Friction>(joint: &Revolute, per_approach: f64, play: &Play, z: f64) -> Account {
+fn account<R: Real, E: Elastic, D: Damped, F: Friction>(
+    joint: &Revolute,
+    per_approach: f64,
+    play: &Play<R>,
+    z: R,
+) -> Account<R> {
     let epsilon = play.eccentricity.norm();
     if epsilon == 0.0 {
         return Account::default();
     }
     let n = play.eccentricity / epsilon;
     let sliding = joint.sliding(play, epsilon, perp(n));
-    let (depth, rate) = (epsilon - joint.clearance, play.rate.dot(&n));
-    contact::account::<E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding)
+    let (depth, rate) = (epsilon - joint.clearance, play.rate.dot(n));
+    contact::account::<R, E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding)
 }
 
 impl Revolute {
@@ -134,7 +151,7 @@ impl Revolute {
     #[inline(always)]
     pub fn penetration_rate(&self, play: &Play) -> f64 {
         let epsilon = play.eccentricity.norm();
-        if epsilon > 0.0 { play.rate.dot(&play.eccentricity) / epsilon } else { 0.0 }
+        if epsilon > 0.0 { play.rate.dot(play.eccentricity) / epsilon } else { 0.0 }
     }
 
     /// The event at which the contact changes: closing when open, opening when closed.
@@ -145,19 +162,19 @@ impl Revolute {
 
     /// [m/s] v_t at the contact point, ε from the bearing's centre along the normal of tangent `t`.
     #[inline(always)]
-    fn sliding(&self, play: &Play, epsilon: f64, t: Vec2) -> f64 {
-        play.rate.dot(&t) + (self.radius - epsilon) * play.journal_speed - self.radius * play.bearing_speed
+    fn sliding<R: Real>(&self, play: &Play<R>, epsilon: R, t: Vec2<R>) -> R {
+        play.rate.dot(t) + (-epsilon + self.radius) * play.journal_speed - play.bearing_speed * self.radius
     }
 
     /// Energy and losses of the closed contact with its bristles deflected by `z` [m].
-    pub fn account(&self, mode: &ContactMode, play: &Play, z: f64) -> Account {
-        (self.kernels.account)(self, mode.per_approach, play, z)
+    pub fn account<R: Scalar>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Account<R> {
+        (R::kernel(&self.kernels).account)(self, mode.per_approach, play, z)
     }
 
     /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
-    pub fn load(&self, mode: &ContactMode, play: &Play, z: f64) -> Load {
-        (self.kernels.load)(self, mode.per_approach, play, z)
+    pub fn load<R: Scalar>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Load<R> {
+        (R::kernel(&self.kernels).load)(self, mode.per_approach, play, z)
     }
 }
 

@@ -13,6 +13,7 @@ pub use inertia::{Inertia, Integrals};
 
 use super::mechanism::Body;
 use super::plane::Vec2;
+use crate::math::Real;
 use crate::scene::modal::{MOST_MODES, ModalTable, pairs};
 use crate::scene::{Flexible, Scene};
 
@@ -54,34 +55,34 @@ pub struct Rod {
 
 /// The deformed rod in its own frame, and how it deforms; with room for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
-pub struct Shape<const K: usize, const F: usize> {
+pub struct Shape<R, const K: usize, const F: usize> {
     /// [m] Chord length L = l + stretch.
-    pub chord: f64,
+    pub chord: R,
     /// [m/s] Its rate.
-    pub chord_rate: f64,
+    pub chord_rate: R,
     /// [m/s²] L̈ at η̈ = 0.
-    pub chord_bias: f64,
+    pub chord_bias: R,
     /// ∂L/∂η.
-    pub chord_slope: [f64; K],
+    pub chord_slope: [R; K],
     /// [rad/s] Rates of the end slopes.
-    pub slope_rate: [f64; 2],
-    xi: [f64; F],
-    xi_rate: [f64; F],
+    pub slope_rate: [R; 2],
+    xi: [R; F],
+    xi_rate: [R; F],
     /// ξ̈ at η̈ = 0.
-    xi_bias: [f64; F],
+    xi_bias: [R; F],
 }
 
 /// What outputs tell of the rod's elasticity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Elastic {
+pub struct Elastic<R = f64> {
     /// [m] At mid-span.
-    pub deflection: f64,
+    pub deflection: R,
     /// [m] From end to end.
-    pub stretch: f64,
+    pub stretch: R,
     /// [J]
-    pub energy: f64,
+    pub energy: R,
     /// [W] That modal damping takes.
-    pub modal_loss: f64,
+    pub modal_loss: R,
 }
 
 impl Rod {
@@ -168,76 +169,81 @@ impl Rod {
 
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
     #[inline(always)]
-    pub fn shape<const K: usize, const F: usize>(&self, eta: &[f64], rate: &[f64]) -> Shape<K, F> {
+    pub fn shape<R: Real, const K: usize, const F: usize>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
         let Self { bending, axial, .. } = *self;
         let mut shape = Shape {
-            chord: 0.0,
-            chord_rate: 0.0,
-            chord_bias: 0.0,
-            chord_slope: [0.0; K],
-            slope_rate: [0.0; 2],
-            xi: [0.0; F],
-            xi_rate: [0.0; F],
-            xi_bias: [0.0; F],
+            chord: R::ZERO,
+            chord_rate: R::ZERO,
+            chord_bias: R::ZERO,
+            chord_slope: [R::ZERO; K],
+            slope_rate: [R::ZERO; 2],
+            xi: [R::ZERO; F],
+            xi_rate: [R::ZERO; F],
+            xi_bias: [R::ZERO; F],
         };
         let (q, dq) = (&eta[..bending], &rate[..bending]);
-        shape.xi[0] = 1.0;
+        shape.xi[0] = R::ONE;
         for j in 0..axial {
             shape.xi[1 + j] = eta[bending + j];
             shape.xi_rate[1 + j] = rate[bending + j];
-            shape.chord_slope[bending + j] = self.end[1 + j];
-            shape.chord_rate += self.end[1 + j] * rate[bending + j];
+            shape.chord_slope[bending + j] = R::constant(self.end[1 + j]);
+            shape.chord_rate += rate[bending + j] * self.end[1 + j];
         }
         for (k, &(i, j)) in self.pairs.iter().enumerate() {
             let place = 1 + axial + k;
             let twice = if i == j { 1.0 } else { 2.0 };
-            shape.xi[place] = -twice * q[i] * q[j];
-            shape.xi_rate[place] = -twice * (q[i] * dq[j] + dq[i] * q[j]);
-            shape.xi_bias[place] = -2.0 * twice * dq[i] * dq[j];
+            shape.xi[place] = q[i] * -twice * q[j];
+            shape.xi_rate[place] = (q[i] * dq[j] + dq[i] * q[j]) * -twice;
+            shape.xi_bias[place] = dq[i] * (-2.0 * twice) * dq[j];
             let end = self.end[place] * twice;
-            shape.chord_slope[i] -= end * q[j];
-            shape.chord_slope[j] -= end * q[i];
-            shape.chord_rate += self.end[place] * shape.xi_rate[place];
-            shape.chord_bias += self.end[place] * shape.xi_bias[place];
+            shape.chord_slope[i] -= q[j] * end;
+            shape.chord_slope[j] -= q[i] * end;
+            shape.chord_rate += shape.xi_rate[place] * self.end[place];
+            shape.chord_bias += shape.xi_bias[place] * self.end[place];
         }
-        shape.chord = self.length + self.stretch(&shape.xi);
+        shape.chord = self.stretch(&shape.xi) + self.length;
         for (end, slope) in self.slope.iter().enumerate() {
-            shape.slope_rate[end] = slope.iter().zip(dq).map(|(slope, rate)| slope * rate).sum();
+            shape.slope_rate[end] = dot(dq, slope);
         }
         shape
     }
 
-    fn stretch(&self, xi: &[f64]) -> f64 {
-        self.end.iter().zip(xi).skip(1).map(|(end, xi)| end * xi).sum()
+    fn stretch<R: Real>(&self, xi: &[R]) -> R {
+        dot(&xi[1..], &self.end[1..])
     }
 
     /// [N] Adds what elasticity, modal damping and the couples [N·m] on the end sections do to η.
     #[inline(always)]
-    pub fn add_modal_forces(&self, eta: &[f64], rate: &[f64], couple: &[f64; 2], force: &mut [f64]) {
+    pub fn add_modal_forces<R: Real>(&self, eta: &[R], rate: &[R], couple: &[R; 2], force: &mut [R]) {
         for k in 0..self.modes() {
             let (m, omega) = (self.modal_mass[k], self.frequency[k]);
-            force[k] -= m * omega * (omega * eta[k] + 2.0 * self.damping_ratio * rate[k]);
+            force[k] -= (eta[k] * omega + rate[k] * (2.0 * self.damping_ratio)) * (m * omega);
         }
         for (slope, couple) in self.slope.iter().zip(couple) {
             for (force, slope) in force.iter_mut().zip(slope) {
-                *force += slope * couple;
+                *force += *couple * *slope;
             }
         }
     }
 
     /// Deflection, stretch and elastic energy.
-    pub fn elastic<const K: usize, const F: usize>(&self, shape: &Shape<K, F>, eta: &[f64], rate: &[f64]) -> Elastic {
+    pub fn elastic<R: Real, const K: usize, const F: usize>(
+        &self,
+        shape: &Shape<R, K, F>,
+        eta: &[R],
+        rate: &[R],
+    ) -> Elastic<R> {
         let mut elastic = Elastic { stretch: self.stretch(&shape.xi), ..Elastic::default() };
-        elastic.deflection = dot(&self.middle, &eta[..self.bending]);
+        elastic.deflection = dot(&eta[..self.bending], &self.middle);
         for k in 0..self.modes() {
             let (m, omega) = (self.modal_mass[k], self.frequency[k]);
-            elastic.energy += 0.5 * m * omega * omega * eta[k] * eta[k];
-            elastic.modal_loss += 2.0 * self.damping_ratio * m * omega * rate[k] * rate[k];
+            elastic.energy += eta[k] * (0.5 * m * omega * omega) * eta[k];
+            elastic.modal_loss += rate[k] * (2.0 * self.damping_ratio * m * omega) * rate[k];
         }
         elastic
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+fn dot<R: Real>(a: &[R], b: &[f64]) -> R {
+    a.iter().zip(b).fold(-R::ZERO, |sum, (a, b)| sum + *a * *b)
 }

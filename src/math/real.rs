@@ -1,0 +1,126 @@
+//! The numbers that the equations of motion are computed with.
+
+use super::{Vec2, sin_cos};
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along.
+///
+/// Code that is generic over it computes with `f64` what code for `f64` would. Parameters stay `f64`
+/// and stand on the right of an operator. Comparisons look at values alone.
+pub trait Real:
+    Copy
+    + Debug
+    + Default
+    + PartialOrd
+    + PartialOrd<f64>
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Add<f64, Output = Self>
+    + AddAssign
+    + Sub<Output = Self>
+    + Sub<f64, Output = Self>
+    + SubAssign
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+    + Mul<Vec2<Self>, Output = Vec2<Self>>
+    + Div<Output = Self>
+    + Div<f64, Output = Self>
+{
+    /// 0.
+    const ZERO: Self;
+    /// 1.
+    const ONE: Self;
+
+    /// A number that depends on nothing.
+    fn constant(value: f64) -> Self;
+    /// The number without its derivatives.
+    fn value(self) -> f64;
+    /// 1/x.
+    fn recip(self) -> Self;
+    /// √x; its derivative at 0 counts as 0.
+    fn sqrt(self) -> Self;
+    /// |x|; its derivative at ±0 is ±1.
+    fn abs(self) -> Self;
+    /// The larger one; of equal ones `limit`.
+    fn max(self, limit: f64) -> Self;
+    /// The smaller one; of equal ones `limit`.
+    fn min(self, limit: f64) -> Self;
+    /// Within `low` and `high`; a bound has no derivative.
+    fn clamp(self, low: f64, high: f64) -> Self;
+    /// |x| with the sign of `sign`.
+    fn copysign(self, sign: Self) -> Self;
+    /// (sin x, cos x).
+    fn sin_cos(self) -> (Self, Self);
+    /// e^x.
+    fn exp(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Inverse hyperbolic sine.
+    fn asinh(self) -> Self;
+    /// x^p, x ≥ 0 and p ≥ 1.
+    fn powf(self, p: f64) -> Self;
+    /// Angle of the point (x, `self`).
+    fn atan2(self, x: Self) -> Self;
+}
+
+impl Real for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn max(self, limit: f64) -> Self {
+        f64::max(self, limit)
+    }
+    #[inline(always)]
+    fn min(self, limit: f64) -> Self {
+        f64::min(self, limit)
+    }
+    #[inline(always)]
+    fn clamp(self, low: f64, high: f64) -> Self {
+        f64::clamp(self, low, high)
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        f64::copysign(self, sign)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        sin_cos::sin_cos(self)
+    }
+    fn exp(self) -> Self {
+        libm::exp(self)
+    }
+    fn tanh(self) -> Self {
+        libm::tanh(self)
+    }
+    fn asinh(self) -> Self {
+        libm::asinh(self)
+    }
+    fn powf(self, p: f64) -> Self {
+        libm::pow(self, p)
+    }
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
+}

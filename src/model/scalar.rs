@@ -1,0 +1,30 @@
+//! The two numbers that the equations of motion are compiled for.
+
+use super::joint::{Kernel, Kernels};
+use crate::math::{Dual, Real};
+
+/// Derivatives along so many directions at a time: measured, see `benches/jacobian.rs` of the harness.
+pub const DIRECTIONS: usize = 4;
+
+/// A number with its derivatives along some of the states and time.
+pub type Tangent = Dual<DIRECTIONS>;
+
+/// A number that contact kernels are compiled for.
+pub trait Scalar: Real {
+    /// The kernel of a scene for this number.
+    fn kernel<K: Kernel>(kernels: &Kernels<K>) -> &K::Of<Self>;
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn kernel<K: Kernel>(kernels: &Kernels<K>) -> &K::Of<Self> {
+        &kernels.value
+    }
+}
+
+impl Scalar for Tangent {
+    #[inline(always)]
+    fn kernel<K: Kernel>(kernels: &Kernels<K>) -> &K::Of<Self> {
+        &kernels.tangent
+    }
+}
