@@ -5,23 +5,27 @@
 
 use crate::host::{Fmu, Log, Selection};
 use crate::inputs;
-use crate::run::{Experiment, Runner, Until};
+use crate::run::{ANGLE, Experiment, Runner, Until};
 use anyhow::{Context, Result};
 use cpu_time::ThreadTime;
 use slidercrank::scene::read::SceneFile;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// [s] The communication step.
 pub const STEP: f64 = 1e-3;
-/// A crank that has slowed down to this share of its start speed begins anew: a mechanism at rest is no test.
+/// A crank that makes less than this share of a turn in a turn's time at its start speed begins anew: a mechanism at
+/// rest is no test.
 const SLOW: f64 = 0.5;
-/// What the FMU is asked after every step: its counters, and the crank's speed.
-const ASKED: [&str; 4] = ["solver.steps", "solver.evaluations", "solver.events", "crank.speed"];
+/// What the FMU is asked after every step: its counters, and how far the crank has turned.
+const ASKED: [&str; 4] = ["solver.steps", "solver.evaluations", "solver.events", ANGLE];
 
 /// One communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {
+    /// [s] The time that it led to.
+    pub end: f64,
     /// [s] In fmi2DoStep, by the clock on the wall.
     pub wall: f64,
     /// [s] The same, by this thread's use of the processor.
@@ -62,20 +66,26 @@ impl Timing {
             step: STEP,
             tolerance: None,
         };
-        let slow = SLOW * file.scene.crank.speed_start.abs();
+        let speed = file.scene.crank.speed_start.abs();
+        let steps_of_a_turn = (TAU / (speed * STEP)).ceil();
         let clock = Instant::now();
         let mut timing = Self { scene: file.name.clone(), asked: count, ..Self::default() };
         let is_over = |timing: &Self| timing.steps.len() >= count || clock.elapsed() > budget;
         while !is_over(&timing) {
             let mut bench = Bench::start(fmu, &experiment)?;
+            let (mut since, mut last) = (0.0, bench.angle());
             while !is_over(&timing) {
-                let (step, speed) = bench.step()?;
-                timing.steps.push(step);
+                timing.steps.push(bench.step()?);
                 tick(timing.steps.len());
-                if speed.abs() < slow {
+                since += 1.0;
+                if since < steps_of_a_turn {
+                    continue;
+                }
+                if (bench.angle() - last).abs() < SLOW * TAU {
                     timing.restarts += 1;
                     break;
                 }
+                (since, last) = (0.0, bench.angle());
             }
         }
         Ok(timing)
@@ -131,8 +141,12 @@ impl<'a> Bench<'a> {
         Ok(Self { experiment, runner, asked, counts, point: 0 })
     }
 
-    /// One step, and [rad/s] the crank's speed at its end.
-    fn step(&mut self) -> Result<(Step, f64)> {
+    /// [rad] Of the crank.
+    fn angle(&self) -> f64 {
+        self.asked.values()[3]
+    }
+
+    fn step(&mut self) -> Result<Step> {
         self.point += 1;
         let (from, to) = self.experiment.interval(self.point).context("time is over")?;
         self.runner.apply_inputs(from)?;
@@ -143,7 +157,7 @@ impl<'a> Bench<'a> {
         let after = counts(&self.asked);
         let [steps, evaluations, events] = std::array::from_fn(|i| after[i] - self.counts[i]);
         self.counts = after;
-        Ok((Step { wall, cpu, steps, evaluations, events }, self.asked.values()[3]))
+        Ok(Step { end: to, wall, cpu, steps, evaluations, events })
     }
 }
 
@@ -156,7 +170,14 @@ mod tests {
     use super::*;
 
     fn timing() -> Timing {
-        let step = |wall: f64, cpu: f64, evaluations: f64| Step { wall, cpu, steps: 2.0, evaluations, events: 1.0 };
+        let step = |wall: f64, cpu: f64, evaluations: f64| Step {
+            end: 0.001,
+            wall,
+            cpu,
+            steps: 2.0,
+            evaluations,
+            events: 1.0,
+        };
         let steps = vec![step(5.0, 1.0, 100.0), step(2.0, 2.0, 200.0), step(3.0, 3.0, 200.0), step(1.0, 1.0, 200.0)];
         Timing { scene: "own".into(), steps, restarts: 0, asked: 4 }
     }

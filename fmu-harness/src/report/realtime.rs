@@ -48,8 +48,8 @@ pub fn sentence(timing: &Timing) -> String {
     let (worst, dearest) = (timing.longest(|step| step.wall), timing.longest(|step| step.cpu));
     let mut text = format!(
         "{}: of {} steps of 1 ms half take at most {} of the step by the clock, 99.9 % at most {}, the longest {}, of \
-         which {} is CPU time of its own. The dearest takes {} of CPU time: {} contacts opened or closed in it, {} steps \
-         of the integrator, {} evaluations. No step has more than {} evaluations; at {} ns each, all in, that is {} of \
+         which {} is CPU time of its own. The dearest, to t = {} s, takes {} of CPU time: {} contacts opened or closed in \
+         it, {} steps of the integrator, {} evaluations. No step has more than {} evaluations; at {} ns each, all in, that is {} of \
          the step.",
         timing.scene,
         grouped(timing.steps.len() as f64),
@@ -57,6 +57,7 @@ pub fn sentence(timing: &Timing) -> String {
         percent(quantile(&wall, 0.999)),
         percent(worst.wall),
         percent(worst.cpu),
+        format_args!("{:.3}", dearest.end),
         percent(dearest.cpu),
         grouped(dearest.events),
         grouped(dearest.steps),
@@ -113,7 +114,7 @@ pub fn write_csv(timings: &[Timing], file: &Path) -> Result<()> {
     let mut head = ["scene", "step_s", "steps", "restarts"].map(String::from).to_vec();
     for (_, _, name) in MEASURES {
         head.extend(SHARES.iter().map(|share| format!("{name}_{share}_s")));
-        let worst = ["wall_s", "cpu_s", "contacts_changed", "solver_steps", "evaluations"];
+        let worst = ["end_s", "wall_s", "cpu_s", "contacts_changed", "solver_steps", "evaluations"];
         head.extend(worst.iter().map(|what| format!("worst_{name}_{what}")));
     }
     head.extend(["most_evaluations", "evaluation_s", "bound_s"].map(String::from));
@@ -123,8 +124,8 @@ pub fn write_csv(timings: &[Timing], file: &Path) -> Result<()> {
         for (measure, ..) in MEASURES {
             let times = timing.sorted(measure);
             numbers.extend(SHARES.iter().map(|share| quantile(&times, *share)));
-            let Step { wall, cpu, steps, evaluations, events } = timing.longest(measure);
-            numbers.extend([wall, cpu, events, steps, evaluations]);
+            let Step { end, wall, cpu, steps, evaluations, events } = timing.longest(measure);
+            numbers.extend([end, wall, cpu, events, steps, evaluations]);
         }
         numbers.extend([timing.longest(|step| step.evaluations).evaluations, timing.per_evaluation(), timing.bound()]);
         csv.write_record(std::iter::once(timing.scene.clone()).chain(numbers.iter().map(f64::to_string)))?;
@@ -147,16 +148,23 @@ mod tests {
 
     #[test]
     fn table_sentence_and_csv_tell_the_same() {
-        let step = |wall: f64, cpu: f64, evaluations: f64| Step { wall, cpu, steps: 7.0, evaluations, events: 3.0 };
+        let step =
+            |wall: f64, cpu: f64, evaluations: f64| Step { end: 1.25, wall, cpu, steps: 7.0, evaluations, events: 3.0 };
         let steps = vec![step(5e-5, 4e-5, 500.0), step(9e-4, 6e-5, 700.0)];
         let timing = Timing { scene: "own".into(), steps, restarts: 2, asked: 3 };
         let markdown = table(std::slice::from_ref(&timing)).markdown();
         let row = "| own | 2 | 5.00 % | 90.0 % | 90.0 % | 6.00 % | 6.00 % | 3 | 7 | 700 | 700 | 83.3 | 5.83 % |";
         assert!(markdown.contains(row), "{markdown}");
         let text = sentence(&timing);
-        for part in
-            ["of 2 steps", "the longest 90.0 %", "6.00 % is CPU time", "83.3 ns", "before 3 steps", "anew 2 times"]
-        {
+        for part in [
+            "of 2 steps",
+            "the longest 90.0 %",
+            "6.00 % is CPU time",
+            "to t = 1.250 s",
+            "83.3 ns",
+            "before 3 steps",
+            "anew 2 times",
+        ] {
             assert!(text.contains(part), "{part}: {text}");
         }
         let file = tempfile::NamedTempFile::new().expect("a temporary file");
