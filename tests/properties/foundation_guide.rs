@@ -189,7 +189,7 @@ fn force_times_velocity_is_what_the_springs_take_up_and_damping_takes_more() {
         let h = 1e-8;
         let stored = (4.0 * stored(h) - stored(2.0 * h)) / 3.0;
         let load = load(&guide, &modes, &now);
-        let power = load.force.dot(&velocity) + load.couple * spin;
+        let power = load.force.dot(velocity) + load.couple * spin;
         let lost = -power - stored;
         let bound = 1e-6 * (energy(0.0) / 1e-4 + STIFFNESS * 1e-6 * velocity.norm());
         assert!(lost >= -bound, "gives back {:e} W of {stored:e} W", -lost);
