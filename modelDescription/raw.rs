@@ -145,6 +145,9 @@ pub struct Item {
     pub value: i32,
     /// One line of explanation.
     pub description: String,
+    /// What programs may ask of it.
+    #[serde(default)]
+    pub properties: Vec<String>,
 }
 
 #[derive(Deserialize)]

@@ -14,7 +14,13 @@ pub fn enumerations(declaration: &Declaration) -> String {
             let doc = sentence(&item.description);
             line(
                 &mut out,
-                &format!("    #[doc = {doc:?}] {default}{} = {} = {:?},", camel(&item.name), item.value, item.name),
+                &format!(
+                    "    #[doc = {doc:?}] {default}{} = {} = {:?} {:?},",
+                    camel(&item.name),
+                    item.value,
+                    item.name,
+                    item.properties
+                ),
             );
         }
         line(&mut out, "} }");

@@ -5,8 +5,8 @@
 
 use crate::host::Fmu;
 use crate::inputs;
-use crate::run::{Experiment, Until, march};
-use anyhow::{Context, Result};
+use crate::run::{Ending, Experiment, March, Repeats, Until};
+use anyhow::{Context, Result, ensure};
 use cpu_time::ThreadTime;
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::profile::Profiles;
@@ -14,12 +14,8 @@ use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::{Simulation, Size};
 use std::time::Duration;
 
-/// Runs of a scene, of which the fastest counts: what other programs do to a run only makes it slower.
-const LEAST_RUNS: usize = 3;
-/// Short ones are repeated more often, until they have taken so long together.
-const ENOUGH: Duration = Duration::from_millis(200);
-/// But no more often.
-const MOST_RUNS: usize = 200;
+/// Runs of a scene, of which the fastest counts.
+const REPEATS: Repeats = Repeats { least: 3, enough: Duration::from_millis(200), most: 200 };
 /// States along a run at which the right-hand side is evaluated.
 const STATES: usize = 400;
 /// Evaluations of each in one measurement.
@@ -62,25 +58,17 @@ impl Price {
             step: file.run.step,
             tolerance: None,
         };
-        let mut least = Duration::MAX;
-        let mut total = Duration::ZERO;
-        let mut counts = [0.0; 3];
-        for run in 1..=MOST_RUNS {
-            let (spent, outputs) = march(fmu, &experiment)?;
-            (least, total) = (least.min(spent), total + spent);
-            for (count, name) in counts.iter_mut().zip(["evaluations", "steps", "events"]) {
-                let column = outputs.column(&format!("solver.{name}"))?;
-                *count = column.last().context("a run without an end")? / span;
-            }
-            if run >= LEAST_RUNS && total >= ENOUGH {
-                break;
-            }
-        }
-        let [evaluations, steps, events] = counts;
+        let March { trajectory, spent, ending, .. } = REPEATS.fastest(fmu, &experiment, Duration::MAX)?;
+        ensure!(ending == Ending::Reached, "the run ended early: {ending:?}");
+        let count = |name: &str| -> Result<f64> {
+            let column = trajectory.column(&format!("solver.{name}"))?;
+            Ok(column.last().context("a run without an end")? / span)
+        };
+        let (evaluations, steps, events) = (count("evaluations")?, count("steps")?, count("events")?);
         let simulation = Simulation::start(&file.scene, 0.0, inputs_at_start(file))?;
         let size = simulation.size();
         let evaluation = evaluation(simulation, span)?;
-        let time = least.as_secs_f64() / span;
+        let time = spent.as_secs_f64() / span;
         Ok(Self { scene: file.name.clone(), size, evaluation, evaluations, steps, events, time })
     }
 }

@@ -1,7 +1,7 @@
 //! The command line: without a command it packages a scene, runs it through the packaged file and reports.
 
 use clap::{Parser, Subcommand};
-use fmu_harness::command::{Effects, Inspect, Package, Run};
+use fmu_harness::command::{Effects, Inspect, Package, Peers, Precision, Realtime, Run};
 use std::process::ExitCode;
 
 /// Builds, packages and runs the slider-crank FMU.
@@ -27,6 +27,12 @@ enum Command {
     Inspect(Inspect),
     /// Prices every effect
     Effects(Effects),
+    /// Times the same scene in what people use instead
+    Peers(Peers),
+    /// Shows what accuracy costs
+    Precision(Precision),
+    /// Times single communication steps
+    Realtime(Realtime),
 }
 
 fn main() -> ExitCode {
@@ -37,6 +43,9 @@ fn main() -> ExitCode {
         Some(Command::Run(run)) => run.execute(),
         Some(Command::Inspect(inspect)) => inspect.execute(),
         Some(Command::Effects(effects)) => effects.execute(),
+        Some(Command::Peers(peers)) => peers.execute(),
+        Some(Command::Precision(precision)) => precision.execute(),
+        Some(Command::Realtime(realtime)) => realtime.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

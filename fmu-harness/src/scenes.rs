@@ -19,13 +19,18 @@ pub struct Scenario {
 impl Scenario {
     /// Reads the scene of this name, or the file at this path.
     pub fn find(name_or_file: &str) -> Result<Self> {
-        let file = if name_or_file.ends_with(".toml") { name_or_file.into() } else { shipped(name_or_file)? };
+        let file = file(name_or_file)?;
         let shown = file.display().to_string();
         let text = fs::read_to_string(&file).with_context(|| format!("cannot read {shown}"))?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let file = read(&text, &shown)?;
         Ok(Self { name, text, file })
     }
+}
+
+/// Where the scene of this name is, or the file at this path.
+pub fn file(name_or_file: &str) -> Result<PathBuf> {
+    if name_or_file.ends_with(".toml") { Ok(name_or_file.into()) } else { shipped(name_or_file) }
 }
 
 /// The file of a shipped scene.
@@ -35,7 +40,7 @@ fn shipped(name: &str) -> Result<PathBuf> {
     if file.is_file() {
         return Ok(file);
     }
-    let shipped = [names(&directory), ladder()].concat().join(", ");
+    let shipped = [names(&directory), ladder(), contests()].concat().join(", ");
     bail!("no scene `{name}`: shipped are {shipped}; or give a file that ends in .toml")
 }
 
@@ -47,6 +52,11 @@ pub fn directory() -> PathBuf {
 /// The ladder of effects: names of shipped scenes, each of which has one effect more than the one before.
 pub fn ladder() -> Vec<String> {
     names(&directory().join("effects")).into_iter().map(|name| format!("effects/{name}")).collect()
+}
+
+/// The scenes on which others are timed.
+pub fn contests() -> Vec<String> {
+    names(&directory().join("peers")).into_iter().map(|name| format!("peers/{name}")).collect()
 }
 
 /// Names of the scenes in a directory, sorted.

@@ -1,9 +1,9 @@
 //! Error norm and step-size control.
 
 use super::memory::Front;
+use super::method::Method;
 use super::problem::{Extent, Problem};
 use super::stages::Attempt;
-use super::tableau::Method;
 use crate::math;
 
 /// How accurate, or how long a step.
@@ -42,7 +42,7 @@ pub fn norm<const N: usize, M: Method, P: Problem<N> + ?Sized>(
         return f64::INFINITY;
     }
     let fine = square(&attempt.error);
-    if M::TABLEAU.coarse_error.is_none() {
+    if !M::COARSE {
         return fine.sqrt();
     }
     // DOP853: the coarse estimate keeps the fine one from vanishing by chance.
@@ -63,7 +63,7 @@ pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt
 /// By how much the next step is longer after an accepted one.
 pub fn growth<M: Method>(error: f64, last_error: f64) -> f64 {
     let error = error.max(1e-10);
-    let exponent = 1.0 / M::TABLEAU.error_power - 0.75 * MEMORY;
+    let exponent = 1.0 / M::ERROR_POWER - 0.75 * MEMORY;
     let factor = SAFETY * math::rough_power(error, -exponent) * math::rough_power(last_error, MEMORY);
     factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
 }
@@ -71,7 +71,7 @@ pub fn growth<M: Method>(error: f64, last_error: f64) -> f64 {
 /// By how much the step is shorter after a rejected one.
 pub fn shrinkage<M: Method>(error: f64) -> f64 {
     if error.is_finite() {
-        (SAFETY * math::rough_power(error, -1.0 / M::TABLEAU.error_power)).clamp(LEAST_FACTOR, SAFETY)
+        (SAFETY * math::rough_power(error, -1.0 / M::ERROR_POWER)).clamp(LEAST_FACTOR, SAFETY)
     } else {
         0.1
     }

@@ -1,5 +1,6 @@
 //! Why the integrator cannot go on.
 
+use super::problem::Guard;
 use std::fmt;
 
 /// The time reached, and the cause. The state at that time is intact.
@@ -25,7 +26,7 @@ pub enum IntegrationError {
     EventsAccumulate {
         /// [s] Time reached.
         time: f64,
-        /// The last guard that fell through zero.
+        /// The guard that is lowest.
         guard: usize,
     },
     /// One advance took more steps than the stated bound.
@@ -35,16 +36,30 @@ pub enum IntegrationError {
         /// The bound.
         steps: u64,
     },
+    /// No impulses satisfy the laws of the rigid contacts that are closed.
+    Complementarity {
+        /// [s] Time reached.
+        time: f64,
+        /// How many are closed.
+        contacts: usize,
+    },
 }
 
 impl IntegrationError {
+    /// Events without end at `time`: the guard that is lowest stands for them.
+    pub(super) fn events_accumulate(time: f64, guards: &[Guard]) -> Self {
+        let lowest = |i: &usize, j: &usize| guards[*i].value.total_cmp(&guards[*j].value);
+        Self::EventsAccumulate { time, guard: (0..guards.len()).min_by(lowest).unwrap_or_default() }
+    }
+
     /// [s] Time reached.
     pub fn time(&self) -> f64 {
         match *self {
             Self::StepUnderflow { time, .. }
             | Self::NotFinite { time, .. }
             | Self::EventsAccumulate { time, .. }
-            | Self::TooManySteps { time, .. } => time,
+            | Self::TooManySteps { time, .. }
+            | Self::Complementarity { time, .. } => time,
         }
     }
 }
@@ -59,10 +74,13 @@ impl fmt::Display for IntegrationError {
                 write!(f, "the rate of component {component} is not finite")
             }
             Self::EventsAccumulate { guard, .. } => {
-                write!(f, "events accumulate; the last was of guard {guard}")
+                write!(f, "events accumulate; guard {guard} is lowest")
             }
             Self::TooManySteps { steps, .. } => {
                 write!(f, "{steps} steps did not reach the communication point")
+            }
+            Self::Complementarity { contacts, .. } => {
+                write!(f, "no impulses satisfy the laws of {contacts} closed contacts at once")
             }
         }
     }

@@ -6,23 +6,33 @@
 //! communication points: [`Integrator::state_at`] interpolates back into the last step, so that the
 //! sequence of steps is the same however a host cuts up time.
 
+pub mod complementarity;
 mod controller;
 pub mod dense_output;
 mod error;
 mod event;
+mod landing;
+mod linear;
 mod memory;
+mod method;
 pub mod methods;
+mod moreau;
 mod problem;
 pub mod root;
+pub mod rosenbrock;
 pub mod stages;
 mod statistics;
 mod step;
 mod tableau;
+mod unilateral;
 
 pub use controller::Settings;
 pub use error::IntegrationError;
 pub use memory::{Front, Memory};
+pub use method::{Method, Room};
+pub use moreau::Moreau;
 pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
 pub use statistics::Statistics;
 pub use step::Integrator;
-pub use tableau::{Method, Tableau};
+pub use tableau::{Explicit, Tableau};
+pub use unilateral::{ContactLaw, Impulses, Relative, Unilateral};

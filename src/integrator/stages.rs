@@ -2,7 +2,7 @@
 
 use super::memory::Front;
 use super::problem::{Extent, Problem};
-use super::tableau::{Method, STAGES};
+use super::tableau::{Explicit, STAGES};
 
 /// An attempted step, and room to make it.
 pub struct Attempt<const N: usize> {
@@ -32,24 +32,24 @@ impl<const N: usize> Attempt<N> {
         unseen: [0.0; N],
     };
 
-    /// Attempts a step of `h` from `start`.
+    /// Attempts a step of `h` from `start` by an explicit method.
     #[inline(never)] // one copy for steps, landings and rewinds
-    pub fn make<M: Method, P: Problem<N> + ?Sized>(&mut self, problem: &P, start: &Front<N, P::Modes>, h: f64) {
+    pub fn explicitly<E: Explicit, P: Problem<N> + ?Sized>(&mut self, problem: &P, start: &Front<N, P::Modes>, h: f64) {
         self.k[0] = start.rates;
         let mut stages = Stages { problem, start, h, states: Extent::of(problem).states, made: self };
         // A stage beyond the method's own is not compiled.
-        stages.evaluate::<M, 1>();
-        stages.evaluate::<M, 2>();
-        stages.evaluate::<M, 3>();
-        stages.evaluate::<M, 4>();
-        stages.evaluate::<M, 5>();
-        stages.evaluate::<M, 6>();
-        stages.evaluate::<M, 7>();
-        stages.evaluate::<M, 8>();
-        stages.evaluate::<M, 9>();
-        stages.evaluate::<M, 10>();
-        stages.evaluate::<M, 11>();
-        stages.finish::<M>();
+        stages.evaluate::<E, 1>();
+        stages.evaluate::<E, 2>();
+        stages.evaluate::<E, 3>();
+        stages.evaluate::<E, 4>();
+        stages.evaluate::<E, 5>();
+        stages.evaluate::<E, 6>();
+        stages.evaluate::<E, 7>();
+        stages.evaluate::<E, 8>();
+        stages.evaluate::<E, 9>();
+        stages.evaluate::<E, 10>();
+        stages.evaluate::<E, 11>();
+        stages.finish::<E>();
     }
 }
 
@@ -63,8 +63,8 @@ struct Stages<'a, const N: usize, P: Problem<N> + ?Sized> {
 
 impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     #[inline(always)]
-    fn evaluate<M: Method, const I: usize>(&mut self) {
-        let tableau = const { &M::TABLEAU };
+    fn evaluate<E: Explicit, const I: usize>(&mut self) {
+        let tableau = const { &E::TABLEAU };
         if I < tableau.stages {
             let Self { problem, start, h, states, made } = self;
             let (earlier, later) = made.k.split_at_mut(I);
@@ -74,8 +74,8 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     }
 
     #[inline(always)]
-    fn finish<M: Method>(&mut self) {
-        let tableau = const { &M::TABLEAU };
+    fn finish<E: Explicit>(&mut self) {
+        let tableau = const { &E::TABLEAU };
         let Self { start, h, states, made, .. } = self;
         let k = &made.k[..tableau.stages];
         combine(&mut made.y, &start.y, *h, &tableau.b, k, *states);
@@ -86,16 +86,16 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
         if tableau.first_same_as_last {
             made.rates = made.k[tableau.stages - 1];
         }
-        self.see::<M>();
+        self.see::<E>();
     }
 
     /// A force that sets in early throws the stages after it out of its reach if the step is far too
     /// long; they see nothing, agree with each other, and the estimate is small for a step that missed
     /// everything. The early stages themselves give it away.
     #[inline(always)]
-    fn see<M: Method>(&mut self) {
-        let tableau = const { &M::TABLEAU };
-        let weighed = const { M::TABLEAU.first_weighed_stage() };
+    fn see<E: Explicit>(&mut self) {
+        let tableau = const { &E::TABLEAU };
+        let weighed = const { E::TABLEAU.first_weighed_stage() };
         let Attempt { k, unseen, .. } = &mut *self.made;
         for (i, unseen) in unseen.iter_mut().enumerate().take(self.states) {
             let (first, late) = (k[0][i], k[weighed][i]);

@@ -5,29 +5,24 @@ use super::dense_output::Correction;
 use super::error::IntegrationError;
 use super::event;
 use super::memory::{Front, Memory};
-use super::problem::{Crossed, Extent, GUARDS, Guard, Problem};
+use super::method::{Method, Room};
+use super::problem::{Extent, GUARDS, Guard, Problem};
 use super::stages::Attempt;
 use super::statistics::Statistics;
-use super::tableau::Method;
-use std::marker::PhantomData;
 
 /// Most events without time passing.
-const STANDSTILL: usize = 64;
-/// Most times that a landing is repeated to bring the guard closer to zero.
-const LANDINGS: usize = 3;
-/// A guard this share of a tolerable error away from zero has been landed on.
-const LANDED: f64 = 0.1;
+pub(super) const STANDSTILL: usize = 64;
 /// Most steps of one advance.
-const STEPS: u64 = 200_000_000;
+pub(super) const STEPS: u64 = 200_000_000;
 
-/// An explicit Runge-Kutta integrator with event location.
-pub struct Integrator<const N: usize, D, M> {
-    settings: Settings,
-    memory: Memory<N, D>,
-    guards: [Guard; GUARDS],
+/// A one-step integrator with event location.
+pub struct Integrator<const N: usize, D, M: Method> {
+    pub(super) settings: Settings,
+    pub(super) memory: Memory<N, D>,
+    pub(super) guards: [Guard; GUARDS],
     correction: Option<Correction<N>>,
-    made: Attempt<N>,
-    method: PhantomData<M>,
+    pub(super) made: Attempt<N>,
+    room: M::Room<N>,
 }
 
 impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
@@ -52,7 +47,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let mut guards = [Guard::default(); GUARDS];
         let front = &memory.front;
         problem.guards(&front.modes, front.t, &front.y, &mut guards);
-        Self { settings, memory, guards, correction: None, made: Attempt::NONE, method: PhantomData }
+        Self { settings, memory, guards, correction: None, made: Attempt::NONE, room: Room::NEW }
     }
 
     /// All that is needed to go on.
@@ -68,12 +63,18 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
+        let mut standing = 0;
         for _ in 0..STEPS {
-            if self.memory.front.t >= t {
+            let front = self.memory.front.t;
+            if front >= t {
                 return Ok(());
             }
             self.settle(problem)?;
             self.step(problem)?;
+            standing = if self.memory.front.t > front { 0 } else { standing + 1 };
+            if standing == STANDSTILL {
+                return Err(IntegrationError::events_accumulate(front, &self.guards[..problem.guard_count()]));
+            }
         }
         Err(IntegrationError::TooManySteps { time: self.memory.front.t, steps: STEPS })
     }
@@ -86,6 +87,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let Memory { start, front, .. } = &self.memory;
         if t >= front.t {
             return (front.y, front.modes);
+        }
+        if !M::INTERPOLATES {
+            let (t0, modes) = (start.t, start.modes);
+            M::attempt(&mut self.made, &mut self.room, problem, start, t - t0);
+            return (if t > t0 { self.made.y } else { self.memory.start.y }, modes);
         }
         let step = self.memory.last_step(Extent::of(problem));
         let tolerance = self.settings.tolerance;
@@ -116,39 +122,20 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// Attempts a step of `h` from the start of the last one.
-    fn attempt<P>(&mut self, problem: &P, h: f64)
+    pub(super) fn attempt<P>(&mut self, problem: &P, h: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        self.memory.statistics.evaluations += M::TABLEAU.stages as u64 - 1;
-        self.made.make::<M, P>(problem, &self.memory.start, h);
+        self.memory.statistics.evaluations += M::EVALUATIONS;
+        M::attempt(&mut self.made, &mut self.room, problem, &self.memory.start, h);
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
-    pub fn refresh<P>(&mut self, problem: &P)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
+    pub fn refresh<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P) {
         let front = &mut self.memory.front;
         problem.rates(&front.modes, front.t, &front.y, &mut front.rates);
         problem.guards(&front.modes, front.t, &front.y, &mut self.guards);
         self.memory.statistics.evaluations += 1;
-    }
-
-    /// Handles the guards that are at or below zero and falling where the next step starts.
-    fn settle<P>(&mut self, problem: &P) -> Result<(), IntegrationError>
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let count = problem.guard_count();
-        for _ in 0..STANDSTILL {
-            let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
-                return Ok(());
-            };
-            self.cross(problem, guard, 0.0);
-        }
-        let guard = (0..count).find(|&i| has_fallen(&self.guards[i])).unwrap_or_default();
-        Err(IntegrationError::EventsAccumulate { time: self.memory.front.t, guard })
     }
 
     /// One accepted step, up to the first event in it.
@@ -174,6 +161,10 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if problem.guard_count() == 0 {
             return Ok(());
         }
+        if !M::LOCATES {
+            self.notice(problem);
+            return Ok(());
+        }
         let step = self.memory.last_step(Extent::of(problem));
         if let Some((share, guard)) = event::first(problem, &self.memory.start.modes, &step, &before, &self.guards) {
             self.land(problem, h, share, guard);
@@ -186,8 +177,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let adaptive = M::TABLEAU.error.iter().any(|&weight| weight != 0.0);
-        let mut wanted = if adaptive { self.memory.step } else { self.settings.fixed_step };
+        let mut wanted = if M::ADAPTIVE { self.memory.step } else { self.settings.fixed_step };
         let mut rejected = false;
         let time = self.memory.start.t;
         loop {
@@ -216,13 +206,13 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     }
 
     /// Makes the attempt the step that ends at `t`.
-    fn commit<P>(&mut self, problem: &P, t: f64)
+    pub(super) fn commit<P>(&mut self, problem: &P, t: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
         let modes = self.memory.start.modes;
         let Attempt { y, rates, .. } = &mut self.made;
-        if !M::TABLEAU.first_same_as_last {
+        if !M::GIVES_RATES {
             problem.rates(&modes, t, y, rates);
             self.memory.statistics.evaluations += 1;
         }
@@ -234,61 +224,4 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         self.correction = None;
         problem.guards(&modes, t, &self.made.y, &mut self.guards);
     }
-
-    /// Repeats the step up to the event at `share` of it and crosses the event.
-    fn land<P>(&mut self, problem: &P, h: f64, share: f64, guard: usize)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let start = self.memory.start;
-        // The step that was too long is made anew, shorter.
-        self.memory.statistics.steps -= 1;
-        let close = LANDED * self.settings.tolerance * problem.guard_scale();
-        let mut t = start.t + share * h;
-        for landing in 1..=LANDINGS {
-            if t <= start.t {
-                self.memory.end = start;
-                self.memory.front = start;
-                self.refresh(problem);
-                break;
-            }
-            self.attempt(problem, t - start.t);
-            problem.guards(&start.modes, t, &self.made.y, &mut self.guards);
-            let Guard { value, rate } = self.guards[guard];
-            let better = t - value / rate;
-            let useful = rate < 0.0 && better < start.t + h && better != t;
-            if landing == LANDINGS || value.abs() <= close || !useful {
-                self.commit(problem, t);
-                break;
-            }
-            t = better;
-        }
-        self.cross(problem, guard, close);
-    }
-
-    /// Crosses the event of `guard` at the front, and of all guards that have fallen with it: those
-    /// within `close` of zero.
-    fn cross<P>(&mut self, problem: &P, guard: usize, close: f64)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let mut crossed: Crossed = [false; GUARDS];
-        for (i, crossed) in crossed.iter_mut().enumerate().take(problem.guard_count()) {
-            let Guard { value, rate } = self.guards[i];
-            *crossed = i == guard || (value <= close && rate < 0.0);
-            self.memory.crossings += u64::from(*crossed);
-            self.memory.statistics.events += u64::from(*crossed);
-        }
-        let front = &mut self.memory.front;
-        let reset = problem.cross(&front.modes, front.t, &mut front.y, &crossed);
-        front.modes = reset.modes;
-        if let Some(step) = reset.step {
-            self.memory.step = self.memory.step.min(step);
-        }
-        self.refresh(problem);
-    }
-}
-
-fn has_fallen(guard: &Guard) -> bool {
-    guard.value <= 0.0 && guard.rate < 0.0
 }

@@ -1,5 +1,10 @@
 //! Butcher tableaux, as printed in their sources and summed up by the compiler.
 
+use super::memory::Front;
+use super::method::Method;
+use super::problem::Problem;
+use super::stages::Attempt;
+
 /// Most stages that a method may have.
 pub const STAGES: usize = 12;
 
@@ -27,12 +32,37 @@ pub struct Tableau {
     pub first_same_as_last: bool,
 }
 
-/// A Runge-Kutta method.
-pub trait Method: Send + Sync + 'static {
+/// An explicit Runge-Kutta method.
+pub trait Explicit: Send + Sync + 'static {
     /// Name in the `solver.method` enumeration.
     const NAME: &'static str;
     /// Its coefficients.
     const TABLEAU: Tableau;
+    /// Events are located and landed on.
+    const LOCATES: bool = true;
+}
+
+impl<E: Explicit> Method for E {
+    const NAME: &'static str = E::NAME;
+    const ORDER: u32 = E::TABLEAU.order;
+    const ADAPTIVE: bool = E::TABLEAU.first_weighed_stage() != 0;
+    const ERROR_POWER: f64 = E::TABLEAU.error_power;
+    const COARSE: bool = E::TABLEAU.coarse_error.is_some();
+    const GIVES_RATES: bool = E::TABLEAU.first_same_as_last;
+    const LOCATES: bool = E::LOCATES;
+    const INTERPOLATES: bool = true;
+    const EVALUATIONS: u64 = E::TABLEAU.stages as u64 - 1;
+    type Room<const N: usize> = ();
+
+    fn attempt<const N: usize, P: Problem<N> + ?Sized>(
+        made: &mut Attempt<N>,
+        (): &mut (),
+        problem: &P,
+        start: &Front<N, P::Modes>,
+        h: f64,
+    ) {
+        made.explicitly::<E, P>(problem, start, h);
+    }
 }
 
 impl Tableau {

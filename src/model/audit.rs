@@ -20,7 +20,7 @@ use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, Reset, Unilateral};
 use crate::math::Real;
 use crate::scene::Scene;
 
@@ -179,6 +179,8 @@ impl<const N: usize> Problem<N> for Audited<N> {
         self.plant.cross(contacts, t, y, crossed)
     }
 }
+
+impl<const N: usize> Unilateral<N> for Audited<N> {}
 
 impl<const N: usize> Plant<N> for Audited<N> {
     fn start(&self, pose: &StartPose) -> [f64; N] {

@@ -8,9 +8,10 @@ use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, Guide};
 use super::joint::revolute::Revolute;
 use super::mechanism::{CRANK, ROD, SLIDER, bodies};
+use super::rigid;
 use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
-use crate::integrator::{Crossed, GUARDS, Guard, Reset};
+use crate::integrator::{ContactLaw, Crossed, GUARDS, Guard, Reset};
 use crate::scene::Scene;
 
 /// Share of a contact's duration for the first step into it.
@@ -19,12 +20,14 @@ const FIRST_SHARE: f64 = 0.03;
 /// The joints of a scene as contacts.
 #[derive(Clone, Debug)]
 pub struct Clearances {
-    revolute: [Revolute; 3],
-    guide: Guide,
+    pub(super) revolute: [Revolute; 3],
+    pub(super) guide: Guide,
     /// [kg] Of crank, rod and slider.
     mass: [f64; 3],
     /// The contacts with bristles, in the order of their states.
     pub bristles: Vec<usize>,
+    /// Restitution and friction of rigid contacts.
+    pub(super) laws: [ContactLaw; CONTACTS],
 }
 
 impl Clearances {
@@ -36,6 +39,7 @@ impl Clearances {
             guide: Guide::new(scene),
             mass: bodies(scene).map(|body| body.mass),
             bristles: bristled_contacts(scene).into_iter().map(|(contact, _)| contact).collect(),
+            laws: rigid::laws(scene),
         }
     }
 

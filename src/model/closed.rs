@@ -14,7 +14,7 @@ use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset, Unilateral};
 use crate::math::{self, Real};
 use crate::scene::Scene;
 
@@ -200,6 +200,8 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
         Reset { modes: *contacts, step: None }
     }
 }
+
+impl<const SPEED: bool, const N: usize> Unilateral<N> for Closed<SPEED, N> {}
 
 impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
     fn start(&self, pose: &StartPose) -> [f64; N] {

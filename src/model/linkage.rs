@@ -104,7 +104,7 @@ impl Linkage {
     }
 
     #[inline(always)]
-    fn loads<R: Scalar>(
+    pub(super) fn loads<R: Scalar>(
         &self,
         arrangement: Arrangement,
         contacts: &Contacts,
@@ -136,24 +136,42 @@ impl Linkage {
     /// bristles as far as `rates` has room.
     #[inline(always)]
     pub fn rates<R: Scalar>(&self, arrangement: Arrangement, contacts: &Contacts, t: R, y: &[R], rates: &mut [R]) {
-        let Arrangement { topology, layout, positions: p, .. } = arrangement;
+        let p = arrangement.positions;
         let pose = self.pose(arrangement, t, y);
         let loads = self.loads(arrangement, contacts, t, &y[2 * p..], &pose);
-        let accelerations = self.accelerations(topology, &pose, &loads);
-        let (motion, bristles) = rates.split_at_mut(2 * p);
-        let (velocities, forced) = motion.split_at_mut(p);
+        self.write_rates(arrangement, &pose, &loads, y, rates);
+        self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * p..]);
+    }
+
+    /// Writes velocities and accelerations.
+    #[inline(always)]
+    pub(super) fn write_rates<R: Scalar>(
+        &self,
+        arrangement: Arrangement,
+        pose: &Pose<R>,
+        loads: &Loads<R>,
+        y: &[R],
+        rates: &mut [R],
+    ) {
+        let Arrangement { topology, layout, positions: p, .. } = arrangement;
+        let accelerations = self.accelerations(topology, pose, loads);
+        let (velocities, forced) = rates[..2 * p].split_at_mut(p);
         velocities.copy_from_slice(&y[p..2 * p]);
         layout.set_roots(&accelerations.roots, forced);
         layout.set_angles(&accelerations.angle, forced);
-        self.clearances.write_bristle_rates(&loads.bristle_rate, bristles);
     }
 
     /// Everything about one instant.
     #[inline(always)]
     pub fn instant<R: Scalar>(&self, arrangement: Arrangement, contacts: &Contacts, t: R, y: &[R]) -> Instant<R> {
-        let Arrangement { topology, positions: p, .. } = arrangement;
         let pose = self.pose(arrangement, t, y);
-        let loads = self.loads(arrangement, contacts, t, &y[2 * p..], &pose);
+        self.instant_of(arrangement, pose, self.loads(arrangement, contacts, t, &y[2 * arrangement.positions..], &pose))
+    }
+
+    /// Everything about an instant with this pose and these loads.
+    #[inline(always)]
+    pub(super) fn instant_of<R: Scalar>(&self, arrangement: Arrangement, pose: Pose<R>, loads: Loads<R>) -> Instant<R> {
+        let topology = arrangement.topology;
         let Accelerations { roots, angle } = self.accelerations(topology, &pose, &loads);
         let forced = Acceleration(&pose.turning, &angle);
         let acceleration = walk(topology, &self.bodies, &self.chains, &roots, forced);

@@ -27,6 +27,7 @@ pub mod outputs;
 pub mod plane;
 pub mod plant;
 pub mod reactions;
+pub mod rigid;
 pub mod rod;
 pub mod scalar;
 pub mod scales;

@@ -16,13 +16,13 @@ use super::scalar::Tangent;
 use super::scales;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Impulses, Jacobian, Problem, ROOM, Reset};
 use crate::scene::Scene;
 
 /// An open mechanism with its constants and its inputs.
 #[derive(Clone, Debug)]
 pub struct Open<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> {
-    linkage: Linkage,
+    pub(super) linkage: Linkage,
     scales: [f64; N],
     longest_step: f64,
     guard_scale: f64,
@@ -31,9 +31,9 @@ pub struct Open<const A: bool, const B: bool, const C: bool, const T: bool, cons
 impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize>
     Open<A, B, C, T, SPEED, N>
 {
-    const ARRANGEMENT: Arrangement = Arrangement::new(Topology { a: A, b: B, c: C, t: T, speed: SPEED });
+    pub(super) const ARRANGEMENT: Arrangement = Arrangement::new(Topology { a: A, b: B, c: C, t: T, speed: SPEED });
     /// Number of positions.
-    const P: usize = Self::ARRANGEMENT.positions;
+    pub(super) const P: usize = Self::ARRANGEMENT.positions;
     /// There are states beside positions and rates.
     const ROOMY: bool = N >= ROOM;
 
@@ -61,7 +61,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     #[inline(always)]
-    fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
+    pub(super) fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
         self.linkage.pose(Self::ARRANGEMENT, t, y)
     }
 }
@@ -152,6 +152,17 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
 
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
         self.linkage.instant(Self::ARRANGEMENT, contacts, t, y)
+    }
+
+    fn instant_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
+        let pose = self.pose(t, y);
+        self.linkage.instant_of(Self::ARRANGEMENT, pose, self.loads_under(impulses, t, y, &pose))
+    }
+
+    fn rates_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+        let pose = self.pose(t, y);
+        let loads = self.loads_under(impulses, t, y, &pose);
+        self.linkage.write_rates(Self::ARRANGEMENT, &pose, &loads, y, rates);
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {

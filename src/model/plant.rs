@@ -7,10 +7,10 @@ use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::Problem;
+use crate::integrator::{Impulses, Unilateral};
 
 /// A mechanism in minimal coordinates.
-pub trait Plant<const N: usize>: Problem<N, Modes = Contacts> + Send {
+pub trait Plant<const N: usize>: Unilateral<N, Modes = Contacts> + Send {
     /// The state of a start pose.
     fn start(&self, pose: &StartPose) -> [f64; N];
 
@@ -31,6 +31,16 @@ pub trait Plant<const N: usize>: Problem<N, Modes = Contacts> + Send {
 
     /// Everything about one instant.
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant;
+
+    /// Everything about one instant of a motion with rigid contacts, whose forces are those of `impulses`.
+    fn instant_under(&self, _: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
+        self.instant(&Contacts::default(), t, y)
+    }
+
+    /// The rates of that instant.
+    fn rates_under(&self, _: &Impulses<N>, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+        self.rates(&Contacts::default(), t, y, rates);
+    }
 
     /// [m] Penetration in the joints A, B, C and of the guide's corners at a pose, −∞ in an ideal joint.
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];

@@ -3,7 +3,7 @@
 use super::closure::{rise, rod_sine};
 use super::modal_check::TableError;
 use super::parameter::{PARAMETERS, Parameter, Refusal};
-use super::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Point, Scene, Surface};
+use super::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Method, Point, Scene, Surface};
 use crate::model_description::number::number;
 use std::fmt;
 
@@ -59,7 +59,10 @@ impl Scene {
     pub fn check(&self) -> Result<(), SceneError> {
         let in_range = |parameter: &Parameter| parameter.admit(parameter.value(self)).map_err(SceneError::Range);
         PARAMETERS.iter().try_for_each(in_range)?;
+        self.check_method()?;
         let joints = &self.joint;
+        // Rigid contacts use nothing of a compliant contact's parameters.
+        let compliant = self.solver.method != Method::Moreau;
         for (letter, joint) in [("A", &joints.a), ("B", &joints.b), ("C", &joints.c)] {
             if joint.model == JointModel::Ideal {
                 continue;
@@ -71,13 +74,16 @@ impl Scene {
             rule(x.hypot(y) < radius, letter, "eccentricity_start.x", x, || {
                 format!("with .y = {} m, less than joint.{letter}.radius = {} m away", number(y), number(radius))
             })?;
+            if !compliant {
+                continue;
+            }
             let width = joint.contact.width;
             let has_width = joint.elasticity != Elasticity::Liu || width > 0.0;
             rule(has_width, letter, "width", width, || "above 0 m for elasticity liu".into())?;
             check_contact(letter, &joint.contact)?;
         }
         let guide = &joints.t;
-        if guide.model == JointModel::Clearance {
+        if guide.model == JointModel::Clearance && compliant {
             let width = guide.contact.width;
             let half_space = guide.surface == Surface::Foundation && guide.foundation_stiffness == 0.0;
             rule(!half_space || width > 0.0, "T", "width", width, || {
@@ -138,7 +144,13 @@ fn check_contact(letter: &str, contact: &Contact) -> Result<(), SceneError> {
     })
 }
 
-fn rule(holds: bool, letter: &str, what: &str, value: f64, allowed: impl FnOnce() -> String) -> Result<(), SceneError> {
+pub(super) fn rule(
+    holds: bool,
+    letter: &str,
+    what: &str,
+    value: f64,
+    allowed: impl FnOnce() -> String,
+) -> Result<(), SceneError> {
     if holds {
         return Ok(());
     }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Declares an enumeration by its items' values and names on the FMU's face.
+/// Declares an enumeration by its items' values, their names on the FMU's face, and their properties.
 macro_rules! enumeration {
-    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $value:literal = $text:literal),+ $(,)? }) => {
+    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $value:literal = $text:literal [$($property:literal),*]),+ $(,)? }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
         #[repr(i32)]
@@ -15,6 +15,9 @@ macro_rules! enumeration {
         impl $name {
             /// Names and values of the items.
             pub const ITEMS: &[(&str, i32)] = &[$(($text, $value)),+];
+
+            /// All items.
+            pub const ALL: &[Self] = &[$(Self::$item),+];
 
             /// The item of this value, if there is one.
             pub fn from_value(value: i32) -> Option<Self> {
@@ -34,6 +37,14 @@ macro_rules! enumeration {
                 match self {
                     $(Self::$item => $text,)+
                 }
+            }
+
+            /// Whether the declaration gives it this property.
+            pub fn has(self, property: &str) -> bool {
+                let properties: &[&str] = match self {
+                    $(Self::$item => &[$($property),*],)+
+                };
+                properties.contains(&property)
             }
         }
     };

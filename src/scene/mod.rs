@@ -3,6 +3,7 @@
 pub mod check;
 pub mod closure;
 pub mod enumerations;
+mod method_check;
 pub mod modal;
 pub mod modal_check;
 pub mod parameter;

@@ -1,8 +1,9 @@
 //! Chooses the compiled mechanism and method that a scene calls for.
 
 use super::run::{Motion, Run};
+use super::time_stepping::TimeStepping;
 use crate::integrator::ROOM;
-use crate::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
+use crate::integrator::methods::{Bs3, Dop853, Dopri5, Rk4, Rk4Unlocated, Rodas4, Verner7};
 use crate::model::audit::{self, Audited};
 use crate::model::bristles::bristled_contacts;
 use crate::model::closed::Closed;
@@ -126,5 +127,9 @@ fn with_method<const N: usize, P: Plant<N> + 'static>(
         Method::Verner7 => Box::new(Run::<N, Verner7>::start(scene, time, pose, plant)),
         Method::Dop853 => Box::new(Run::<N, Dop853>::start(scene, time, pose, plant)),
         Method::Rk4 => Box::new(Run::<N, Rk4>::start(scene, time, pose, plant)),
+        Method::Bs3 => Box::new(Run::<N, Bs3>::start(scene, time, pose, plant)),
+        Method::Rodas4 => Box::new(Run::<N, Rodas4>::start(scene, time, pose, plant)),
+        Method::Rk4Unlocated => Box::new(Run::<N, Rk4Unlocated>::start(scene, time, pose, plant)),
+        Method::Moreau => Box::new(TimeStepping::<N>::start(scene, time, pose, plant)),
     }
 }

@@ -2,11 +2,15 @@
 
 mod assemble;
 mod equations;
+mod record;
 mod run;
 mod snapshot;
+mod system;
+mod time_stepping;
 
 pub use equations::Linearization;
 pub use snapshot::Snapshot;
+pub use system::System;
 
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
@@ -63,15 +67,21 @@ impl fmt::Display for SimulationError {
 
 impl std::error::Error for SimulationError {}
 
+/// Where a scene starts.
+fn start_pose(scene: &Scene) -> Result<StartPose, SimulationError> {
+    StartPose::of(scene).ok_or_else(|| {
+        SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
+    })
+}
+
 impl Simulation {
     /// Assembles the scene's mechanism and puts it in its start position at `time` [s].
     ///
     /// # Errors
-    /// `Scene` if the start position does not close the loop.
+    /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
-        let pose = StartPose::of(scene).ok_or_else(|| {
-            SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
-        })?;
+        scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
+        let pose = start_pose(scene)?;
         let signal = InputSignal { at: time, value: inputs, rate: Inputs::default() };
         Ok(Self { motion: assemble::start(scene, time, &pose, signal), time })
     }

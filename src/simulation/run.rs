@@ -2,15 +2,16 @@
 
 use super::Size;
 use super::equations::Linearization;
+use super::record;
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Extent, Front, IntegrationError, Integrator, Jacobian, Memory, Method, Settings, Statistics};
-use crate::model::contact::ContactMode;
+use super::system::{Bare, Equations};
+use crate::integrator::{Extent, Front, IntegrationError, Integrator, Jacobian, Method, Settings, Statistics};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
 use crate::model::signals::{Inputs, Outputs, SolverOutputs};
 use crate::model::start::StartPose;
-use crate::model::state::{CONTACTS, Contacts};
+use crate::model::state::Contacts;
 use crate::scene::Scene;
 use std::hint::black_box;
 
@@ -30,6 +31,8 @@ pub trait Motion: Send {
     fn size(&self) -> Size;
     /// Evaluates the right-hand side where the next step starts.
     fn evaluate(&self, times: usize);
+    /// Its equations, from where the next step starts.
+    fn equations(self: Box<Self>) -> Box<dyn Equations>;
     /// Evaluates its derivatives there.
     fn differentiate(&self, times: usize);
     /// Time and states there.
@@ -45,7 +48,7 @@ pub trait Motion: Send {
 }
 
 /// A mechanism of `N` states under the method `M`.
-pub struct Run<const N: usize, M> {
+pub struct Run<const N: usize, M: Method> {
     plant: Box<dyn Plant<N>>,
     integrator: Integrator<N, Contacts, M>,
     settings: Settings,
@@ -53,7 +56,7 @@ pub struct Run<const N: usize, M> {
 }
 
 /// [s] Half the interval over which an output's derivative is taken.
-const DIFFERENCE: f64 = 1e-8;
+pub const DIFFERENCE: f64 = 1e-8;
 
 impl<const N: usize, M: Method> Run<N, M> {
     /// Starts `plant` at `time` from `pose`.
@@ -102,14 +105,7 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
     fn outputs(&mut self, t: f64) -> Outputs {
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
         let mut outputs = self.observe(&contacts, t, &y);
-        let Statistics { steps, rejected, evaluations, events } = self.integrator.memory().statistics_at(t);
-        let count = |n: u64| i32::try_from(n).unwrap_or(i32::MAX);
-        outputs.solver = SolverOutputs {
-            steps: count(steps),
-            rejected: count(rejected),
-            evaluations: count(evaluations),
-            events: count(events),
-        };
+        outputs.solver = solver_outputs(self.integrator.memory().statistics_at(t));
         outputs
     }
 
@@ -147,6 +143,11 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         }
     }
 
+    fn equations(self: Box<Self>) -> Box<dyn Equations> {
+        let start = self.integrator.memory().front;
+        Box::new(Bare::new(self.plant, self.observer, start))
+    }
+
     fn differentiate(&self, times: usize) {
         let Front { t, y, modes, .. } = &self.integrator.memory().front;
         let mut jacobian = Jacobian::ZERO;
@@ -168,80 +169,59 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
     }
 
     fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
-        let Extent { positions, states: count, .. } = Extent::of(self.plant.as_ref());
-        let y = filled(states);
-        let mut jacobian = Jacobian::ZERO;
-        self.plant.jacobian(&self.integrator.memory().front.modes, time, &y, &mut jacobian);
-        Linearization {
-            time,
-            states: y[..count].to_vec(),
-            positions,
-            rates: self.rates_at(time, states),
-            by_state: jacobian.state[..count].iter().map(|row| row[..count].to_vec()).collect(),
-            by_time: jacobian.time[..count].to_vec(),
-        }
+        let modes = &self.integrator.memory().front.modes;
+        linearization(self.plant.as_ref(), modes, time, &filled(states))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let Memory { start, end, front, step, last_error, crossings, statistics } = self.integrator.memory();
-        let InputSignal { at, value, rate } = self.plant.signal();
-        let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
-        snapshot.reals.extend(inputs);
-        snapshot.reals.extend([self.plant.start_time(), *step, *last_error]);
-        for Front { t, y, rates, modes } in [start, end, front] {
-            snapshot.reals.push(*t);
-            snapshot.reals.extend(y.iter().chain(rates));
-            snapshot.reals.extend(modes.iter().map(|mode| mode.approach));
-            snapshot.integers.extend(modes.iter().map(|mode| u64::from(mode.closed)));
-        }
-        let Statistics { steps, rejected, evaluations, events } = *statistics;
-        snapshot.integers.extend([*crossings, steps, rejected, evaluations, events]);
-        snapshot.integers.push(N as u64);
+        record::save(self.plant.as_ref(), self.integrator.memory(), snapshot);
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let [at, torque, load, torque_rate, load_rate] = reader.reals()?;
-        let value = Inputs { crank_torque: torque, slider_load: load };
-        let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
-        let [start_time, step, last_error] = reader.reals()?;
-        let (start, end, front) = (front(reader)?, front(reader)?, front(reader)?);
-        let crossings = reader.integer()?;
-        let statistics = Statistics {
-            steps: reader.integer()?,
-            rejected: reader.integer()?,
-            evaluations: reader.integer()?,
-            events: reader.integer()?,
-        };
-        if reader.integer()? != N as u64 {
-            return None;
-        }
-        self.plant.set_signal(InputSignal { at, value, rate });
-        self.plant.set_start_time(start_time);
-        let memory = Memory { start, end, front, step, last_error, crossings, statistics };
+        let memory = record::load(self.plant.as_mut(), reader)?;
         self.integrator = Integrator::resume(self.plant.as_ref(), self.settings, memory);
         Some(())
     }
 }
 
+/// Counters as outputs.
+pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
+    let Statistics { steps, rejected, evaluations, events } = statistics;
+    let count = |n: u64| i32::try_from(n).unwrap_or(i32::MAX);
+    SolverOutputs {
+        steps: count(steps),
+        rejected: count(rejected),
+        evaluations: count(evaluations),
+        events: count(events),
+    }
+}
+
+/// The equations of motion of `plant` near `y` and `time` [s].
+pub fn linearization<const N: usize>(
+    plant: &dyn Plant<N>,
+    contacts: &Contacts,
+    time: f64,
+    y: &[f64; N],
+) -> Linearization {
+    let Extent { positions, states: count, .. } = Extent::of(plant);
+    let (mut rates, mut jacobian) = ([0.0; N], Jacobian::ZERO);
+    plant.rates(contacts, time, y, &mut rates);
+    plant.jacobian(contacts, time, y, &mut jacobian);
+    Linearization {
+        time,
+        states: y[..count].to_vec(),
+        positions,
+        rates: rates[..count].to_vec(),
+        by_state: jacobian.state[..count].iter().map(|row| row[..count].to_vec()).collect(),
+        by_time: jacobian.time[..count].to_vec(),
+    }
+}
+
 /// A list in an array with room, or as much of it as has room.
-fn filled<const N: usize>(list: &[f64]) -> [f64; N] {
+pub fn filled<const N: usize>(list: &[f64]) -> [f64; N] {
     let mut array = [0.0; N];
     for (place, value) in array.iter_mut().zip(list) {
         *place = *value;
     }
     array
-}
-
-fn front<const N: usize>(reader: &mut Reader<'_>) -> Option<Front<N, Contacts>> {
-    let t = reader.real()?;
-    let y = reader.reals()?;
-    let rates = reader.reals()?;
-    let approach = reader.reals::<CONTACTS>()?;
-    let mut modes = Contacts::default();
-    for (mode, approach) in modes.iter_mut().zip(approach) {
-        if reader.integer()? != 0 {
-            *mode = ContactMode::closing(approach, approach);
-        }
-    }
-    Some(Front { t, y, rates, modes })
 }

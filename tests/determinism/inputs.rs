@@ -93,6 +93,7 @@ fn an_input_that_changes_does_so_exactly_at_its_communication_point() {
 fn in_free_flight_the_load_s_impulse_counts_from_the_change_on() {
     // A slider alone on an ideal guide: v = F·t/m from the change on, and x accordingly.
     let mut scene = Scene::default();
+    scene.solver.step = 5e-6;
     scene.joint.c.model = JointModel::Clearance;
     (scene.joint.c.radius, scene.joint.c.clearance) = (0.2, 0.1);
     for method in METHODS {
@@ -113,7 +114,10 @@ fn in_free_flight_the_load_s_impulse_counts_from_the_change_on() {
                 let (u, jerk) = (0.002 + t, 1e4);
                 let v = 100.0 * u + 0.5 * jerk * t * t;
                 let x = 0.17 + 50.0 * u * u + jerk * t * t * t / 6.0;
-                assert!((o.slider.v - v).abs() < 1e-13 && (o.slider.x - x).abs() < 1e-15, "{method:?} at {t}: {o:?}");
+                // The midpoint rule takes a step's mean force for its first: jerk·h³/12 too far in each.
+                let rule = if method == Method::Moreau { jerk * t * scene.solver.step.powi(2) / 12.0 } else { 0.0 };
+                assert!((o.slider.v - v).abs() < 1e-13, "{method:?} at {t}: {o:?}");
+                assert!((o.slider.x - x - rule).abs() < 1e-15, "{method:?} at {t}: {o:?}");
                 assert!((o.slider.a - 100.0 - jerk * t).abs() < 1e-11, "{method:?} at {t}: {}", o.slider.a);
             }
         }

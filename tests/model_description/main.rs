@@ -38,7 +38,7 @@ fn the_description_breaks_no_rule() {
             Kind::Real { max, .. } => max,
             Kind::Integer { max, .. } => f64::from(max),
             Kind::Boolean { start, .. } => f64::from(u8::from(!start)),
-            Kind::Enumeration { items, .. } => items.len() as f64,
+            Kind::Enumeration { items, .. } => items.iter().map(|item| f64::from(item.1)).fold(0.0, f64::max),
         };
         parameter.write(&mut scene, edge).expect("a legal value");
     }

@@ -113,11 +113,20 @@ fn events_without_end_are_refused_where_they_happen() {
     assert!((q - (1.0 - t * t)).abs() < 1e-13 && (v + 2.0 * t).abs() < 1e-13, "{q}, {v} at {t}");
 }
 
+/// At rest on the floor the guard is not falling yet, and falls in every step at its very start.
+#[test]
+fn events_at_the_start_of_every_step_are_refused_too() {
+    let mut integrator = Integrator::<2, (), Verner7>::start(&Stuck, SETTINGS, 0.0, [0.0, 0.0], ());
+    let error = integrator.advance(&Stuck, 3.0).expect_err("time stands still");
+    assert_eq!(error, IntegrationError::EventsAccumulate { time: 0.0, guard: 1 });
+    assert_eq!(integrator.state_at(&Stuck, 0.0).0, [0.0, 0.0]);
+}
+
 #[test]
 fn errors_say_what_where_and_how_much() {
     let error = IntegrationError::StepUnderflow { time: 0.1234, step: 3.1e-18, component: 2 };
     assert_eq!(error.to_string(), "a step of 3.1e-18 s no longer moves time; component 2 sets the error");
     assert_eq!(error.time(), 0.1234);
     let error = IntegrationError::EventsAccumulate { time: 2.0, guard: 4 };
-    assert_eq!(error.to_string(), "events accumulate; the last was of guard 4");
+    assert_eq!(error.to_string(), "events accumulate; guard 4 is lowest");
 }

@@ -129,6 +129,11 @@ fn inside_a_step_a_polynomial_of_degree_five_is_exact() {
             rates[0] = 5.0 * t.powi(4) - 6.0 * t * t;
         }
 
+        fn jacobian(&self, (): &(), t: f64, _: &[f64; N], jacobian: &mut Jacobian<N>) {
+            jacobian.state[0][0] = 0.0;
+            jacobian.time[0] = 20.0 * t.powi(3) - 12.0 * t;
+        }
+
         fn scales(&self) -> &[f64; N] {
             &UNIT
         }

@@ -1,5 +1,6 @@
 //! The integrator on problems with known answers.
 
+mod complementarity;
 mod dense_output;
 mod dual;
 mod events;
@@ -9,3 +10,4 @@ mod free;
 mod order;
 mod polynomials;
 mod step_control;
+mod time_stepping;

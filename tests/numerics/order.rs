@@ -1,25 +1,25 @@
 //! The order of each method and of its error estimate, by a fit on measured errors.
 
 use super::free::{Free, distance, kepler, orbit, power};
-use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
+use slidercrank::integrator::methods::{Bs3, Dop853, Dopri5, Rk4, Verner7};
 use slidercrank::integrator::stages::Attempt;
-use slidercrank::integrator::{Front, Method, Problem};
+use slidercrank::integrator::{Explicit, Front, Problem};
 
 const ECCENTRICITY: f64 = 0.2;
 /// No round part of an orbit, over which errors might cancel.
 const END: f64 = 4.0;
 
-fn step<M: Method>(t: f64, y: &[f64; 4], h: f64) -> Attempt<4> {
+fn step<M: Explicit>(t: f64, y: &[f64; 4], h: f64) -> Attempt<4> {
     let problem = Free { accelerations: kepler };
     let mut rates = [0.0; 4];
     problem.rates(&(), t, y, &mut rates);
     let mut made = Attempt::NONE;
-    made.make::<M, _>(&problem, &Front { t, y: *y, rates, modes: () }, h);
+    made.explicitly::<M, _>(&problem, &Front { t, y: *y, rates, modes: () }, h);
     made
 }
 
 /// Error at the end of this many equal steps.
-fn orbit_error<M: Method>(steps: u32) -> f64 {
+fn orbit_error<M: Explicit>(steps: u32) -> f64 {
     let h = END / f64::from(steps);
     let mut y = orbit(ECCENTRICITY, 0.0);
     for i in 0..steps {
@@ -29,7 +29,7 @@ fn orbit_error<M: Method>(steps: u32) -> f64 {
 }
 
 /// Within ±0.1 the measured order is the tableau's.
-fn has_its_order<M: Method>(steps: &[u32]) {
+fn has_its_order<M: Explicit>(steps: &[u32]) {
     let points: Vec<_> = steps.iter().map(|&n| (f64::from(n).recip(), orbit_error::<M>(n))).collect();
     let order = power(&points);
     let wanted = f64::from(M::TABLEAU.order);
@@ -40,6 +40,7 @@ fn has_its_order<M: Method>(steps: &[u32]) {
 #[test]
 fn the_error_of_an_orbit_falls_with_the_order() {
     has_its_order::<Rk4>(&[400, 560, 800, 1120]);
+    has_its_order::<Bs3>(&[600, 850, 1200, 1700]);
     has_its_order::<Dopri5>(&[150, 200, 280, 400]);
     has_its_order::<Verner7>(&[60, 75, 95, 120]);
     has_its_order::<Dop853>(&[40, 48, 58, 70]);
@@ -51,7 +52,7 @@ fn size(error: &[f64; 4]) -> f64 {
 }
 
 /// The estimate as the controller weighs it: the coarse one keeps the fine one up.
-fn estimate<M: Method>(h: f64) -> f64 {
+fn estimate<M: Explicit>(h: f64) -> f64 {
     let made = step::<M>(0.7, &orbit(ECCENTRICITY, 0.7), h);
     let fine = size(&made.error);
     match M::TABLEAU.coarse_error {
@@ -62,12 +63,13 @@ fn estimate<M: Method>(h: f64) -> f64 {
 
 #[test]
 fn the_error_estimate_falls_with_the_power_that_the_controller_reckons_with() {
-    fn falls<M: Method>(steps: [f64; 4]) {
+    fn falls<M: Explicit>(steps: [f64; 4]) {
         let points = steps.map(|h| (h, estimate::<M>(h)));
         let found = power(&points);
         println!("{}: estimate falls with h^{found:.3}", M::NAME);
         assert!((found - M::TABLEAU.error_power).abs() < 0.1, "{}: power {found}", M::NAME);
     }
+    falls::<Bs3>([0.01, 0.012, 0.015, 0.02]);
     falls::<Dopri5>([0.01, 0.012, 0.015, 0.02]);
     falls::<Verner7>([0.02, 0.024, 0.03, 0.04]);
     falls::<Dop853>([0.02, 0.024, 0.03, 0.04]);
@@ -75,7 +77,7 @@ fn the_error_estimate_falls_with_the_power_that_the_controller_reckons_with() {
 
 #[test]
 fn the_estimate_is_at_least_as_large_as_the_error_of_the_step() {
-    fn covers<M: Method>(h: f64) {
+    fn covers<M: Explicit>(h: f64) {
         for start in [0.0, 0.7, 1.9, 3.0, 4.4] {
             let made = step::<M>(start, &orbit(ECCENTRICITY, start), h);
             let exact = orbit(ECCENTRICITY, start + h);

@@ -61,7 +61,7 @@ fn energy_is_kept_by_elastic_contacts_and_better_so_at_a_tighter_tolerance() {
 }
 
 /// Largest change of both momenta relative to the largest body's, and the contacts met at B and C.
-fn momentum_change(scene: &Scene) -> (f64, f64, i32) {
+pub fn momentum_change(scene: &Scene) -> (f64, f64, i32) {
     let mut simulation = start(scene, Inputs::default());
     let first = motion(scene, &mut simulation);
     let (momentum, angular) = (first.momentum(), first.angular_momentum());
@@ -79,7 +79,7 @@ fn momentum_change(scene: &Scene) -> (f64, f64, i32) {
 }
 
 /// No gravity, and ground joints too wide to be met within the run.
-fn afloat(play: Play) -> Scene {
+pub fn afloat(play: Play) -> Scene {
     let mut scene = with_play(crooked(), play);
     scene.gravity = 0.0;
     scene.crank.speed_start = 40.0;

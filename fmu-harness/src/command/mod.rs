@@ -3,11 +3,17 @@
 mod effects;
 mod inspect;
 mod package;
+mod peers;
+mod precision;
+mod realtime;
 mod run;
 
 pub use effects::Effects;
 pub use inspect::Inspect;
 pub use package::Package;
+pub use peers::Peers;
+pub use precision::Precision;
+pub use realtime::Realtime;
 pub use run::Run;
 
 use crate::package::build::workspace;

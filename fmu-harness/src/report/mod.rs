@@ -1,9 +1,14 @@
 //! What a run says, in figures and in numbers.
 
 pub mod bars;
+pub mod contest;
 pub mod figure;
+pub mod loglog;
+pub mod named;
 pub mod plot;
+pub mod precision;
 pub mod price;
+pub mod realtime;
 pub mod summary;
 pub mod table;
 pub mod units;

@@ -1,4 +1,5 @@
-//! Panels on one sheet, as SVG, and panels of curves. With `bars`, the only file that knows the plotting library.
+//! Panels on one sheet, as SVG, and panels of curves. With `bars` and `loglog`, the only file that knows the plotting
+//! library.
 
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
@@ -32,7 +33,21 @@ pub enum Role {
     Whole,
     /// A bar for what is in another.
     Part,
+    /// One of many curves, by number.
+    Member(usize),
 }
+
+/// Colours that people tell apart, whatever they see: Okabe and Ito, Color Universal Design, 2008, and grey.
+const MEMBERS: [RGBColor; 8] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(150, 140, 20),
+    RGBColor(110, 110, 110),
+];
 
 impl Role {
     pub(super) fn style(self) -> ShapeStyle {
@@ -42,8 +57,17 @@ impl Role {
             Self::Limit => (RGBColor(196, 62, 62), 1.4),
             Self::Whole => (RGBColor(24, 84, 158), 10.0),
             Self::Part => (RGBColor(247, 181, 94), 10.0),
+            Self::Member(number) => (MEMBERS[number % MEMBERS.len()], 1.8),
         };
         ShapeStyle { color: color.to_rgba(), filled: false, stroke_width: (width * f64::from(FINE)) as u32 }
+    }
+
+    /// Of a point: hollow where the colours come round again.
+    pub(super) fn dot(self) -> ShapeStyle {
+        match self {
+            Self::Member(number) if number >= MEMBERS.len() => self.style(),
+            _ => self.style().filled(),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::bars::{Bar, Bars};
 use super::plot::{Role, Sheet};
 use super::table::Table;
-use super::units::grouped;
+use super::units::{grouped, three_digits};
 use crate::effects::Price;
 use anyhow::Result;
 use std::path::Path;
@@ -101,18 +101,6 @@ pub fn sheet(prices: &[Price]) -> Sheet<Bars> {
         columns: 2,
         panel_size: (560, 40 * prices.len() as u32 + 70),
     }
-}
-
-/// Three significant digits, or all that stand before the decimal point.
-fn three_digits(number: f64) -> String {
-    // The size of what the number is rounded to.
-    let rounded = format!("{number:.2e}").parse().unwrap_or(number);
-    let size = f64::abs(rounded);
-    if size >= 100.0 || size == 0.0 {
-        return grouped(number);
-    }
-    let decimals = (2.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
-    format!("{number:.decimals$}")
 }
 
 fn signed(number: f64, print: fn(f64) -> String) -> String {

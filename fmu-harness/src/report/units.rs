@@ -73,6 +73,18 @@ pub fn grouped(number: f64) -> String {
     if number < 0.0 { format!("-{text}") } else { text }
 }
 
+/// Three significant digits, or all that stand before the decimal point.
+pub fn three_digits(number: f64) -> String {
+    // The size of what the number is rounded to.
+    let rounded = format!("{number:.2e}").parse().unwrap_or(number);
+    let size = f64::abs(rounded);
+    if size >= 100.0 || size == 0.0 {
+        return grouped(number);
+    }
+    let decimals = (2.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{number:.decimals$}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,25 +1,36 @@
 //! The packaged FMUs in hosts that others wrote: FMPy, fmutool, fmucontainer, ecos, fmuloader.
 //!
 //! Each test here is a file of Python tests beside this one, run by pytest in an environment that
-//! `environment.py` makes under `target/` from the pinned list in `requirements.txt`. README.md tells
+//! `fmu_harness::python` makes under `target/` from the pinned list `python/hosts.txt`. README.md tells
 //! where each of the things that hosts do to an FMU is tested.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
-mod environment;
 mod packages;
+mod price;
 
+use fmu_harness::python::{Missing, environment, sources};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
+
+/// The environment's interpreter, made once for all tests.
+fn python() -> &'static Path {
+    static PYTHON: OnceLock<Result<PathBuf, String>> = OnceLock::new();
+    match PYTHON.get_or_init(|| environment("hosts", Missing::Make).map_err(|error| format!("{error:#}"))) {
+        Ok(python) => python,
+        Err(why) => panic!("no Python environment for the tests: {why}"),
+    }
+}
 
 /// Runs one file of Python tests and fails with its output. What pytest sums up is always shown.
 fn pytest(file: &str) {
-    let (python, fmus) = (environment::python(), packages::directory());
+    let (python, fmus) = (python(), packages::directory());
     let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hosts");
     let mut command = Command::new(python);
     command.args(["-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--tb=short", "-rfE"]).arg(here.join(file));
-    command.current_dir(&here).env("SLIDERCRANK_FMUS", fmus).env_remove("PYTHONPATH").env_remove("LD_LIBRARY_PATH");
+    command.current_dir(&here).env("SLIDERCRANK_FMUS", fmus).env("PYTHONPATH", sources()).env_remove("LD_LIBRARY_PATH");
     let output = command.output().unwrap_or_else(|error| panic!("{} cannot be started: {error}", python.display()));
     let text = String::from_utf8_lossy(&output.stdout);
     let summary = text.lines().last().unwrap_or_default();

@@ -1,7 +1,7 @@
 //! Dormand and Prince 8(5,3): E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential
 //! Equations I, 2nd ed., Springer 1993, II.5 and the code DOP853 in its appendix.
 
-use crate::integrator::tableau::{Method, Tableau};
+use crate::integrator::tableau::{Explicit, Tableau};
 
 /// The order-8 method of twelve stages with error estimates of order 5 and 3.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ const COARSE: [f64; 12] = [
     0.022_058_823_529_411_764_705_882_352_941_2,
 ];
 
-impl Method for Dop853 {
+impl Explicit for Dop853 {
     const NAME: &'static str = "dop853";
     const TABLEAU: Tableau = Tableau {
         stages: 12,

@@ -2,7 +2,7 @@
 //! Runge-Kutta pairs with interpolants, Numer. Algorithms 53 (2010) 383-396; coefficients as in the
 //! author's RKV76.IIa.Efficient.00001675585.
 
-use crate::integrator::tableau::{Method, Tableau};
+use crate::integrator::tableau::{Explicit, Tableau};
 
 /// The order-7 pair of ten stages.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ const EMBEDDED: [f64; 10] = [
     0.020_295_184_663_356_282_227_670_547_938_104_303_585_54,
 ];
 
-impl Method for Verner7 {
+impl Explicit for Verner7 {
     const NAME: &'static str = "verner7";
     const TABLEAU: Tableau = Tableau {
         stages: 10,

@@ -22,7 +22,7 @@ use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset, Unilateral};
 use crate::scene::Scene;
 use configuration::Geometry;
 
@@ -145,6 +145,8 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
         self.clearances.cross(self.clear, contacts, &pose, crossed, bristles)
     }
 }
+
+impl<const N: usize, const Q: usize, const K: usize, const F: usize> Unilateral<N> for Flexible<N, Q, K, F> {}
 
 impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, Q, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {

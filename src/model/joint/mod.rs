@@ -4,6 +4,7 @@ mod corners;
 pub mod foundation;
 pub mod guide;
 pub mod revolute;
+mod rigid;
 
 use super::contact::{ContactParameters, Damped, Elastic, HertzThreeHalves, Hysteresis, Liu, Power, Undamped, damping};
 use super::friction::{Ambrosio, Friction, FrictionParameters, Frictionless, Lugre, Stribeck, Tanh};

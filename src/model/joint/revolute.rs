@@ -51,7 +51,7 @@ pub struct ByLaws<R> {
 #[derive(Clone, Copy, Debug)]
 pub struct Revolute {
     /// [m] R_b.
-    radius: f64,
+    pub(super) radius: f64,
     /// [m] c.
     clearance: f64,
     /// The contact's numbers.
@@ -162,7 +162,7 @@ impl Revolute {
 
     /// [m/s] v_t at the contact point, ε from the bearing's centre along the normal of tangent `t`.
     #[inline(always)]
-    fn sliding<R: Real>(&self, play: &Play<R>, epsilon: R, t: Vec2<R>) -> R {
+    pub(super) fn sliding<R: Real>(&self, play: &Play<R>, epsilon: R, t: Vec2<R>) -> R {
         play.rate.dot(t) + (-epsilon + self.radius) * play.journal_speed - play.bearing_speed * self.radius
     }
 

@@ -1,0 +1,113 @@
+//! `precision`: what accuracy costs.
+
+use super::{out_directory, shown};
+use crate::host::Fmu;
+use crate::package::Stock;
+use crate::precision::diagram::{Budget, Diagram};
+use crate::precision::hosts::{self, HostPoint};
+use crate::precision::ladder::{methods, rungs};
+use crate::precision::reference::Reference;
+use crate::precision::ruler::Ruler;
+use crate::precision::{SCENES, Subject};
+use crate::python::{Missing, environment};
+use crate::report::precision as report;
+use crate::scenes::Scenario;
+use anyhow::{Context, Result};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Draws work-precision diagrams: the error that every method reaches at a ladder of tolerances, and what it costs.
+///
+/// Every scene is packaged and the packaged file is run in this process, on one thread; the fastest of several runs
+/// counts. An error is the largest position error over the clearance, against a reference solution that two methods of
+/// different orders agree on. Runs that fail or are too dear are drawn too. Where there is a Python environment, FMPy
+/// runs the same files at three communication steps. Writes precision.csv, precision.md and precision-SCENE.svg.
+#[derive(Args)]
+pub struct Precision {
+    /// One scene in place of six: the name of a shipped one, or a .toml file
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: Option<String>,
+    /// A coarse ladder
+    #[arg(long)]
+    quick: bool,
+    /// Make the Python environment for FMPy if it is not there, from the package index
+    #[arg(long)]
+    host: bool,
+    /// Directory of the results [default: target/out]
+    #[arg(short, long, value_name = "DIRECTORY")]
+    output: Option<PathBuf>,
+}
+
+impl Precision {
+    /// Packages, measures, reports.
+    pub fn execute(&self) -> Result<()> {
+        let out = self.output.clone().unwrap_or_else(out_directory);
+        fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
+        let scenes = self.scene.clone().map_or(SCENES.map(String::from).into(), |scene| vec![scene]);
+        let python = environment("hosts", if self.host { Missing::Make } else { Missing::Refuse });
+        let python = python.context("`precision --host` makes what FMPy needs");
+        let stock = Stock::build()?;
+        let runs: usize = methods().0.into_iter().map(|method| rungs(method, self.quick).len()).sum();
+        let style = ProgressStyle::with_template("{msg:34} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4}")?;
+        let bar = ProgressBar::new((scenes.len() * (runs + 1)) as u64).with_style(style);
+        let (mut diagrams, mut points) = (Vec::new(), Vec::new());
+        for scene in &scenes {
+            let scenario = Scenario::find(scene)?;
+            let (diagram, more) = self.scene(&scenario, &stock, &python, &out, &bar).with_context(|| scene.clone())?;
+            diagrams.push(diagram);
+            points.extend(more);
+        }
+        bar.finish_and_clear();
+        write(&diagrams, &points, &out)
+    }
+
+    fn scene(
+        &self,
+        scenario: &Scenario,
+        stock: &Stock,
+        python: &Result<PathBuf>,
+        out: &Path,
+        bar: &ProgressBar,
+    ) -> Result<(Diagram, Vec<HostPoint>)> {
+        let file = out.join(format!("{}.fmu", scenario.name));
+        stock.package(scenario)?.save(&file)?;
+        let fmu = Fmu::open(&file)?;
+        let subject = Subject { file: &scenario.file, fmu: &fmu };
+        let budget = if self.quick { Budget::QUICK } else { Budget::FULL };
+        let ruler = Ruler::of(&scenario.file.scene);
+        bar.set_message(format!("{} reference", scenario.name));
+        let reference = Reference::of(&subject, &ruler, budget.reference)?;
+        let diagram = Diagram::of(&subject, &ruler, &reference, &budget, |method, rung| {
+            bar.set_message(format!("{} {} {:e}", scenario.name, method.name(), rung.number()));
+            bar.inc(1);
+        })?;
+        bar.set_message(format!("{} FMPy", scenario.name));
+        let points = hosts::measure(python, &subject, &file, &ruler, &reference, diagram.span);
+        bar.inc(1);
+        Ok((diagram, points))
+    }
+}
+
+/// Figures, tables and the CSV.
+fn write(diagrams: &[Diagram], points: &[HostPoint], out: &Path) -> Result<()> {
+    let mut written = Vec::new();
+    for diagram in diagrams {
+        let file = out.join(format!("precision-{}.svg", diagram.scene));
+        fs::write(&file, report::sheet(diagram).svg()?).with_context(|| format!("cannot write {}", file.display()))?;
+        written.push(file);
+    }
+    let tables = [report::cheapest(diagrams), report::tolerances(diagrams), report::hosts(points)];
+    tables.iter().for_each(|table| println!("{}", table.print()));
+    let sentences: Vec<String> = diagrams.iter().map(report::sentence).collect();
+    println!("{}\n", sentences.join("\n"));
+    let [csv, page] = ["csv", "md"].map(|ending| out.join(format!("precision.{ending}")));
+    report::write_csv(diagrams, points, &csv)?;
+    let text = tables.map(|table| table.markdown()).into_iter().chain(sentences.into_iter().map(|line| line + "\n"));
+    fs::write(&page, text.collect::<Vec<_>>().join("\n"))
+        .with_context(|| format!("cannot write {}", page.display()))?;
+    written.extend([csv, page]);
+    written.iter().for_each(|file| println!("{}", shown(file)));
+    Ok(())
+}

@@ -1,0 +1,80 @@
+//! `realtime`: how long one communication step takes.
+
+use super::{out_directory, shown};
+use crate::host::Fmu;
+use crate::package::Stock;
+use crate::realtime::Timing;
+use crate::report::realtime as report;
+use crate::scenes::{Scenario, directory, names};
+use anyhow::{Context, Result};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Times every one of many communication steps of 1 ms: median, 99.9 %, worst, and what is in the worst.
+///
+/// Every scene is packaged and the packaged file is stepped in this process, its inputs set before each step. Times are
+/// those in fmi2DoStep, by the clock and as CPU time, so that a step during which another program ran can be told from a
+/// long one. Writes realtime.csv, realtime.md and realtime.svg.
+#[derive(Args)]
+pub struct Realtime {
+    /// One scene in place of all: the name of a shipped one, or a .toml file
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: Option<String>,
+    /// Steps of every scene
+    #[arg(long, default_value_t = 100_000, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
+    steps: u64,
+    /// Longest time for one scene; one that takes longer makes fewer steps
+    #[arg(long, default_value_t = 60.0, value_name = "SECONDS", value_parser = budget)]
+    budget: f64,
+    /// Directory of the results [default: target/out]
+    #[arg(short, long, value_name = "DIRECTORY")]
+    output: Option<PathBuf>,
+}
+
+/// A time above 0 that is not endless.
+fn budget(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0 && *seconds <= 1e6);
+    seconds.ok_or_else(|| "wanted seconds, above 0 and at most a million".into())
+}
+
+impl Realtime {
+    /// Packages, measures, reports.
+    pub fn execute(&self) -> Result<()> {
+        let out = self.output.clone().unwrap_or_else(out_directory);
+        fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
+        let scenes = self.scene.clone().map_or_else(|| names(&directory()), |scene| vec![scene]);
+        let stock = Stock::build()?;
+        let style = ProgressStyle::with_template("{msg:16} {wide_bar:.cyan/blue} {percent}% {elapsed:>4}")?;
+        let bar = ProgressBar::new(scenes.len() as u64 * self.steps).with_style(style);
+        let mut timings = Vec::new();
+        for (number, scene) in scenes.iter().enumerate() {
+            bar.set_message(scene.clone());
+            bar.set_position(number as u64 * self.steps);
+            let scenario = Scenario::find(scene)?;
+            let file = out.join(format!("{}.fmu", scenario.name));
+            stock.package(&scenario)?.save(&file)?;
+            let budget = Duration::from_secs_f64(self.budget);
+            let timing = Timing::of(&scenario.file, &Fmu::open(&file)?, self.steps as usize, budget, |done| {
+                if done % 256 == 0 {
+                    bar.inc(256);
+                }
+            });
+            timings.push(timing.with_context(|| scene.clone())?);
+        }
+        bar.finish_and_clear();
+        let table = report::table(&timings);
+        let sentences: Vec<String> = timings.iter().map(report::sentence).collect();
+        println!("{}\n{}\n", table.print(), sentences.join("\n"));
+        let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("realtime.{ending}")));
+        report::write_csv(&timings, &csv)?;
+        let text = format!("{}\n{}\n", table.markdown(), sentences.join("\n\n"));
+        for (file, text) in [(&page, text), (&drawing, report::sheet(&timings).svg()?)] {
+            fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
+        }
+        [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
+        Ok(())
+    }
+}

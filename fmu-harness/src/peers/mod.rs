@@ -1,0 +1,167 @@
+//! The same scene in what people would use instead: CPU time per simulated second against the error reached.
+//!
+//! Every competitor runs a ladder of tolerances (or of steps). The error is that of [`Ruler`]; the time is that of the
+//! fastest of several runs over the scene's whole time without any output, on one thread. A competitor that computes
+//! another model than ours is measured against its own finest run.
+
+mod child;
+mod ours;
+mod programs;
+mod ruler;
+mod tools;
+
+pub use ruler::Ruler;
+
+use crate::scenes::Scenario;
+use anyhow::Result;
+use child::Answer;
+use programs::Program;
+use slidercrank::scene::parameter::PARAMETERS;
+use slidercrank::simulation::System;
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+use tools::Tools;
+
+/// One method of one competitor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// The competitor.
+    pub peer: String,
+    /// Its method.
+    pub method: String,
+    /// What it reached, from the loosest tolerance to the tightest.
+    pub points: Vec<Point>,
+    /// What a reader must know: where its model differs, what failed, how to install it.
+    pub notes: Vec<String>,
+}
+
+/// One run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Tolerance, or step [s] of a method without one.
+    pub tolerance: f64,
+    /// Largest error over the run, of the clearance.
+    pub error: f64,
+    /// [s/s] CPU time per simulated second.
+    pub cost: f64,
+    /// Evaluations of the right-hand side per simulated second; steps of an engine that does not tell.
+    pub evaluations: f64,
+}
+
+/// All competitors on one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contest {
+    /// The scene.
+    pub scene: String,
+    /// Ours first; the first of all is what the others are compared with.
+    pub series: Vec<Series>,
+    /// By how much two reference solutions of different methods differ.
+    pub reference_error: f64,
+}
+
+/// What is to be solved.
+pub struct Task {
+    /// The scene.
+    pub scenario: Scenario,
+    /// Where its file is.
+    pub file: PathBuf,
+    /// [s] Length of a run.
+    pub span: f64,
+    /// Number of equidistant instants at which the error is measured.
+    pub points: usize,
+}
+
+impl Task {
+    /// The whole run of a scene, its error measured at the scene's step.
+    pub fn of(name: &str) -> Result<Self> {
+        let scenario = Scenario::find(name)?;
+        let span = scenario.file.run.stop(&scenario.file.scene);
+        let points = (span / scenario.file.run.step).round() as usize;
+        let file = crate::scenes::file(name)?;
+        Ok(Self { scenario, file, span, points })
+    }
+
+    /// Everything that a Python peer is told, as JSON.
+    fn job(&self, system: &System, tolerances: &[f64], library: &str) -> String {
+        let scene = &self.scenario.file.scene;
+        let states = system.size().states;
+        let (mut start, mut scales) = (vec![0.0; states], vec![0.0; states]);
+        system.write_start(&mut start);
+        system.write_scales(&mut scales);
+        let parameters = PARAMETERS.iter().map(|parameter| (parameter.name, parameter.value(scene).into()));
+        let parameters: serde_json::Map<String, serde_json::Value> =
+            parameters.map(|(name, value)| (name.to_owned(), value)).collect();
+        serde_json::json!({
+            "parameters": parameters,
+            "span": self.span,
+            "points": self.points,
+            "tolerances": tolerances,
+            "start": start,
+            "scales": scales,
+            "longest_step": system.longest_step(),
+            "file": self.file,
+            "library": library,
+        })
+        .to_string()
+    }
+}
+
+/// Runs all competitors that know the scene, one after the other. `budget` is the longest time on the clock that one
+/// method of one of them may take; `progress` is told who is next.
+pub fn contest(task: &Task, budget: Duration, progress: impl Fn(&str)) -> Result<Contest> {
+    progress("reference");
+    let ruler = Ruler::new(task)?;
+    let mut series = ours::series(task, &ruler, &progress)?;
+    let system = System::start(&task.scenario.file.scene, 0.0, crate::effects::inputs_at_start(&task.scenario.file))?;
+    let tools = Tools::new(&progress);
+    for program in programs::of(&task.scenario.file.scene) {
+        progress(&format!("{} {}", program.peer, program.method));
+        series.push(compete(task, &ruler, &system, &tools, program, budget)?);
+    }
+    Ok(Contest { scene: task.scenario.name.clone(), series, reference_error: ruler.own_error })
+}
+
+/// One method of one competitor.
+fn compete(
+    task: &Task,
+    ruler: &Ruler,
+    system: &System,
+    tools: &Tools,
+    program: &Program,
+    budget: Duration,
+) -> Result<Series> {
+    let Program { peer, method, note, ladder, .. } = *program;
+    let mut series = Series { peer: peer.into(), method: method.into(), points: vec![], notes: vec![] };
+    series.notes.extend(note.map(str::to_owned));
+    let job = tools.directory.join("job.json");
+    fs::create_dir_all(&tools.directory)?;
+    fs::write(&job, task.job(system, ladder, &tools.library_path()))?;
+    let command = match tools.command(task, program, &job) {
+        Ok(command) => command,
+        Err(missing) => {
+            series.notes = vec![format!("not installed: {missing}")];
+            return Ok(series);
+        }
+    };
+    let (answers, ending) = child::run(command, budget)?;
+    series.notes.extend(ending);
+    let paths = |found| ruler.paths(system, found);
+    // A run is no measure of itself.
+    let finest = answers.iter().rposition(|answer| answer.found().is_some()).filter(|_| program.own_model);
+    let reference = finest.and_then(|place| answers[place].found()).map(paths);
+    for (_, answer) in answers.iter().enumerate().filter(|(place, _)| Some(*place) != finest) {
+        match answer {
+            Answer::Run { tolerance, seconds, evaluations, found } => {
+                let error = match &reference {
+                    Some(reference) => Ruler::distance(&paths(found), reference),
+                    None => ruler.error(&paths(found)),
+                };
+                let (cost, evaluations) = (seconds / task.span, evaluations / task.span);
+                series.points.push(Point { tolerance: *tolerance, error, cost, evaluations });
+            }
+            Answer::Failure { tolerance, note } => series.notes.push(format!("at {tolerance:.0e}: {note}")),
+        }
+    }
+    Ok(series)
+}

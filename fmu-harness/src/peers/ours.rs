@@ -1,0 +1,97 @@
+//! Our own methods on the task, without an FMU and through one.
+
+use super::{Point, Ruler, Series, Task};
+use crate::effects::inputs_at_start;
+use crate::host::Fmu;
+use crate::inputs;
+use crate::package::Stock;
+use crate::run::{Ending, Experiment, Look, March, Until, march};
+use anyhow::{Result, ensure};
+use cpu_time::ThreadTime;
+use slidercrank::scene::Method;
+use slidercrank::simulation::Simulation;
+use std::time::Duration;
+
+/// The methods, the default first.
+const METHODS: [(Method, &str); 3] =
+    [(Method::Verner7, "verner7"), (Method::Dop853, "dop853"), (Method::Dopri5, "dopri5")];
+const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+/// [s] Communication step of the FMU.
+const STEP: f64 = 1e-4;
+/// Runs, of which the fastest counts.
+const LEAST_RUNS: usize = 3;
+const MOST_RUNS: usize = 200;
+/// Repeated until they have taken so long together.
+const ENOUGH: Duration = Duration::from_millis(200);
+
+/// Our series: what the others are compared with comes first.
+pub fn series(task: &Task, ruler: &Ruler, progress: &impl Fn(&str)) -> Result<Vec<Series>> {
+    let mut all = vec![];
+    for (method, name) in METHODS {
+        progress(&format!("SliderCrank {name}"));
+        let points =
+            TOLERANCES.iter().map(|&tolerance| point(task, ruler, method, tolerance)).collect::<Result<_>>()?;
+        all.push(Series { peer: "SliderCrank".into(), method: name.into(), points, notes: vec![] });
+    }
+    progress("SliderCrank FMU");
+    let through = through_fmu(task, &all[0])?;
+    all.insert(1, through);
+    Ok(all)
+}
+
+fn point(task: &Task, ruler: &Ruler, method: Method, tolerance: f64) -> Result<Point> {
+    let error = ruler.error(&ruler.solve(task, method, tolerance)?);
+    let mut scene = task.scenario.file.scene.clone();
+    (scene.solver.method, scene.solver.tolerance) = (method, tolerance);
+    let mut evaluations = 0.0;
+    let seconds = fastest(|| {
+        let mut simulation = Simulation::start(&scene, 0.0, inputs_at_start(&task.scenario.file))?;
+        let start = ThreadTime::now();
+        simulation.advance_to(task.span)?;
+        let spent = start.elapsed();
+        evaluations = f64::from(simulation.outputs().solver.evaluations);
+        Ok(spent)
+    })?;
+    Ok(Point { tolerance, error, cost: seconds / task.span, evaluations: evaluations / task.span })
+}
+
+/// The default method in the packaged FMU: its steps, and so its errors, are those of `core`.
+fn through_fmu(task: &Task, core: &Series) -> Result<Series> {
+    let directory = tempfile::tempdir()?;
+    let file = directory.path().join("peers.fmu");
+    Stock::build()?.package(&task.scenario)?.save(&file)?;
+    let fmu = Fmu::open(&file)?;
+    let mut points = vec![];
+    for point in &core.points {
+        let experiment = Experiment {
+            settings: vec![],
+            inputs: inputs::of_scene(&task.scenario.file.inputs),
+            start: 0.0,
+            until: Until::Time(task.span),
+            step: STEP,
+            tolerance: Some(point.tolerance),
+        };
+        let seconds = fastest(|| {
+            let March { spent, ending, .. } = march(&fmu, &experiment, Look::AtEnds, Duration::MAX)?;
+            ensure!(ending == Ending::Reached, "the packaged FMU gave up: {ending:?}");
+            Ok(spent)
+        })?;
+        points.push(Point { cost: seconds / task.span, ..*point });
+    }
+    let method = format!("{}, packaged FMU", core.method);
+    let notes = vec![format!("communication steps of {:.0} µs", STEP * 1e6)];
+    Ok(Series { peer: "SliderCrank".into(), method, points, notes })
+}
+
+/// [s] The least of several runs.
+fn fastest(mut run: impl FnMut() -> Result<Duration>) -> Result<f64> {
+    let (mut least, mut total) = (Duration::MAX, Duration::ZERO);
+    for count in 1..=MOST_RUNS {
+        let spent = run()?;
+        (least, total) = (least.min(spent), total + spent);
+        if count >= LEAST_RUNS && total >= ENOUGH {
+            break;
+        }
+    }
+    Ok(least.as_secs_f64())
+}

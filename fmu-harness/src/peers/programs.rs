@@ -1,0 +1,112 @@
+//! Who competes on which scene, with which ladder of tolerances or steps.
+
+use slidercrank::scene::{DriveMode, JointModel, Scene};
+
+/// What a competitor runs on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// C program on SUNDIALS and our equations.
+    Sundials,
+    /// A Python file in the environment of the peers.
+    Python(&'static str),
+    /// C++ program on Siconos.
+    Siconos,
+}
+
+/// One method of one competitor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Program {
+    /// Shown.
+    pub peer: &'static str,
+    /// Shown.
+    pub method: &'static str,
+    /// How it is run.
+    pub kind: Kind,
+    /// Its own name for the method.
+    pub word: &'static str,
+    /// Tolerances, or steps [s] where the method's are fixed, from loose to tight.
+    pub ladder: &'static [f64],
+    /// Its model is not ours: its error is taken against its own finest run.
+    pub own_model: bool,
+    /// Where it differs.
+    pub note: Option<&'static str>,
+}
+
+const TOLERANCES: &[f64] = &[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+const FEWER: &[f64] = &[1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
+
+const fn sundials(method: &'static str, word: &'static str) -> Program {
+    let (peer, kind, ladder) = ("SUNDIALS", Kind::Sundials, TOLERANCES);
+    Program { peer, method, kind, word, ladder, own_model: false, note: Some("our equations, through C") }
+}
+
+const fn scipy(word: &'static str) -> Program {
+    let (peer, kind, ladder) = ("SciPy", Kind::Python("wornpin.py"), FEWER);
+    Program {
+        peer,
+        method: word,
+        kind,
+        word,
+        ladder,
+        own_model: false,
+        note: Some("equations of its own in numba; steps of at most 10 µs, or it skips hops"),
+    }
+}
+
+const SUNDIALS: [Program; 5] = [
+    sundials("CVODE Adams", "adams"),
+    sundials("CVODE BDF", "bdf"),
+    sundials("ARKODE order 4", "erk4"),
+    sundials("ARKODE order 5", "erk5"),
+    sundials("ARKODE order 8", "erk8"),
+];
+
+const SCIPY: [Program; 3] = [scipy("DOP853"), scipy("LSODA"), scipy("Radau")];
+
+const fn exudyn(method: &'static str, word: &'static str) -> Program {
+    let (peer, kind) = ("Exudyn", Kind::Python("exudyn_journal.py"));
+    let ladder = &[1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7];
+    let note = Some("a sphere in a hollow sphere; fixed steps");
+    Program { peer, method, kind, word, ladder, own_model: false, note }
+}
+
+const EXUDYN: [Program; 2] =
+    [exudyn("RK44, touches located", "RK44"), exudyn("generalized-alpha", "generalized-alpha")];
+
+const fn mujoco(method: &'static str, word: &'static str) -> Program {
+    let (peer, kind, ladder) = ("MuJoCo", Kind::Python("mujoco_ideal.py"), &[1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5]);
+    let note = Some("loop closed by a soft constraint; fixed steps");
+    Program { peer, method, kind, word, ladder, own_model: false, note }
+}
+
+const MUJOCO: [Program; 2] = [mujoco("RK4", "RK4"), mujoco("implicit", "implicit")];
+
+const SICONOS: Program = Program {
+    peer: "Siconos",
+    method: "Moreau-Jean",
+    kind: Kind::Siconos,
+    word: "moreau",
+    ladder: &[1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 2e-7],
+    own_model: true,
+    note: Some("rigid impacts: another model; fixed steps, error against its own finest run"),
+};
+
+/// The competitors that know the scene.
+pub fn of(scene: &Scene) -> Vec<&'static Program> {
+    let joint = &scene.joint;
+    let clear =
+        [joint.a.model, joint.b.model, joint.c.model, joint.t.model].map(|model| model == JointModel::Clearance);
+    let speed = scene.drive.mode == DriveMode::Speed;
+    let mut all: Vec<&Program> = SUNDIALS.iter().collect();
+    if clear == [false, false, true, false] && speed {
+        all.extend(&SCIPY);
+        all.extend(&EXUDYN);
+    }
+    if clear == [false; 4] && !speed {
+        all.extend(&MUJOCO);
+    }
+    if clear == [false, false, false, true] && !speed {
+        all.push(&SICONOS);
+    }
+    all
+}

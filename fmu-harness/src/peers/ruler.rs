@@ -1,0 +1,109 @@
+//! What the error of a competitor is: the largest difference from a reference, over equidistant instants, of the
+//! components of every joint's eccentricity over its clearance.
+//!
+//! In a guide the slider's displacement across and its tilt times half its length stand for the eccentricity. Without
+//! any clearance it is the angles of crank and rod [rad] and the slider's place over the crank's length.
+
+use super::Task;
+use super::child::Found;
+use crate::effects::inputs_at_start;
+use anyhow::Result;
+use slidercrank::model::signals::Outputs;
+use slidercrank::scene::{JointModel, Method, Scene};
+use slidercrank::simulation::{Simulation, System};
+
+/// Tolerance of the reference solutions.
+const REFERENCE: f64 = 1e-12;
+
+/// Measured quantities, one list for each instant.
+pub type Paths = Vec<Vec<f64>>;
+
+/// A reference solution.
+pub struct Ruler {
+    scene: Scene,
+    times: Vec<f64>,
+    reference: Paths,
+    /// By how much two reference solutions, of different methods, differ.
+    pub own_error: f64,
+}
+
+impl Ruler {
+    /// Solves the task with two methods of ours at a tight tolerance.
+    pub fn new(task: &Task) -> Result<Self> {
+        let times: Vec<f64> = (1..=task.points).map(|i| task.span * i as f64 / task.points as f64).collect();
+        let scene = task.scenario.file.scene.clone();
+        let mut ruler = Self { scene, times, reference: vec![], own_error: 0.0 };
+        ruler.reference = ruler.solve(task, Method::Dop853, REFERENCE)?;
+        ruler.own_error = ruler.error(&ruler.solve(task, Method::Verner7, REFERENCE)?);
+        Ok(ruler)
+    }
+
+    /// The measured quantities of a run of ours.
+    pub fn solve(&self, task: &Task, method: Method, tolerance: f64) -> Result<Paths> {
+        let mut scene = self.scene.clone();
+        (scene.solver.method, scene.solver.tolerance) = (method, tolerance);
+        let mut simulation = Simulation::start(&scene, 0.0, inputs_at_start(&task.scenario.file))?;
+        let at = |t: &f64| -> Result<Vec<f64>> {
+            simulation.advance_to(*t)?;
+            Ok(self.measure(&simulation.outputs()))
+        };
+        self.times.iter().map(at).collect()
+    }
+
+    /// The measured quantities of a competitor's run.
+    pub fn paths(&self, system: &System, found: &Found) -> Paths {
+        let positions = match found {
+            Found::Measured(all) => {
+                let count = self.reference.first().map_or(1, Vec::len).max(1);
+                return all.chunks(count).map(<[f64]>::to_vec).collect();
+            }
+            Found::Positions(positions) => positions,
+        };
+        let size = system.size();
+        let mut y = vec![0.0; size.states];
+        let instants = positions.chunks(size.degrees_of_freedom.max(1)).zip(&self.times);
+        instants
+            .map(|(now, t)| {
+                y[..now.len()].copy_from_slice(now);
+                self.measure(&system.outputs(*t, &y))
+            })
+            .collect()
+    }
+
+    /// What is measured of outputs.
+    pub fn measure(&self, outputs: &Outputs) -> Vec<f64> {
+        let Outputs { joint_a, joint_b, joint_c, slider, crank, rod, .. } = outputs;
+        let joint = &self.scene.joint;
+        let mut all = vec![];
+        for (own, found) in [(&joint.a, joint_a), (&joint.b, joint_b), (&joint.c, joint_c)] {
+            if own.model == JointModel::Clearance {
+                all.extend(found.eccentricity.map(|e| e / own.clearance));
+            }
+        }
+        if joint.t.model == JointModel::Clearance {
+            all.extend([slider.y, 0.5 * self.scene.slider.length * slider.angle].map(|e| e / joint.t.clearance));
+        }
+        if all.is_empty() {
+            all.extend([crank.angle, rod.angle, slider.x / self.scene.crank.length]);
+        }
+        all
+    }
+
+    /// The error of a run.
+    pub fn error(&self, paths: &Paths) -> f64 {
+        Self::distance(paths, &self.reference)
+    }
+
+    /// Largest difference between two runs; infinite if one is shorter or not a number.
+    pub fn distance(one: &Paths, other: &Paths) -> f64 {
+        if one.len() != other.len() {
+            return f64::INFINITY;
+        }
+        let pairs = one.iter().zip(other).flat_map(|(a, b)| a.iter().zip(b));
+        let largest = |all: f64, (a, b): (&f64, &f64)| {
+            let difference = (a - b).abs();
+            if difference.is_nan() { f64::INFINITY } else { all.max(difference) }
+        };
+        pairs.fold(0.0, largest)
+    }
+}

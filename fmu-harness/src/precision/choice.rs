@@ -1,0 +1,63 @@
+//! What a diagram says to one who must choose: a method's coarsest run that keeps an error, the cheapest of these, and
+//! what one more digit costs.
+
+use super::diagram::{Diagram, Point, Verdict};
+use slidercrank::scene::Method;
+
+/// Above this error a run says little about the price of a digit.
+const ROUGH: f64 = 0.1;
+/// So many times the reference's own error is told apart from it.
+const CLEAR: f64 = 10.0;
+
+impl Diagram {
+    /// The coarsest run of the method from which on every finer one keeps to `error` too: an error that is small by
+    /// chance is no choice. Runs that were stopped tell nothing.
+    pub fn keeping(&self, method: Method, error: f64) -> Option<&Point> {
+        let points: Vec<&Point> = self.of_method(method).filter(|point| !point.is_stopped()).collect();
+        let broken = points.iter().rposition(|point| !point.keeps(error));
+        points.get(broken.map_or(0, |place| place + 1)).copied()
+    }
+
+    /// The cheapest run that keeps to `error`, over all methods.
+    pub fn cheapest(&self, error: f64) -> Option<&Point> {
+        let runs = self.methods().into_iter().filter_map(|method| self.keeping(method, error));
+        runs.min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    }
+
+    /// By what factor the method's cost rises for one more digit: the mean from the coarsest run that keeps to [`ROUGH`]
+    /// to the finest whose error stands clear of the reference's; `None` over less than one digit.
+    pub fn digit(&self, method: Method) -> Option<f64> {
+        let coarse = self.keeping(method, ROUGH)?;
+        let is_clear =
+            |point: &&Point| point.keeps(ROUGH) && point.error.is_some_and(|error| error > CLEAR * self.floor);
+        let fine = self.of_method(method).filter(is_clear).last()?;
+        let digits = (coarse.error? / fine.error?).log10();
+        (digits >= 1.0).then(|| (cost(fine) / cost(coarse)).powf(1.0 / digits))
+    }
+
+    /// How many runs failed, and how many were stopped.
+    pub fn losses(&self) -> [usize; 2] {
+        let count = |lost: fn(&Point) -> bool| self.points.iter().filter(|point| lost(point)).count();
+        [count(Point::has_failed), count(Point::is_stopped)]
+    }
+}
+
+impl Point {
+    /// Whether it gave up or lost the motion.
+    pub fn has_failed(&self) -> bool {
+        matches!(self.verdict, Verdict::Failed(_))
+    }
+
+    /// Whether it was too dear.
+    pub fn is_stopped(&self) -> bool {
+        matches!(self.verdict, Verdict::Stopped(_))
+    }
+
+    fn keeps(&self, error: f64) -> bool {
+        self.verdict == Verdict::Reached && self.error.is_some_and(|own| own <= error) && self.cost.is_some()
+    }
+}
+
+fn cost(point: &Point) -> f64 {
+    point.cost.unwrap_or(f64::INFINITY)
+}

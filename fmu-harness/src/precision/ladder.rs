@@ -1,0 +1,93 @@
+//! Methods and the settings that they are tried at.
+
+use crate::host::Setting;
+use slidercrank::scene::Method;
+
+/// Property of a method that takes `solver.step` in place of `solver.tolerance`.
+pub const FIXED_STEP: &str = "fixed step";
+/// Property of a method whose contacts are rigid: its motion is another one, and no error of it can be told.
+pub const RIGID_CONTACTS: &str = "rigid contacts";
+
+/// Two a decade.
+const TOLERANCES: [f64; 15] =
+    [1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9, 3e-10, 1e-10];
+/// [s] Three a decade.
+const STEPS: [f64; 9] = [5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7];
+/// Rungs of which a quick look takes one; of the tolerances, 1e-4 first.
+const QUICK: [usize; 2] = [4, 2];
+
+/// How accurate a run is asked to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rung {
+    /// `solver.tolerance`.
+    Tolerance(f64),
+    /// [s] `solver.step`.
+    Step(f64),
+}
+
+impl Rung {
+    /// The number alone.
+    pub fn number(self) -> f64 {
+        match self {
+            Self::Tolerance(number) | Self::Step(number) => number,
+        }
+    }
+
+    /// What the FMU calls it.
+    pub fn parameter(self) -> &'static str {
+        match self {
+            Self::Tolerance(_) => "solver.tolerance",
+            Self::Step(_) => "solver.step",
+        }
+    }
+}
+
+/// How the FMU is told.
+pub fn settings(method: Method, rung: Rung) -> Vec<Setting> {
+    let set = |name: &str, value: String| Setting { name: name.into(), value };
+    vec![set("solver.method", method.name().into()), set(rung.parameter(), format!("{:e}", rung.number()))]
+}
+
+/// The methods that solve the scene's equations, and those that solve others.
+pub fn methods() -> (Vec<Method>, Vec<Method>) {
+    Method::ALL.iter().partition(|method| !method.has(RIGID_CONTACTS))
+}
+
+/// What a method is tried at, from coarse to fine; a few rungs for a `quick` look.
+pub fn rungs(method: Method, quick: bool) -> Vec<Rung> {
+    let [tolerances, steps] = if quick { QUICK } else { [1, 1] };
+    if method.has(FIXED_STEP) {
+        STEPS.into_iter().step_by(steps).map(Rung::Step).collect()
+    } else {
+        TOLERANCES.into_iter().skip(tolerances / 2).step_by(tolerances).map(Rung::Tolerance).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_property_of_a_method_is_known_here() {
+        let declared = slidercrank::model_description::load().expect("the declaration");
+        let methods = declared.enumerations.iter().find(|own| own.name == "Method").expect("the methods");
+        let properties = methods.items.iter().flat_map(|item| &item.properties);
+        for property in properties {
+            assert!([FIXED_STEP, RIGID_CONTACTS].contains(&property.as_str()), "{property}");
+        }
+    }
+
+    #[test]
+    fn no_method_is_forgotten_and_ladders_go_down() {
+        let (same, others) = methods();
+        assert_eq!(same.len() + others.len(), Method::ITEMS.len());
+        assert!(same.contains(&Method::default()));
+        for method in same {
+            for quick in [false, true] {
+                let rungs = rungs(method, quick);
+                assert!(rungs.len() >= 4 && rungs.windows(2).all(|pair| pair[0].number() > pair[1].number()));
+            }
+        }
+        assert!(rungs(Method::default(), true).contains(&Rung::Tolerance(1e-6)));
+    }
+}

@@ -1,0 +1,143 @@
+//! One instance with what is asked of it at every communication point.
+
+use super::{ANGLE, Experiment, Until};
+use crate::host::{Fmu, HostError, Kind, Log, Selection, Setting, Slave, Stepping, Value, Variable};
+use crate::inputs::Input;
+use crate::trajectory::Trajectory;
+use anyhow::{Context, Result, bail, ensure};
+use std::sync::Arc;
+
+/// A slave with what is asked of it at every communication point.
+pub struct Runner<'a> {
+    experiment: &'a Experiment,
+    slave: Slave<'a, Stepping>,
+    /// References of the inputs, in the order of the experiment's.
+    inputs: Vec<u32>,
+    values: Vec<f64>,
+    outputs: Selection,
+    trajectory: Trajectory,
+    /// Column of the crank's angle, and the angle at the start.
+    angle: Option<(usize, f64)>,
+    /// The crank's angle alone, if an input depends on it.
+    angle_now: Option<Selection>,
+}
+
+impl<'a> Runner<'a> {
+    /// Instantiates, sets, initialises, and records the first row. With `logging` the FMU says why it refuses something.
+    pub fn start(fmu: &'a Fmu, experiment: &'a Experiment, log: Arc<Log>, logging: bool) -> Result<Self> {
+        let description = fmu.description();
+        let reference = |input: &Input| input_reference(description.variable(&input.name)?);
+        let inputs = experiment.inputs.iter().map(reference).collect::<Result<Vec<u32>>>()?;
+        let outputs: Vec<&Variable> =
+            description.variables.iter().filter(|variable| variable.causality() == "output").collect();
+        let angle = outputs.iter().position(|variable| variable.name == ANGLE);
+        let wants_angle = experiment.inputs.iter().any(Input::wants_angle);
+        ensure!(angle.is_some() || !wants_angle, "an input depends on `{ANGLE}`, which this FMU does not give");
+
+        let mut slave = fmu.instantiate(description.name(), log, logging)?;
+        for Setting { name, value } in &experiment.settings {
+            let variable = description.variable(name)?;
+            slave.set(variable, &Value::parse(description, variable, value)?)?;
+        }
+        let mut slave = slave.enter_initialization(experiment.tolerance, experiment.start, None)?;
+        let first_angle = if wants_angle { slave.read_one(ANGLE)? } else { 0.0 };
+        let value = |input: &Input| input.profile.value(experiment.start, first_angle);
+        let values: Vec<f64> = experiment.inputs.iter().map(value).collect();
+        if !values.is_empty() {
+            slave.set_reals(&inputs, &values)?;
+        }
+        let slave = slave.exit_initialization()?;
+        let trajectory = Trajectory::new(outputs.iter().map(|variable| variable.name.clone()));
+        let outputs = Selection::new(outputs);
+        let angle_now = match wants_angle {
+            true => Some(Selection::new([description.variable(ANGLE)?])),
+            false => None,
+        };
+        let mut runner = Self { experiment, slave, inputs, values, outputs, trajectory, angle: None, angle_now };
+        runner.record(experiment.start)?;
+        runner.angle = angle.map(|column| (column, runner.outputs.values()[column]));
+        Ok(runner)
+    }
+
+    /// Adds the row of the communication point at `time`.
+    pub fn record(&mut self, time: f64) -> Result<(), HostError> {
+        self.slave.read(&mut self.outputs)?;
+        self.trajectory.push(time, self.outputs.values());
+        Ok(())
+    }
+
+    /// Reads variables of the caller's choice.
+    pub fn ask(&mut self, selection: &mut Selection) -> Result<(), HostError> {
+        self.slave.read(selection)
+    }
+
+    /// fmi2DoStep from one communication point to another.
+    pub fn step(&mut self, from: f64, to: f64) -> Result<(), HostError> {
+        self.slave.do_step(from, to - from)
+    }
+
+    /// Sets the inputs of the interval that begins at `time`.
+    pub fn apply_inputs(&mut self, time: f64) -> Result<(), HostError> {
+        if self.inputs.is_empty() {
+            return Ok(());
+        }
+        let mut angle = 0.0;
+        if let Some(selection) = &mut self.angle_now {
+            self.slave.read(selection)?;
+            angle = selection.values()[0];
+        }
+        let inputs = &self.experiment.inputs;
+        self.values.iter_mut().zip(inputs).for_each(|(value, input)| *value = input.profile.value(time, angle));
+        self.slave.set_reals(&self.inputs, &self.values)
+    }
+
+    /// 1 at the end of the experiment.
+    pub fn share_done(&self, time: f64) -> Result<f64> {
+        match self.experiment.until {
+            Until::Time(end) => Ok((time - self.experiment.start) / (end - self.experiment.start)),
+            Until::Turns { turns, latest } => {
+                let (column, first) = self.angle.with_context(|| format!("this FMU gives no `{ANGLE}` to count"))?;
+                let turned = (self.outputs.values()[column] - first).abs() / std::f64::consts::TAU;
+                if time >= latest && turned < turns {
+                    bail!("the crank has made {turned:.3} of {turns} turns by t = {time} s; give a stop time instead");
+                }
+                // A billionth of a turn is what rounding leaves of a whole number of them.
+                Ok(turned / (turns - 1e-9))
+            }
+        }
+    }
+
+    /// Names and values of the parameters.
+    pub fn parameters(&mut self, fmu: &Fmu) -> Result<Vec<(String, f64)>, HostError> {
+        let numeric = |variable: &&Variable| variable.causality() == "parameter" && variable.kind != Kind::String;
+        let variables: Vec<&Variable> = fmu.description().variables.iter().filter(numeric).collect();
+        let mut selection = Selection::new(variables.iter().copied());
+        self.slave.read(&mut selection)?;
+        let names = variables.iter().map(|variable| variable.name.clone());
+        Ok(names.zip(selection.values().iter().copied()).collect())
+    }
+
+    /// What was recorded.
+    pub fn into_trajectory(self) -> Trajectory {
+        self.trajectory
+    }
+
+    /// Ends the run in order.
+    pub fn finish(self) -> Result<Trajectory> {
+        self.slave.terminate()?;
+        Ok(self.trajectory)
+    }
+}
+
+/// The reference of a real input.
+fn input_reference(variable: &Variable) -> Result<u32> {
+    let legal = variable.causality() == "input" && variable.kind == Kind::Real;
+    ensure!(
+        legal,
+        "`{}` is not a real input: causality {}, type {:?}",
+        variable.name,
+        variable.causality(),
+        variable.kind
+    );
+    Ok(variable.reference)
+}

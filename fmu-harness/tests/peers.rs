@@ -1,0 +1,89 @@
+//! The table of what others need: interpolation between runs, ratios, and what is missing.
+
+use fmu_harness::peers::{Contest, Point, Series, Task};
+use fmu_harness::report::contest::{Reached, cost_at, sentence, sheet, table};
+use fmu_harness::scenes::contests;
+
+fn points(runs: &[(f64, f64)]) -> Vec<Point> {
+    runs.iter().map(|&(error, cost)| Point { tolerance: error, error, cost, evaluations: 1.0 }).collect()
+}
+
+fn series(peer: &str, runs: &[(f64, f64)], note: Option<&str>) -> Series {
+    let notes = note.into_iter().map(str::to_owned).collect();
+    Series { peer: peer.into(), method: "method".into(), points: points(runs), notes }
+}
+
+fn contest() -> Contest {
+    let series = vec![
+        series("ours", &[(1e-1, 0.01), (1e-3, 0.02), (1e-7, 0.08)], None),
+        series("slow", &[(1e-1, 1.0), (1e-5, 16.0)], Some("a remark")),
+        series("absent", &[], Some("not installed: apt-get install absent")),
+    ];
+    Contest { scene: "scene".into(), series, reference_error: 1e-10 }
+}
+
+fn cost(runs: &[(f64, f64)], error: f64) -> f64 {
+    cost_at(&points(runs), error).cost().expect("an error that was reached")
+}
+
+#[test]
+fn a_cost_between_two_runs_lies_on_the_line_between_their_logarithms() {
+    // A method of order 4: ten thousandth the error at ten times the cost.
+    let runs = [(1e-2, 0.1), (1e-6, 1.0), (1e-10, 10.0)];
+    for (error, wanted) in [(1e-2, 0.1), (1e-4, 0.1 * 10f64.sqrt()), (1e-6, 1.0), (1e-7, 10f64.powf(0.25))] {
+        let found = cost(&runs, error);
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{error:e}: {found}, wanted {wanted}");
+    }
+}
+
+#[test]
+fn a_run_that_another_beats_in_error_and_in_cost_does_not_count() {
+    let straight = [(1e-2, 0.1), (1e-6, 1.0)];
+    for beaten in [(1e-3, 1.5), (0.5, 0.2), (f64::INFINITY, 0.01), (f64::NAN, 0.01)] {
+        let noisy = [straight[0], beaten, straight[1]];
+        assert_eq!(cost(&noisy, 1e-4), cost(&straight, 1e-4), "{beaten:?}");
+    }
+    // In whatever order the runs were made.
+    assert_eq!(cost(&[straight[1], straight[0]], 1e-4), cost(&straight, 1e-4));
+}
+
+#[test]
+fn what_was_not_reached_is_said_and_never_extrapolated() {
+    let runs = points(&[(1e-3, 0.1), (1e-5, 1.0)]);
+    assert_eq!(cost_at(&runs, 1e-2), Reached::AtMost(0.1));
+    assert_eq!(cost_at(&runs, 1e-6), Reached::Not(1e-5));
+    assert_eq!(cost_at(&[], 1e-2), Reached::Missing);
+    assert_eq!(cost_at(&points(&[(f64::INFINITY, 1.0)]), 1e-2), Reached::Missing);
+}
+
+#[test]
+fn the_table_has_a_row_for_each_method_and_names_what_is_missing() {
+    let text = table(&contest()).markdown();
+    let rows: Vec<&str> = text.lines().skip(2).collect();
+    assert_eq!(rows.len(), 3, "{text}");
+    // 1e-2 is halfway between 1e-1 and 1e-3: 0.01·√2; 1e-4 a quarter of the way from 1e-3 to 1e-7: 0.02·√2.
+    assert_eq!(rows[0], "| ours method | 0.0141 | 1.00 | 0.0283 | 1.00 | 0.0566 | 1.00 |  |");
+    // 16 times in four decades: 2 at 1e-2, 8 at 1e-4.
+    assert_eq!(rows[1], "| slow method | 2.00 | 141 | 8.00 | 283 | 1e-5 at best | – | a remark |");
+    assert_eq!(rows[2], "| absent method | – | – | – | – | – | – | not installed: apt-get install absent |");
+}
+
+#[test]
+fn the_sentence_and_the_drawing_come_from_the_runs() {
+    let contest = contest();
+    let text = sentence(&contest);
+    assert!(text.contains("slow method 141.4 times at 1e-2, slow method 282.8 times at 1e-4"), "{text}");
+    assert!(!text.contains("absent") && !text.contains("1e-6"), "{text}");
+    let svg = sheet(std::slice::from_ref(&contest)).svg().expect("a drawing");
+    assert!(svg.contains("slow method") && svg.contains("scene") && !svg.contains("absent"), "{svg}");
+}
+
+#[test]
+fn every_scene_of_the_contest_can_be_run() {
+    assert_eq!(contests(), ["peers/allplay", "peers/guideplay", "peers/ideal", "peers/wornpin"]);
+    for name in contests() {
+        let task = Task::of(&name).expect("a scene");
+        let step = task.span / task.points as f64;
+        assert!((step / task.scenario.file.run.step - 1.0).abs() < 1e-9, "{name}: whole steps");
+    }
+}

@@ -1,0 +1,49 @@
+//! Communication steps one by one.
+
+use crate::open;
+use fmu_harness::inputs;
+use fmu_harness::realtime::{STEP, Timing};
+use fmu_harness::run::{Experiment, Until, run};
+use fmu_harness::scenes::Scenario;
+use slidercrank::scene::read::read;
+use std::time::Duration;
+
+#[test]
+fn the_steps_add_up_to_the_run() {
+    let scenario = Scenario::find("press").expect("a legal scene");
+    let fmu = open(&scenario);
+    let count = 30;
+    let timing = Timing::of(&scenario.file, &fmu, count, Duration::MAX, |_| {}).expect("a run without trouble");
+    let experiment = Experiment {
+        settings: vec![],
+        inputs: inputs::of_scene(&scenario.file.inputs),
+        start: 0.0,
+        until: Until::Time(count as f64 * STEP),
+        step: STEP,
+        tolerance: None,
+    };
+    let recording = run(&fmu, &experiment, |_| {}, |_| {}).expect("a run without trouble");
+    let counted = |name: &str| {
+        let column = recording.column(name).expect("an output");
+        column[column.len() - 1] - column[0]
+    };
+    let sum = |measure: fn(&fmu_harness::realtime::Step) -> f64| timing.steps.iter().map(measure).sum::<f64>();
+    assert_eq!((timing.steps.len(), timing.restarts), (count, 0));
+    assert_eq!(sum(|step| step.evaluations), counted("solver.evaluations"));
+    assert_eq!(sum(|step| step.steps), counted("solver.steps"));
+    assert_eq!(sum(|step| step.events), counted("solver.events"));
+    assert!(timing.bound() > 0.0 && sum(|step| step.events) > 0.0);
+}
+
+#[test]
+fn a_mechanism_that_comes_to_rest_begins_anew_and_a_budget_is_kept() {
+    let text = "name = \"brake\"\ndescription = \"slows down\"\n[drive]\nmode = \"torque\"\n[crank]\nspeed_start = 100\n\
+                inertia = 1e-3\n[joint.A]\ndamping = 1.0\n";
+    let file = read(text, "brake.toml").expect("a legal scene");
+    let scenario = Scenario { name: "brake".into(), text: text.into(), file };
+    let fmu = open(&scenario);
+    let timing = Timing::of(&scenario.file, &fmu, 50, Duration::MAX, |_| {}).expect("a run without trouble");
+    assert!(timing.restarts > 0 && timing.steps.len() == 50);
+    let none = Timing::of(&scenario.file, &fmu, 50, Duration::ZERO, |_| {}).expect("nothing to run");
+    assert_eq!((none.steps.len(), none.asked), (0, 50));
+}

@@ -1,0 +1,81 @@
+//! Contacts that go on as they were: open, sticking or slipping either way. What they do then follows from linear
+//! equations, and the laws say whether it is a solution.
+
+use super::{MOST_CONTACTS, NORMAL, Pairs, Scaled, TANGENTIAL};
+
+/// Most equations.
+const MOST: usize = 2 * MOST_CONTACTS;
+/// A pivot this small, of elements of about 1, is one of redundant contacts.
+const LEAST_PIVOT: f64 = 1e-9;
+/// A tangential impulse this close to its limit is at it.
+const LIMIT: f64 = 1.0 - 1e-9;
+
+/// An unknown: the normal impulse of a contact, with the tangential one that slipping makes of it, or the tangential
+/// impulse of a sticking contact. Its equation is that the velocity in that part is 0.
+#[derive(Clone, Copy, Default)]
+struct Unknown {
+    contact: usize,
+    part: usize,
+    /// Tangential over normal impulse.
+    slip: f64,
+}
+
+impl Scaled<'_> {
+    /// Scaled impulses if every contact does what it did with the impulses `before`; `None` where that is not known.
+    pub fn continued(&self, before: &Pairs) -> Option<Pairs> {
+        let mut unknowns = [Unknown::default(); MOST];
+        let mut count = 0;
+        for (contact, [normal, tangential]) in before.iter().enumerate().take(self.count()) {
+            if *normal > 0.0 {
+                let most = self.problem.friction[contact] * normal;
+                let sticks = tangential.abs() < LIMIT * most;
+                let slip = if sticks || most == 0.0 { 0.0 } else { self.friction(contact).copysign(*tangential) };
+                unknowns[count] = Unknown { contact, part: NORMAL, slip };
+                count += 1;
+                if sticks {
+                    unknowns[count] = Unknown { contact, part: TANGENTIAL, slip: 0.0 };
+                    count += 1;
+                }
+            }
+        }
+        let unknowns = &unknowns[..count];
+        let mut rows = [[0.0; MOST + 1]; MOST];
+        for (row, at) in rows.iter_mut().zip(unknowns) {
+            for (element, of) in row.iter_mut().zip(unknowns) {
+                *element = self.delassus(at.contact, at.part, of.contact, of.part);
+                if of.slip != 0.0 {
+                    *element += of.slip * self.delassus(at.contact, at.part, of.contact, TANGENTIAL);
+                }
+            }
+            row[count] = -self.bias(at.contact, at.part);
+        }
+        solve(&mut rows[..count])?;
+        let mut impulses = Pairs::default();
+        for (unknown, row) in unknowns.iter().zip(&rows) {
+            impulses[unknown.contact][unknown.part] += row[count];
+            impulses[unknown.contact][TANGENTIAL] += unknown.slip * row[count];
+        }
+        Some(impulses)
+    }
+}
+
+/// Gauss and Jordan's elimination with column pivots: the solution stands behind the last column. `None` if singular.
+fn solve(rows: &mut [[f64; MOST + 1]]) -> Option<()> {
+    let size = rows.len();
+    for column in 0..size {
+        let largest = |a: &usize, b: &usize| rows[*a][column].abs().total_cmp(&rows[*b][column].abs());
+        let pivot = (column..size).max_by(largest)?;
+        rows.swap(column, pivot);
+        let pivot_row = rows[column];
+        if pivot_row[column].abs() < LEAST_PIVOT {
+            return None;
+        }
+        for (index, row) in rows.iter_mut().enumerate() {
+            let factor = row[column] / pivot_row[column];
+            for (element, pivot) in row.iter_mut().zip(&pivot_row).take(size + 1).skip(column) {
+                *element = if index == column { *element / pivot_row[column] } else { *element - factor * pivot };
+            }
+        }
+    }
+    Some(())
+}

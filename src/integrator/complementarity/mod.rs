@@ -1,0 +1,190 @@
+//! Impulses of rigid contacts: complementarity in the normals, Coulomb's law in the tangents.
+//!
+//! With G = Wᵀ·M⁻¹·W (Delassus' matrix) and ξ = G·Λ + b, every contact asks for
+//! 0 ≤ ξ_N ⟂ Λ_N ≥ 0 and −Λ_T ∈ μ·Λ_N·Sgn(ξ_T).
+//! Written with the parts of Λ_T = β⁺ − β⁻ and the sliding speed σ, this is a linear complementarity problem with a
+//! copositive matrix, which Lemke's method solves (D. E. Stewart, J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996)
+//! 2673; M. Anitescu, F. A. Potra, Nonlinear Dynamics 14 (1997) 231):
+//! ξ_N ≥ 0 ⟂ Λ_N ≥ 0, σ + ξ_T ≥ 0 ⟂ β⁺ ≥ 0, σ − ξ_T ≥ 0 ⟂ β⁻ ≥ 0, μ·Λ_N − β⁺ − β⁻ ≥ 0 ⟂ σ ≥ 0.
+//! With redundant contacts G is singular: then the impulses may not be unique, though the motion is, and one set of
+//! them is returned. No answer leaves unchecked.
+
+mod continued;
+mod lemke;
+
+pub use lemke::{LinearComplementarity, MOST_UNKNOWNS};
+
+/// Most contacts: a normal impulse, two tangential ones and a sliding speed of each.
+pub const MOST_CONTACTS: usize = MOST_UNKNOWNS / 4;
+
+/// Largest violation of the laws, where velocities and impulses are scaled to 1.
+const VIOLATION: f64 = 1e-8;
+/// The same for contacts that go on as they were.
+const CONTINUED: f64 = 1e-11;
+/// A tangent that answers to impulses with less than this share of what the normal does is held fast.
+const RIGID: f64 = 1e-12;
+/// Ways that are tried before the contacts are given up; nearly always the first leads to the end.
+const WAYS: usize = 8;
+/// Its multiples fill the numbers from 0 to 1 evenly.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// One number for the normal and one for the tangent of each contact.
+pub type Pairs = [[f64; 2]; MOST_CONTACTS];
+/// Index of a normal part.
+pub const NORMAL: usize = 0;
+/// Index of a tangential part.
+pub const TANGENTIAL: usize = 1;
+
+/// The first `count` contacts, which touch.
+#[derive(Clone, Debug, Default)]
+pub struct Touching {
+    /// How many.
+    pub count: usize,
+    /// [1/kg] G: `delassus[i][a][j][b]` is the velocity in part `a` of contact `i` from a unit impulse in part `b` of
+    /// contact `j`. Symmetric, positive semidefinite.
+    pub delassus: [[[[f64; 2]; MOST_CONTACTS]; 2]; MOST_CONTACTS],
+    /// [m/s] b.
+    pub bias: Pairs,
+    /// μ.
+    pub friction: [f64; MOST_CONTACTS],
+}
+
+/// A problem without dimensions: Λ·s/B and ξ/(s·B) in place of Λ and ξ, with s = √(diagonal of G).
+struct Scaled<'a> {
+    problem: &'a Touching,
+    scale: Pairs,
+    size: f64,
+}
+
+impl Touching {
+    /// [N·s] Λ of every contact; `None` if there is none, or none to be found. Where impulses `before` are not all 0,
+    /// every contact is first thought to stick, slip or be open as it was with them.
+    pub fn impulses(&self, before: &Pairs) -> Option<Pairs> {
+        let scaled = Scaled::new(self)?;
+        if scaled.size == 0.0 {
+            return Some(Pairs::default());
+        }
+        if before.iter().any(|impulse| impulse[NORMAL] > 0.0) {
+            let found = scaled.continued(before).filter(|found| scaled.violation(found) <= CONTINUED);
+            if let Some(found) = found {
+                return Some(scaled.impulses(&found));
+            }
+        }
+        let linear = scaled.linear();
+        let ways = (0..WAYS).filter_map(|way| linear.solve(|i| 1.0 + way as f64 * (i as f64 * GOLDEN).fract()));
+        let mut found = ways.map(|z| scaled.signed(&z));
+        found.find(|found| scaled.violation(found) <= VIOLATION).map(|found| scaled.impulses(&found))
+    }
+}
+
+impl<'a> Scaled<'a> {
+    /// `None` for what is not finite, or a normal that does not answer to impulses.
+    fn new(problem: &'a Touching) -> Option<Self> {
+        let mut scale = [[1.0; 2]; MOST_CONTACTS];
+        let mut size = 0.0f64;
+        for (i, scale) in scale.iter_mut().enumerate().take(problem.count) {
+            let diagonal = |part: usize| problem.delassus[i][part][i][part];
+            let [normal, tangent] = [diagonal(NORMAL), diagonal(TANGENTIAL)];
+            let answers = normal > 0.0 && normal.is_finite() && tangent.is_finite();
+            if !answers {
+                return None;
+            }
+            scale[NORMAL] = normal.sqrt();
+            scale[TANGENTIAL] = tangent.max(RIGID * normal).sqrt();
+            for (bias, scale) in problem.bias[i].iter().zip(scale) {
+                size = size.max((bias / *scale).abs());
+            }
+        }
+        size.is_finite().then_some(Self { problem, scale, size })
+    }
+
+    fn count(&self) -> usize {
+        self.problem.count
+    }
+
+    /// μ between scaled impulses.
+    fn friction(&self, i: usize) -> f64 {
+        self.problem.friction[i] * self.scale[i][TANGENTIAL] / self.scale[i][NORMAL]
+    }
+
+    fn delassus(&self, i: usize, a: usize, j: usize, b: usize) -> f64 {
+        self.problem.delassus[i][a][j][b] / (self.scale[i][a] * self.scale[j][b])
+    }
+
+    fn bias(&self, i: usize, part: usize) -> f64 {
+        self.problem.bias[i][part] / (self.scale[i][part] * self.size)
+    }
+
+    /// What each unknown of the linear problem is: all Λ_N, then β⁺ and β⁻ of every contact with friction, as contact,
+    /// part and sign. The sliding speeds follow.
+    fn parts(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        let normal = (0..self.count()).map(|i| (i, NORMAL, 1.0));
+        normal.chain(self.rough().flat_map(|i| [(i, TANGENTIAL, 1.0), (i, TANGENTIAL, -1.0)]))
+    }
+
+    /// The contacts with friction.
+    fn rough(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.count()).filter(|&i| self.problem.friction[i] > 0.0)
+    }
+
+    fn linear(&self) -> LinearComplementarity {
+        let forces = self.parts().count();
+        let mut linear = LinearComplementarity {
+            size: forces + self.rough().count(),
+            matrix: [[0.0; MOST_UNKNOWNS]; MOST_UNKNOWNS],
+            vector: [0.0; MOST_UNKNOWNS],
+        };
+        for (row, (i, a, side)) in self.parts().enumerate() {
+            linear.vector[row] = side * self.bias(i, a);
+            for (column, (j, b, other)) in self.parts().enumerate() {
+                linear.matrix[row][column] = side * other * self.delassus(i, a, j, b);
+            }
+        }
+        for (k, i) in self.rough().enumerate() {
+            let (sigma, beta) = (forces + k, self.count() + 2 * k);
+            linear.matrix[sigma][i] = self.friction(i);
+            for beta in [beta, beta + 1] {
+                linear.matrix[sigma][beta] = -1.0;
+                linear.matrix[beta][sigma] = 1.0;
+            }
+        }
+        linear
+    }
+
+    /// Scaled impulses from the linear problem's unknowns.
+    fn signed(&self, z: &[f64; MOST_UNKNOWNS]) -> Pairs {
+        let mut impulses = Pairs::default();
+        for ((i, part, side), z) in self.parts().zip(z) {
+            impulses[i][part] += side * z;
+        }
+        impulses
+    }
+
+    /// Largest violation of the laws, as Λ less its projection on what they allow: Λ_N − max(0, Λ_N − ξ_N) and
+    /// Λ_T − clamp(Λ_T − ξ_T, ±μ·Λ_N); both vanish at a solution and nowhere else.
+    fn violation(&self, impulses: &Pairs) -> f64 {
+        let mut worst = 0.0f64;
+        for (i, impulse) in impulses.iter().enumerate().take(self.count()) {
+            let velocity = |part: usize| {
+                let row = (0..self.count()).flat_map(|j| [(j, NORMAL), (j, TANGENTIAL)]);
+                self.bias(i, part) + row.map(|(j, b)| self.delassus(i, part, j, b) * impulses[j][b]).sum::<f64>()
+            };
+            let normal = impulse[NORMAL].min(velocity(NORMAL));
+            let most = self.friction(i) * impulse[NORMAL].max(0.0);
+            let tangent = impulse[TANGENTIAL] - (impulse[TANGENTIAL] - velocity(TANGENTIAL)).clamp(-most, most);
+            for violation in [normal.abs(), tangent.abs()] {
+                worst = if violation.is_nan() { f64::INFINITY } else { worst.max(violation) };
+            }
+        }
+        worst
+    }
+
+    fn impulses(&self, scaled: &Pairs) -> Pairs {
+        let mut impulses = Pairs::default();
+        for ((impulse, scaled), scale) in impulses.iter_mut().zip(scaled).zip(self.scale).take(self.count()) {
+            impulse[NORMAL] = scaled[NORMAL] * self.size / scale[NORMAL];
+            impulse[TANGENTIAL] = scaled[TANGENTIAL] * self.size / scale[TANGENTIAL];
+        }
+        impulses
+    }
+}

@@ -1,0 +1,51 @@
+//! Contacts without compliance: how fast a gap closes and its surfaces slide, and what forces along gap and sliding do.
+//!
+//! A normal force presses the journal, or the corner, away from the surface that it touches; a tangential one acts on
+//! it along the sliding speed. Force times velocity is power, as in the compliant contacts: so the forces' directions
+//! are the transposed velocities.
+
+use super::guide::{Guide, Load, SliderPose};
+use super::revolute::{self, Play, Revolute};
+use crate::model::plane::{Vec2, cross, perp};
+
+impl Revolute {
+    /// [m/s] Rate of the gap, and v_t; 0 where the journal is centred and n undefined.
+    pub fn contact_velocity(&self, play: &Play) -> [f64; 2] {
+        let epsilon = play.eccentricity.norm();
+        if epsilon == 0.0 {
+            return [0.0; 2];
+        }
+        let n = play.eccentricity / epsilon;
+        [-play.rate.dot(n), self.sliding(play, epsilon, perp(n))]
+    }
+
+    /// The load of the forces `normal` and `tangential` [N] on the journal at the contact point.
+    pub fn rigid_load(&self, play: &Play, [normal, tangential]: [f64; 2]) -> revolute::Load {
+        let epsilon = play.eccentricity.norm();
+        if epsilon == 0.0 {
+            return revolute::Load::default();
+        }
+        let n = play.eccentricity / epsilon;
+        revolute::Load {
+            force: tangential * perp(n) - normal * n,
+            journal_couple: (self.radius - epsilon) * tangential,
+            bearing_couple: -self.radius * tangential,
+            bristle_rate: 0.0,
+        }
+    }
+}
+
+impl Guide {
+    /// [m/s] Rate of the gap of a corner, and its speed along the line.
+    pub fn contact_velocity(&self, corner: usize, pose: &SliderPose) -> [f64; 2] {
+        let touch = self.corners[corner].touch(pose);
+        [-touch.rate, touch.sliding]
+    }
+
+    /// The load of the forces `normal` and `tangential` [N] on a corner.
+    pub fn rigid_load(&self, corner: usize, pose: &SliderPose, [normal, tangential]: [f64; 2]) -> Load {
+        let touch = self.corners[corner].touch(pose);
+        let force = Vec2::new(tangential, touch.normal * normal);
+        Load { force, couple: cross(touch.arm, force) }
+    }
+}

@@ -1,0 +1,98 @@
+//! A run's memory in a snapshot.
+
+use super::snapshot::{Reader, Snapshot};
+use crate::integrator::{Front, Impulses, Memory, Statistics};
+use crate::model::contact::ContactMode;
+use crate::model::drive::InputSignal;
+use crate::model::plant::Plant;
+use crate::model::signals::Inputs;
+use crate::model::state::{CONTACTS, Contacts};
+
+/// The discrete part of a state.
+pub trait Discrete: Sized {
+    /// Appends it.
+    fn save(&self, snapshot: &mut Snapshot);
+    /// Takes it back; `None` if it does not fit.
+    fn load(reader: &mut Reader<'_>) -> Option<Self>;
+}
+
+impl Discrete for Contacts {
+    fn save(&self, snapshot: &mut Snapshot) {
+        snapshot.reals.extend(self.iter().map(|mode| mode.approach));
+        snapshot.integers.extend(self.iter().map(|mode| u64::from(mode.closed)));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Option<Self> {
+        let approach = reader.reals::<CONTACTS>()?;
+        let mut modes = Self::default();
+        for (mode, approach) in modes.iter_mut().zip(approach) {
+            if reader.integer()? != 0 {
+                *mode = ContactMode::closing(approach, approach);
+            }
+        }
+        Some(modes)
+    }
+}
+
+impl<const N: usize> Discrete for Impulses<N> {
+    fn save(&self, snapshot: &mut Snapshot) {
+        snapshot.reals.push(self.t);
+        snapshot.reals.extend(self.y);
+        snapshot.reals.extend(self.forces.as_flattened());
+        snapshot.integers.extend(self.closed.map(u64::from));
+    }
+
+    fn load(reader: &mut Reader<'_>) -> Option<Self> {
+        let mut impulses = Self::none(reader.real()?, reader.reals()?);
+        for forces in &mut impulses.forces {
+            *forces = reader.reals()?;
+        }
+        for closed in &mut impulses.closed {
+            *closed = reader.integer()? != 0;
+        }
+        Some(impulses)
+    }
+}
+
+/// Appends the inputs in force and the integrator's memory.
+pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N, D>, snapshot: &mut Snapshot) {
+    let Memory { start, end, front, step, last_error, crossings, statistics } = memory;
+    let InputSignal { at, value, rate } = plant.signal();
+    let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
+    snapshot.reals.extend(inputs);
+    snapshot.reals.extend([plant.start_time(), *step, *last_error]);
+    for Front { t, y, rates, modes } in [start, end, front] {
+        snapshot.reals.push(*t);
+        snapshot.reals.extend(y.iter().chain(rates));
+        modes.save(snapshot);
+    }
+    let Statistics { steps, rejected, evaluations, events } = *statistics;
+    snapshot.integers.extend([*crossings, steps, rejected, evaluations, events]);
+    snapshot.integers.push(N as u64);
+}
+
+/// Takes back what [`save`] appended: the plant gets its inputs, the integrator's memory is returned.
+pub fn load<const N: usize, D: Discrete>(plant: &mut dyn Plant<N>, reader: &mut Reader<'_>) -> Option<Memory<N, D>> {
+    let [at, torque, load, torque_rate, load_rate] = reader.reals()?;
+    let value = Inputs { crank_torque: torque, slider_load: load };
+    let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
+    let [start_time, step, last_error] = reader.reals()?;
+    let (start, end, front) = (take_front(reader)?, take_front(reader)?, take_front(reader)?);
+    let crossings = reader.integer()?;
+    let statistics = Statistics {
+        steps: reader.integer()?,
+        rejected: reader.integer()?,
+        evaluations: reader.integer()?,
+        events: reader.integer()?,
+    };
+    if reader.integer()? != N as u64 {
+        return None;
+    }
+    plant.set_signal(InputSignal { at, value, rate });
+    plant.set_start_time(start_time);
+    Some(Memory { start, end, front, step, last_error, crossings, statistics })
+}
+
+fn take_front<const N: usize, D: Discrete>(reader: &mut Reader<'_>) -> Option<Front<N, D>> {
+    Some(Front { t: reader.real()?, y: reader.reals()?, rates: reader.reals()?, modes: D::load(reader)? })
+}

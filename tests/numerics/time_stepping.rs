@@ -1,0 +1,135 @@
+//! Time stepping on a ball above a floor: what it does, and when it gives up.
+
+use slidercrank::integrator::complementarity::{MOST_CONTACTS, NORMAL, Pairs};
+use slidercrank::integrator::{
+    ContactLaw, Crossed, GUARDS, Guard, IntegrationError, Jacobian, Moreau, Problem, Relative, Reset, Unilateral,
+};
+
+/// A ball of unit mass that falls at `weight` [m/s²] on as many floors as `floors`, from the time `lost` on by a force
+/// that is no number.
+struct Ball {
+    weight: f64,
+    restitution: f64,
+    floors: usize,
+    /// What a unit impulse does to its velocity.
+    response: f64,
+    lost: f64,
+}
+
+const BALL: Ball = Ball { weight: 10.0, restitution: 0.5, floors: 1, response: 1.0, lost: f64::INFINITY };
+
+impl Problem<2> for Ball {
+    type Modes = ();
+
+    fn rates(&self, (): &(), t: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
+        *rates = [y[1], if t < self.lost { -self.weight } else { f64::NAN }];
+    }
+
+    fn jacobian(&self, (): &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
+        jacobian.state = [[0.0, 1.0], [0.0, 0.0]];
+        jacobian.time = [0.0; 2];
+    }
+
+    fn scales(&self) -> &[f64; 2] {
+        &[1.0, 1.0]
+    }
+
+    fn longest_step(&self) -> f64 {
+        1.0
+    }
+
+    fn guard_count(&self) -> usize {
+        0
+    }
+
+    fn guards(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [Guard; GUARDS]) {}
+
+    fn guard_scale(&self) -> f64 {
+        1e-6
+    }
+
+    fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
+        Reset { modes: (), step: None }
+    }
+}
+
+impl Unilateral<2> for Ball {
+    fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
+        [ContactLaw { restitution: self.restitution, friction: 0.0 }; MOST_CONTACTS]
+    }
+
+    fn contacts(&self, _: f64, y: &[f64; 2]) -> Relative {
+        let mut relative = Relative { gap: [f64::INFINITY; MOST_CONTACTS], velocity: Pairs::default() };
+        for floor in 0..self.floors {
+            relative.gap[floor] = y[0];
+            relative.velocity[floor][NORMAL] = y[1];
+        }
+        relative
+    }
+
+    fn response(&self, _: f64, _: &[f64; 2], _: usize, _: usize) -> [f64; 2] {
+        [0.0, self.response]
+    }
+}
+
+const STEP: f64 = 1.0 / 4096.0;
+
+#[test]
+fn a_ball_bounces_and_comes_to_rest_in_the_time_that_it_takes() {
+    // The sum of its bounces: (2·v/g)·(e + e² + …) after a fall of v/g.
+    for floors in [1, 2, MOST_CONTACTS] {
+        let ball = Ball { floors, ..BALL };
+        let mut run = Moreau::start(STEP, 0.0, [0.2, 0.0]);
+        let fall = 2.0 / ball.weight;
+        let rest = fall * (1.0 + 2.0 * ball.restitution / (1.0 - ball.restitution));
+        run.advance(&ball, rest + 50.0 * STEP).expect("a motion without trouble");
+        let ([height, speed], impulses) = run.state_at(&ball, rest + 50.0 * STEP);
+        assert!(speed.abs() < 1e-12 && height.abs() < 10.0 * STEP * STEP, "{height} m, {speed} m/s");
+        // However the floors share it, together they carry the weight.
+        let carried: f64 = impulses.forces.iter().map(|force| force[NORMAL]).sum();
+        assert!((carried - ball.weight).abs() < 1e-9, "{floors} floors carry {carried} N");
+    }
+}
+
+#[test]
+fn an_impact_returns_the_share_that_it_is_asked_for() {
+    for restitution in [0.0, 0.3, 1.0] {
+        let ball = Ball { weight: 0.0, restitution, ..BALL };
+        let mut run = Moreau::start(STEP, 0.0, [0.0105, -1.0]);
+        run.advance(&ball, 0.02).expect("a motion without trouble");
+        assert_eq!(run.memory().front.y[1], restitution);
+        // It comes back from as deep as it was when the impact was noticed.
+        assert!(run.memory().front.y[0] >= -STEP, "{:?}", run.memory().front.y);
+        assert_eq!(run.memory().statistics.events, if restitution == 0.0 { 1 } else { 2 });
+    }
+}
+
+#[test]
+fn a_contact_that_no_impulse_moves_is_an_error_with_the_state_intact() {
+    let ball = Ball { response: 0.0, ..BALL };
+    let mut run = Moreau::start(STEP, 0.0, [0.2, 0.0]);
+    let error = run.advance(&ball, 1.0).expect_err("there is no way on");
+    assert_eq!(error, IntegrationError::Complementarity { time: run.memory().front.t, contacts: 1 });
+    assert_eq!(error.to_string(), "no impulses satisfy the laws of 1 closed contacts at once");
+    let t = error.time();
+    let ([height, speed], _) = run.state_at(&ball, t);
+    assert!((height - (0.2 - 5.0 * t * t)).abs() < 1e-12 && (speed + 10.0 * t).abs() < 1e-12, "{height}, {speed}");
+    // And it gives up again where it gave up before.
+    assert_eq!(run.advance(&ball, 1.0), Err(error));
+}
+
+#[test]
+fn forces_that_are_no_numbers_are_an_error_where_they_begin() {
+    let ball = Ball { lost: 0.1, ..BALL };
+    let mut run = Moreau::start(STEP, 0.0, [0.2, 0.0]);
+    let error = run.advance(&ball, 1.0).expect_err("there is no way on");
+    assert!(matches!(error, IntegrationError::NotFinite { component: 0, .. }), "{error:?}");
+    assert!((0.1 - error.time() - 0.5 * STEP).abs() <= 0.5 * STEP, "{error:?}");
+    assert!(run.memory().front.y.iter().all(|y| y.is_finite()));
+}
+
+#[test]
+fn steps_that_move_no_time_are_an_error() {
+    let mut run = Moreau::start(1e-10, 1e9, [0.2, 0.0]);
+    assert!(matches!(run.advance(&BALL, 2e9), Err(IntegrationError::StepUnderflow { .. })));
+}
