@@ -1,9 +1,10 @@
 //! Derivatives by differences, with an estimate of their own error.
 
-/// Halvings of the first increment.
-const LEVELS: usize = 7;
-/// Each increment is this share of the one before.
-const SHARE: f64 = 0.5;
+/// Increments, each half of the one before.
+const LEVELS: usize = 16;
+/// Weights of the differences over ±1, ±2, ±3 increments: exact on polynomials of degree six (B. Fornberg,
+/// Math. Comp. 51 (1988) 699, table 1).
+const WEIGHTS: [f64; 3] = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0];
 
 /// A derivative, and how wrong it may be.
 #[derive(Clone, Copy, Debug)]
@@ -12,33 +13,32 @@ pub struct Derivative {
     pub error: f64,
 }
 
-/// f'(0) of every component of `f`, by central differences extrapolated to the increment 0 from
-/// `first` on; of the columns of the extrapolation the entry that changes least (C. J. F. Ridders, Adv. Eng. Softw. 4
-/// (1982) 75).
-pub fn derivatives(first: f64, f: impl Fn(f64) -> Vec<f64>) -> Vec<Derivative> {
-    let mut increment = first;
-    let mut before: Vec<Vec<f64>> = vec![];
-    let mut best: Vec<Derivative> = vec![];
-    for level in 0..LEVELS {
-        let (plus, minus) = (f(increment), f(-increment));
-        let mut row = vec![plus.iter().zip(&minus).map(|(p, m)| (p - m) / (2.0 * increment)).collect::<Vec<f64>>()];
-        best.resize(plus.len(), Derivative { value: f64::NAN, error: f64::INFINITY });
-        let mut power = 1.0;
-        for column in 0..level {
-            power *= SHARE * SHARE;
-            let better: Vec<f64> = row[column].iter().zip(&before[column]).map(|(new, old)| (new - power * old) / (1.0 - power)).collect();
-            for (i, &value) in better.iter().enumerate() {
-                let error = f64::max((value - row[column][i]).abs(), (value - before[column][i]).abs());
-                // Equal to the bit by chance, it is still a difference of rounded numbers.
-                let rounding = f64::EPSILON * plus[i].abs().max(minus[i].abs()) / increment;
-                if error + rounding < best[i].error {
-                    best[i] = Derivative { value, error: error + rounding };
+/// f'(0) of every component of `f`, whose values are rounded by `noise`: of the increments from `first` on the one whose
+/// difference differs least from those of its neighbours.
+pub fn derivatives(first: f64, noise: &[f64], f: impl Fn(f64) -> Vec<f64>) -> Vec<Derivative> {
+    let increments: Vec<f64> = (0..LEVELS).map(|level| first * 0.5f64.powi(level as i32)).collect();
+    let slopes: Vec<Vec<f64>> = increments
+        .iter()
+        .map(|h| {
+            let mut sum = vec![0.0; noise.len()];
+            for (k, weight) in WEIGHTS.iter().enumerate() {
+                let reach = h * (k + 1) as f64;
+                let (plus, minus) = (f(reach), f(-reach));
+                for ((sum, plus), minus) in sum.iter_mut().zip(plus).zip(minus) {
+                    *sum += weight * (plus - minus) / h;
                 }
             }
-            row.push(better);
-        }
-        before = row;
-        increment *= SHARE;
-    }
-    best
+            sum
+        })
+        .collect();
+    (0..noise.len())
+        .map(|i| {
+            let at = |level: usize| {
+                let [longer, value, shorter] = [level - 1, level, level + 1].map(|level| slopes[level][i]);
+                let apart = (value - longer).abs().max((value - shorter).abs());
+                Derivative { value, error: apart + noise[i] / increments[level] }
+            };
+            (1..LEVELS - 1).map(at).min_by(|a, b| a.error.total_cmp(&b.error)).expect("some increments")
+        })
+        .collect()
 }
