@@ -199,7 +199,7 @@ impl Bench<'_> {
         if self.budget.quick {
             Repeats { least: 1, enough: Duration::from_millis(30), most: 20 }
         } else {
-            Repeats { least: 2, enough: Duration::from_millis(300), most: 100 }
+            Repeats { least: 1, enough: Duration::from_millis(400), most: 100 }
         }
     }
 }
