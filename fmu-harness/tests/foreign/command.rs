@@ -58,7 +58,7 @@ fn a_refusal_is_one_clear_line() {
     let words = refusal(&["package", "--scene", "wornpn"]);
     assert!(
         words.starts_with(
-            "error: no scene `wornpn`: shipped are allplay, flexrod, guideplay, ideal, press, seed, wornpin"
+            "error: no scene `wornpn`: shipped are allplay, flexrod, guideplay, hold, ideal, press, seed, wornpin"
         ),
         "{words}"
     );
