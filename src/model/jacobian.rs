@@ -4,6 +4,9 @@ use super::scalar::{DIRECTIONS, Tangent};
 use crate::integrator::Jacobian;
 use crate::math::Real;
 
+/// Writes the rates of a state at a time, with derivatives.
+type Rates<'a, const N: usize> = dyn Fn(Tangent, &[Tangent; N], &mut [Tangent; N]) + 'a;
+
 /// Evaluates `rates` with derivatives along the first `moving` states and time, and writes those of
 /// the first `states` rates at `t` and `y`. Nothing depends on the other states.
 pub fn differentiate<const N: usize>(
@@ -12,7 +15,7 @@ pub fn differentiate<const N: usize>(
     t: f64,
     y: &[f64; N],
     jacobian: &mut Jacobian<N>,
-    rates: &dyn Fn(Tangent, &[Tangent; N], &mut [Tangent; N]),
+    rates: &Rates<'_, N>,
 ) {
     for row in jacobian.state.iter_mut().take(states) {
         row[moving..states].fill(0.0);
