@@ -10,7 +10,7 @@ fn points(runs: &[(f64, f64)]) -> Vec<Point> {
 
 fn series(peer: &str, runs: &[(f64, f64)], note: Option<&str>) -> Series {
     let notes = note.into_iter().map(str::to_owned).collect();
-    Series { peer: peer.into(), method: "method".into(), points: points(runs), notes }
+    Series { peer: peer.into(), method: "method".into(), rigid: false, points: points(runs), notes }
 }
 
 fn contest() -> Contest {
@@ -66,6 +66,18 @@ fn the_table_has_a_row_for_each_method_and_names_what_is_missing() {
     // 16 times in four decades: 2 at 1e-2, 8 at 1e-4.
     assert_eq!(rows[1], "| slow method | 2.00 | 141 | 8.00 | 283 | 1e-5 at best | – | a remark |");
     assert_eq!(rows[2], "| absent method | – | – | – | – | – | – | not installed: apt-get install absent |");
+}
+
+#[test]
+fn rigid_contacts_are_compared_with_rigid_contacts() {
+    let mut contest = contest();
+    let runs = [(1e-1, 0.5), (1e-3, 5.0)];
+    contest.series.push(Series { rigid: true, ..series("ours, rigid", &runs, None) });
+    contest.series.push(Series { rigid: true, ..series("other, rigid", &runs.map(|(e, cost)| (e, 3.0 * cost)), None) });
+    let text = table(&contest).markdown();
+    let other = text.lines().find(|line| line.contains("other, rigid")).expect("a row");
+    assert_eq!(other, "| other, rigid method | 4.74 | 3.00 | 1e-3 at best | – | 1e-3 at best | – |  |");
+    assert!(!sentence(&contest).contains("rigid"));
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::scalar::{DIRECTIONS, Tangent};
 use crate::integrator::Jacobian;
 use crate::math::Real;
 
-/// Writes the rates of a state at a time, with derivatives.
-type Rates<'a, const N: usize> = dyn Fn(Tangent, &[Tangent; N], &mut [Tangent; N]) + 'a;
+/// Rates of a state at a time, all with derivatives.
+pub type Rates<'a, const N: usize> = dyn Fn(Tangent, &[Tangent; N], &mut [Tangent; N]) + 'a;
 
 /// Evaluates `rates` with derivatives along the first `moving` states and time, and writes those of
 /// the first `states` rates at `t` and `y`. Nothing depends on the other states.

@@ -97,10 +97,10 @@ fn an_impact_returns_the_share_that_it_is_asked_for() {
         let ball = Ball { weight: 0.0, restitution, ..BALL };
         let mut run = Moreau::start(STEP, 0.0, [0.0105, -1.0]);
         run.advance(&ball, 0.02).expect("a motion without trouble");
-        assert_eq!(run.memory().front.y[1], restitution);
+        assert!((run.memory().front.y[1] - restitution).abs() < 1e-15, "{:?}", run.memory().front.y);
         // It comes back from as deep as it was when the impact was noticed.
         assert!(run.memory().front.y[0] >= -STEP, "{:?}", run.memory().front.y);
-        assert_eq!(run.memory().statistics.events, if restitution == 0.0 { 1 } else { 2 });
+        assert_eq!(run.memory().statistics.events, 2, "it closes, and opens as nothing presses");
     }
 }
 
@@ -124,7 +124,8 @@ fn forces_that_are_no_numbers_are_an_error_where_they_begin() {
     let mut run = Moreau::start(STEP, 0.0, [0.2, 0.0]);
     let error = run.advance(&ball, 1.0).expect_err("there is no way on");
     assert!(matches!(error, IntegrationError::NotFinite { component: 0, .. }), "{error:?}");
-    assert!((0.1 - error.time() - 0.5 * STEP).abs() <= 0.5 * STEP, "{error:?}");
+    // Forces are those of a step's middle.
+    assert!((0.0..=STEP).contains(&(error.time() + 0.5 * STEP - ball.lost)), "{error:?}");
     assert!(run.memory().front.y.iter().all(|y| y.is_finite()));
 }
 

@@ -53,14 +53,6 @@ impl Answer {
         let found = list("positions").map(Found::Positions).or_else(|| list("measured").map(Found::Measured))?;
         Some(Self::Run { tolerance, seconds: number("seconds")?, evaluations: number("evaluations")?, found })
     }
-
-    /// What a run that got to the end found.
-    pub fn found(&self) -> Option<&Found> {
-        match self {
-            Self::Run { found, .. } => Some(found),
-            Self::Failure { .. } => None,
-        }
-    }
 }
 
 /// Runs the command until it ends or has taken `budget`. The answers, and what is to be said of the ending if it was

@@ -1,8 +1,8 @@
 //! The same scene in what people would use instead: CPU time per simulated second against the error reached.
 //!
 //! Every competitor runs a ladder of tolerances (or of steps). The error is that of [`Ruler`]; the time is that of the
-//! fastest of several runs over the scene's whole time without any output, on one thread. A competitor that computes
-//! another model than ours is measured against its own finest run.
+//! fastest of several runs over the scene's whole time without any output, on one thread. Competitors with
+//! rigid contacts are measured against our own rigid solution, and compared with what that costs.
 
 mod child;
 mod ours;
@@ -30,6 +30,8 @@ pub struct Series {
     pub peer: String,
     /// Its method.
     pub method: String,
+    /// Its contacts are rigid.
+    pub rigid: bool,
     /// What it reached, from the loosest tolerance to the tightest.
     pub points: Vec<Point>,
     /// What a reader must know: where its model differs, what failed, how to install it.
@@ -54,7 +56,7 @@ pub struct Point {
 pub struct Contest {
     /// The scene.
     pub scene: String,
-    /// Ours first; the first of all is what the others are compared with.
+    /// Ours first; the first one is what the others are compared with, those with rigid contacts with the first of them.
     pub series: Vec<Series>,
     /// By how much two reference solutions of different methods differ.
     pub reference_error: f64,
@@ -115,9 +117,19 @@ pub fn contest(task: &Task, budget: Duration, progress: impl Fn(&str)) -> Result
     let mut series = ours::series(task, &ruler, &progress)?;
     let system = System::start(&task.scenario.file.scene, 0.0, crate::effects::inputs_at_start(&task.scenario.file))?;
     let tools = Tools::new(&progress);
-    for program in programs::of(&task.scenario.file.scene) {
+    let programs = programs::of(&task.scenario.file.scene);
+    let rigid = if programs.iter().any(|program| program.rigid) {
+        progress("SliderCrank moreau");
+        let rigid = Ruler::rigid(task)?;
+        series.push(ours::rigid(task, &rigid)?);
+        Some(rigid)
+    } else {
+        None
+    };
+    for program in programs {
         progress(&format!("{} {}", program.peer, program.method));
-        series.push(compete(task, &ruler, &system, &tools, program, budget)?);
+        let ruler = rigid.as_ref().filter(|_| program.rigid).unwrap_or(&ruler);
+        series.push(compete(task, ruler, &system, &tools, program, budget)?);
     }
     Ok(Contest { scene: task.scenario.name.clone(), series, reference_error: ruler.own_error })
 }
@@ -131,8 +143,8 @@ fn compete(
     program: &Program,
     budget: Duration,
 ) -> Result<Series> {
-    let Program { peer, method, note, ladder, .. } = *program;
-    let mut series = Series { peer: peer.into(), method: method.into(), points: vec![], notes: vec![] };
+    let Program { peer, method, note, ladder, rigid, .. } = *program;
+    let mut series = Series { peer: peer.into(), method: method.into(), rigid, points: vec![], notes: vec![] };
     series.notes.extend(note.map(str::to_owned));
     let job = tools.directory.join("job.json");
     fs::create_dir_all(&tools.directory)?;
@@ -146,17 +158,10 @@ fn compete(
     };
     let (answers, ending) = child::run(command, budget)?;
     series.notes.extend(ending);
-    let paths = |found| ruler.paths(system, found);
-    // A run is no measure of itself.
-    let finest = answers.iter().rposition(|answer| answer.found().is_some()).filter(|_| program.own_model);
-    let reference = finest.and_then(|place| answers[place].found()).map(paths);
-    for (_, answer) in answers.iter().enumerate().filter(|(place, _)| Some(*place) != finest) {
+    for answer in &answers {
         match answer {
             Answer::Run { tolerance, seconds, evaluations, found } => {
-                let error = match &reference {
-                    Some(reference) => Ruler::distance(&paths(found), reference),
-                    None => ruler.error(&paths(found)),
-                };
+                let error = ruler.error(&ruler.paths(system, found));
                 let (cost, evaluations) = (seconds / task.span, evaluations / task.span);
                 series.points.push(Point { tolerance: *tolerance, error, cost, evaluations });
             }

@@ -1,5 +1,6 @@
 //! Our own methods on the task, without an FMU and through one.
 
+use super::ruler::choose;
 use super::{Point, Ruler, Series, Task};
 use crate::effects::inputs_at_start;
 use crate::host::Fmu;
@@ -16,6 +17,8 @@ use std::time::Duration;
 const METHODS: [(Method, &str); 3] =
     [(Method::Verner7, "verner7"), (Method::Dop853, "dop853"), (Method::Dopri5, "dopri5")];
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+/// [s] Of Moreau's rule.
+const STEPS: [f64; 8] = [1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7];
 /// [s] Communication step of the FMU.
 const STEP: f64 = 1e-4;
 /// Runs, of which the fastest counts.
@@ -31,7 +34,7 @@ pub fn series(task: &Task, ruler: &Ruler, progress: &impl Fn(&str)) -> Result<Ve
         progress(&format!("SliderCrank {name}"));
         let points =
             TOLERANCES.iter().map(|&tolerance| point(task, ruler, method, tolerance)).collect::<Result<_>>()?;
-        all.push(Series { peer: "SliderCrank".into(), method: name.into(), points, notes: vec![] });
+        all.push(Series { peer: "SliderCrank".into(), method: name.into(), rigid: false, points, notes: vec![] });
     }
     progress("SliderCrank FMU");
     let through = through_fmu(task, &all[0])?;
@@ -39,10 +42,17 @@ pub fn series(task: &Task, ruler: &Ruler, progress: &impl Fn(&str)) -> Result<Ve
     Ok(all)
 }
 
+/// Our time stepping with rigid contacts, against the rigid `ruler`.
+pub fn rigid(task: &Task, ruler: &Ruler) -> Result<Series> {
+    let points = STEPS.iter().map(|&step| point(task, ruler, Method::Moreau, step)).collect::<Result<_>>()?;
+    let note = format!("rigid impacts, as below; fixed steps; reference good to {:.0e}", ruler.own_error);
+    Ok(Series { peer: "SliderCrank".into(), method: "moreau".into(), rigid: true, points, notes: vec![note] })
+}
+
 fn point(task: &Task, ruler: &Ruler, method: Method, tolerance: f64) -> Result<Point> {
     let error = ruler.error(&ruler.solve(task, method, tolerance)?);
     let mut scene = task.scenario.file.scene.clone();
-    (scene.solver.method, scene.solver.tolerance) = (method, tolerance);
+    choose(&mut scene, method, tolerance);
     let mut evaluations = 0.0;
     let seconds = fastest(|| {
         let mut simulation = Simulation::start(&scene, 0.0, inputs_at_start(&task.scenario.file))?;
@@ -80,7 +90,7 @@ fn through_fmu(task: &Task, core: &Series) -> Result<Series> {
     }
     let method = format!("{}, packaged FMU", core.method);
     let notes = vec![format!("communication steps of {:.0} µs", STEP * 1e6)];
-    Ok(Series { peer: "SliderCrank".into(), method, points, notes })
+    Ok(Series { peer: "SliderCrank".into(), method, rigid: false, points, notes })
 }
 
 /// [s] The least of several runs.

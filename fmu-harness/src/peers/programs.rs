@@ -26,8 +26,8 @@ pub struct Program {
     pub word: &'static str,
     /// Tolerances, or steps [s] where the method's are fixed, from loose to tight.
     pub ladder: &'static [f64],
-    /// Its model is not ours: its error is taken against its own finest run.
-    pub own_model: bool,
+    /// Its contacts are rigid.
+    pub rigid: bool,
     /// Where it differs.
     pub note: Option<&'static str>,
 }
@@ -37,7 +37,7 @@ const FEWER: &[f64] = &[1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
 
 const fn sundials(method: &'static str, word: &'static str) -> Program {
     let (peer, kind, ladder) = ("SUNDIALS", Kind::Sundials, TOLERANCES);
-    Program { peer, method, kind, word, ladder, own_model: false, note: Some("our equations, through C") }
+    Program { peer, method, kind, word, ladder, rigid: false, note: Some("our equations, through C") }
 }
 
 const fn scipy(word: &'static str) -> Program {
@@ -48,7 +48,7 @@ const fn scipy(word: &'static str) -> Program {
         kind,
         word,
         ladder,
-        own_model: false,
+        rigid: false,
         note: Some("equations of its own in numba; steps of at most 10 µs, or it skips hops"),
     }
 }
@@ -67,7 +67,7 @@ const fn exudyn(method: &'static str, word: &'static str) -> Program {
     let (peer, kind) = ("Exudyn", Kind::Python("exudyn_journal.py"));
     let ladder = &[1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7];
     let note = Some("a sphere in a hollow sphere; fixed steps");
-    Program { peer, method, kind, word, ladder, own_model: false, note }
+    Program { peer, method, kind, word, ladder, rigid: false, note }
 }
 
 const EXUDYN: [Program; 2] =
@@ -76,7 +76,7 @@ const EXUDYN: [Program; 2] =
 const fn mujoco(method: &'static str, word: &'static str) -> Program {
     let (peer, kind, ladder) = ("MuJoCo", Kind::Python("mujoco_ideal.py"), &[1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5]);
     let note = Some("loop closed by a soft constraint; fixed steps");
-    Program { peer, method, kind, word, ladder, own_model: false, note }
+    Program { peer, method, kind, word, ladder, rigid: false, note }
 }
 
 const MUJOCO: [Program; 2] = [mujoco("RK4", "RK4"), mujoco("implicit", "implicit")];
@@ -86,9 +86,9 @@ const SICONOS: Program = Program {
     method: "Moreau-Jean",
     kind: Kind::Siconos,
     word: "moreau",
-    ladder: &[1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 2e-7],
-    own_model: true,
-    note: Some("rigid impacts: another model; fixed steps, error against its own finest run"),
+    ladder: &[1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7],
+    rigid: true,
+    note: Some("rigid impacts; fixed steps"),
 };
 
 /// The competitors that know the scene.

@@ -12,8 +12,19 @@ use slidercrank::model::signals::Outputs;
 use slidercrank::scene::{JointModel, Method, Scene};
 use slidercrank::simulation::{Simulation, System};
 
+/// Lets a scene be solved so; `tolerance` is the step [s] of Moreau's rule.
+pub fn choose(scene: &mut Scene, method: Method, tolerance: f64) {
+    scene.solver.method = method;
+    match method {
+        Method::Moreau => scene.solver.step = tolerance,
+        _ => scene.solver.tolerance = tolerance,
+    }
+}
+
 /// Tolerance of the reference solutions.
 const REFERENCE: f64 = 1e-12;
+/// [s] Step of the rigid one.
+const RIGID_STEP: f64 = 5e-8;
 
 /// Measured quantities, one list for each instant.
 pub type Paths = Vec<Vec<f64>>;
@@ -23,25 +34,36 @@ pub struct Ruler {
     scene: Scene,
     times: Vec<f64>,
     reference: Paths,
-    /// By how much two reference solutions, of different methods, differ.
+    /// By how much two reference solutions, of different methods or steps, differ.
     pub own_error: f64,
 }
 
 impl Ruler {
     /// Solves the task with two methods of ours at a tight tolerance.
     pub fn new(task: &Task) -> Result<Self> {
-        let times: Vec<f64> = (1..=task.points).map(|i| task.span * i as f64 / task.points as f64).collect();
-        let scene = task.scenario.file.scene.clone();
-        let mut ruler = Self { scene, times, reference: vec![], own_error: 0.0 };
+        let mut ruler = Self::bare(task);
         ruler.reference = ruler.solve(task, Method::Dop853, REFERENCE)?;
         ruler.own_error = ruler.error(&ruler.solve(task, Method::Verner7, REFERENCE)?);
         Ok(ruler)
     }
 
-    /// The measured quantities of a run of ours.
+    /// The same for rigid contacts, with Moreau's rule at a short step and at twice that.
+    pub fn rigid(task: &Task) -> Result<Self> {
+        let mut ruler = Self::bare(task);
+        ruler.reference = ruler.solve(task, Method::Moreau, RIGID_STEP)?;
+        ruler.own_error = ruler.error(&ruler.solve(task, Method::Moreau, 2.0 * RIGID_STEP)?);
+        Ok(ruler)
+    }
+
+    fn bare(task: &Task) -> Self {
+        let times = (1..=task.points).map(|i| task.span * i as f64 / task.points as f64).collect();
+        Self { scene: task.scenario.file.scene.clone(), times, reference: vec![], own_error: 0.0 }
+    }
+
+    /// The measured quantities of a run of ours; `tolerance` is the step [s] of Moreau's rule.
     pub fn solve(&self, task: &Task, method: Method, tolerance: f64) -> Result<Paths> {
         let mut scene = self.scene.clone();
-        (scene.solver.method, scene.solver.tolerance) = (method, tolerance);
+        choose(&mut scene, method, tolerance);
         let mut simulation = Simulation::start(&scene, 0.0, inputs_at_start(&task.scenario.file))?;
         let at = |t: &f64| -> Result<Vec<f64>> {
             simulation.advance_to(*t)?;

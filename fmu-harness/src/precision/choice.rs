@@ -24,7 +24,7 @@ impl Diagram {
         runs.min_by(|a, b| cost(a).total_cmp(&cost(b)))
     }
 
-    /// By what factor the method's cost rises for one more digit: the mean from the coarsest run that keeps to [`ROUGH`]
+    /// By what factor the method's cost rises for one more digit: the mean from the coarsest run that keeps to 0.1
     /// to the finest whose error stands clear of the reference's; `None` over less than one digit.
     pub fn digit(&self, method: Method) -> Option<f64> {
         let coarse = self.keeping(method, ROUGH)?;

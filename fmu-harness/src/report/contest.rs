@@ -76,12 +76,11 @@ pub fn table(contest: &Contest) -> Table {
     }
     head.push("remarks".into());
     table.line(head);
-    let ours = contest.series.first();
     for series in &contest.series {
         let mut line = vec![name(series)];
         for error in ERRORS {
             let reached = cost_at(&series.points, error);
-            let own = ours.and_then(|ours| cost_at(&ours.points, error).cost());
+            let own = rival(contest, series).and_then(|ours| cost_at(&ours.points, error).cost());
             let ratio = reached.cost().zip(own).map_or("–".into(), |(theirs, own)| three_digits(theirs / own));
             line.extend([reached.print(), ratio]);
         }
@@ -89,6 +88,11 @@ pub fn table(contest: &Contest) -> Table {
         table.line(line);
     }
     table
+}
+
+/// What a series is compared with: the first one of the same contacts.
+fn rival<'a>(contest: &'a Contest, series: &Series) -> Option<&'a Series> {
+    contest.series.iter().find(|ours| ours.rigid == series.rigid)
 }
 
 /// All runs, in full.
@@ -172,7 +176,7 @@ fn power(number: f64) -> String {
 /// One sentence on the contest: how far the best of the others is from ours.
 pub fn sentence(contest: &Contest) -> String {
     let Some(ours) = contest.series.first() else { return String::new() };
-    let others = || contest.series.iter().filter(|series| series.peer != ours.peer);
+    let others = || contest.series.iter().filter(|series| series.peer != ours.peer && series.rigid == ours.rigid);
     let mut parts = vec![];
     for error in ERRORS {
         let Some(own) = cost_at(&ours.points, error).cost() else { continue };

@@ -85,16 +85,16 @@ struct OfSurface {
 /// One number for the bristles of each contact.
 type Bristles<R> = [R; GUIDE_CONTACTS];
 
-/// Forces of all contacts, and rates of their bristles.
-type LoadOf<R> = fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>, &mut Bristles<R>) -> Load<R>;
-/// Their energy and losses.
-type AccountOf<R> = fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>) -> Account<R>;
+/// [`load`] of one combination of laws.
+type LoadKernel<R> = fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>, &mut Bristles<R>) -> Load<R>;
+/// [`account`] of one combination of laws.
+type AccountKernel<R> = fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>) -> Account<R>;
 
 /// What is compiled for each combination of laws.
 #[derive(Clone, Copy, Debug)]
 pub struct ByLaws<R> {
-    load: LoadOf<R>,
-    account: AccountOf<R>,
+    load: LoadKernel<R>,
+    account: AccountKernel<R>,
 }
 
 impl OfSurface {
