@@ -58,7 +58,7 @@ pub trait Real:
     fn tanh(self) -> Self;
     /// Inverse hyperbolic sine.
     fn asinh(self) -> Self;
-    /// x^p, x ≥ 0 and p ≥ 1.
+    /// x^p; with derivatives for x ≥ 0, p ≥ 1.
     fn powf(self, p: f64) -> Self;
     /// Angle of the point (x, `self`).
     fn atan2(self, x: Self) -> Self;
