@@ -24,6 +24,8 @@ const GREATEST_FACTOR: f64 = 5.0;
 const MEMORY: f64 = 0.04;
 /// Rates of early stages are of low order: only this many times a tolerable error is suspicious.
 const UNSEEN: f64 = 1e3;
+/// States and rates from here on count as lost.
+const GREATEST: f64 = 1e100;
 /// A state cannot be asked to be more accurate than a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
@@ -77,9 +79,10 @@ pub fn shrinkage<M: Method>(error: f64) -> f64 {
     }
 }
 
-/// The first state that is not a finite number.
+/// The first state (or rate) that is not a number, or so large that its powers are none.
 pub fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
-    y.iter().take(Extent::of(problem).states).position(|y| !y.is_finite())
+    let kept = |y: &f64| y.abs() < GREATEST;
+    y.iter().take(Extent::of(problem).states).position(|y| !kept(y))
 }
 
 /// A first step over which the rates move the state by a hundredth of its scales.

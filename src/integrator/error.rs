@@ -15,11 +15,11 @@ pub enum IntegrationError {
         /// The state with the largest error.
         component: usize,
     },
-    /// The rates at the start of a step are not finite.
+    /// The rates at an end of a step are not numbers, or too large to go on with.
     NotFinite {
         /// [s] Time reached.
         time: f64,
-        /// The first state whose rate is not finite.
+        /// The first state with such a rate.
         component: usize,
     },
     /// Events follow each other without time passing.

@@ -88,10 +88,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if t >= front.t {
             return (front.y, front.modes);
         }
-        if !M::INTERPOLATES {
-            let (t0, modes) = (start.t, start.modes);
-            M::attempt(&mut self.made, &mut self.room, problem, start, t - t0);
-            return (if t > t0 { self.made.y } else { self.memory.start.y }, modes);
+        if !M::INTERPOLATES && t > start.t {
+            M::attempt(&mut self.made, &mut self.room, problem, start, t - start.t);
+            if controller::lost_state(problem, &self.made.y).is_none() {
+                return (self.made.y, start.modes);
+            }
         }
         let step = self.memory.last_step(Extent::of(problem));
         let tolerance = self.settings.tolerance;
@@ -158,6 +159,13 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         };
         let before = self.guards;
         self.commit(problem, self.memory.start.t + h);
+        if let Some(component) = controller::lost_state(problem, &self.memory.end.rates) {
+            // Without an error estimate a step may have led anywhere.
+            (self.memory.end, self.memory.front) = (self.memory.start, self.memory.start);
+            self.memory.statistics.steps -= 1;
+            self.guards = before;
+            return Err(IntegrationError::NotFinite { time: self.memory.start.t, component });
+        }
         if problem.guard_count() == 0 {
             return Ok(());
         }

@@ -52,6 +52,25 @@ fn a_state_that_blows_up_stops_where_it_does() {
 }
 
 #[test]
+fn a_fixed_step_that_overflows_is_taken_back() {
+    // v̇ = v³ from 1: v has no bound before t = ½, and no error estimate tells.
+    let problem = Free { accelerations: |_: f64, _: &[f64], v: &[f64], a: &mut [f64]| a[0] = v[0].powi(3) };
+    let settings = Settings { fixed_step: 0.05, ..SETTINGS };
+    let mut integrator = Integrator::<2, (), Rk4>::start(&problem, settings, 0.0, [0.0, 1.0], ());
+    for k in 1.. {
+        let t = f64::from(k) * 1e-3;
+        let error = integrator.advance(&problem, t).err();
+        let time = error.as_ref().map_or(t, IntegrationError::time);
+        let (y, ()) = integrator.state_at(&problem, time);
+        assert!(y.iter().all(|y| y.is_finite()), "{y:?} at {time}: {error:?}");
+        if error.is_some() {
+            assert_eq!(integrator.memory().front.t, time, "{error:?}");
+            break;
+        }
+    }
+}
+
+#[test]
 fn a_fixed_step_into_a_wall_underflows_too() {
     let problem = Free {
         accelerations: |t: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = if t < 0.5 { 2.0 } else { f64::NAN },
