@@ -19,7 +19,7 @@ fn parameters(law: FrictionLaw) -> Friction {
     }
 }
 
-/// f_t/f_n as physics.md 6 has it.
+/// f_t/f_n of the laws as they are defined.
 fn ratio(f: &Friction, v: f64) -> f64 {
     match f.law {
         FrictionLaw::None | FrictionLaw::Lugre => 0.0,

@@ -1,5 +1,5 @@
-//! Damping factors and the restitution they deliver, against published tables (literature.md 3.2) and
-//! by integrating a free impact.
+//! Damping factors and the restitution they deliver, against published tables and by integrating a
+//! free impact.
 
 use slidercrank::model::contact::damping::factor;
 use slidercrank::scene::DampingLaw;
