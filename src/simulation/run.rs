@@ -56,7 +56,7 @@ pub struct Run<const N: usize, M: Method> {
 }
 
 /// [s] Half the interval over which an output's derivative is taken.
-pub const DIFFERENCE: f64 = 1e-8;
+const DIFFERENCE: f64 = 1e-8;
 
 impl<const N: usize, M: Method> Run<N, M> {
     /// Starts `plant` at `time` from `pose`.
@@ -113,20 +113,13 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
         let mut rates = [0.0; N];
         self.plant.rates(&contacts, t, &y, &mut rates);
-        let along = |shift: f64| std::array::from_fn(|i| y[i] + shift * rates[i]);
-        let (before, after) = (t - DIFFERENCE, t + DIFFERENCE);
-        let first = self.observe(&contacts, before, &along(before - t));
-        let second = self.observe(&contacts, after, &along(after - t));
-        let mut slopes = second.combined(&first, |second, first| (second - first) / (after - before));
+        let mut slopes = slopes(t, &y, &rates, |t, y| self.observe(&contacts, t, y));
         self.observer.set_known_rates(&self.plant.instant(&contacts, t, &y), &mut slopes);
         slopes
     }
 
     fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs {
-        // Outputs are affine in the inputs: any difference is the derivative.
-        let one = self.observe_under(t, seed);
-        let other = self.observe_under(t, Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
-        one.combined(&other, |one, other| 0.5 * (one - other))
+        sensitivity(seed, |inputs| self.observe_under(t, inputs))
     }
 
     fn size(&self) -> Size {
@@ -217,7 +210,30 @@ pub fn linearization<const N: usize>(
     }
 }
 
+/// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference.
+pub fn slopes<const N: usize>(
+    t: f64,
+    y: &[f64; N],
+    rates: &[f64; N],
+    observe: impl Fn(f64, &[f64; N]) -> Outputs,
+) -> Outputs {
+    let along = |shift: f64| std::array::from_fn(|i| y[i] + shift * rates[i]);
+    let (before, after) = (t - DIFFERENCE, t + DIFFERENCE);
+    let first = observe(before, &along(before - t));
+    let second = observe(after, &along(after - t));
+    second.combined(&first, |second, first| (second - first) / (after - before))
+}
+
+/// Derivative of outputs with respect to the inputs, along `seed`.
+pub fn sensitivity(seed: Inputs, mut observe_under: impl FnMut(Inputs) -> Outputs) -> Outputs {
+    // Outputs are affine in the inputs: any difference is the derivative.
+    let one = observe_under(seed);
+    let other = observe_under(Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
+    one.combined(&other, |one, other| 0.5 * (one - other))
+}
+
 /// A list in an array with room, or as much of it as has room.
+#[inline(always)]
 pub fn filled<const N: usize>(list: &[f64]) -> [f64; N] {
     let mut array = [0.0; N];
     for (place, value) in array.iter_mut().zip(list) {

@@ -1,7 +1,7 @@
 //! The equations of motion of a scene for an integrator that is not ours: right-hand side, event
 //! functions, and what happens at an event.
 
-use super::run::Motion;
+use super::run::{Motion, filled};
 use super::{SimulationError, Size, assemble, start_pose};
 use crate::integrator::{Crossed, Extent, Front, GUARDS, Guard};
 use crate::model::drive::InputSignal;
@@ -129,16 +129,6 @@ impl<const N: usize> Bare<N> {
     }
 }
 
-/// The states in arrays of their room.
-#[inline(always)]
-fn padded<const N: usize>(y: &[f64]) -> [f64; N] {
-    let mut all = [0.0; N];
-    for (place, value) in all.iter_mut().zip(y) {
-        *place = *value;
-    }
-    all
-}
-
 /// As many of `values` as `list` has room for.
 #[inline(always)]
 fn write(values: &[f64], list: &mut [f64]) {
@@ -167,19 +157,19 @@ impl<const N: usize> Equations for Bare<N> {
 
     fn write_rates(&self, t: f64, y: &[f64], rates: &mut [f64]) {
         let mut all = [0.0; N];
-        self.plant.rates(&self.contacts, t, &padded(y), &mut all);
+        self.plant.rates(&self.contacts, t, &filled(y), &mut all);
         write(&all, rates);
     }
 
     fn write_guards(&self, t: f64, y: &[f64], guards: &mut [f64]) {
-        let all = self.guards(t, &padded(y));
+        let all = self.guards(t, &filled(y));
         for (place, guard) in guards.iter_mut().zip(all).take(self.plant.guard_count()) {
             *place = guard.value;
         }
     }
 
     fn cross(&mut self, t: f64, y: &mut [f64], crossed: &[bool]) {
-        let mut state = padded(y);
+        let mut state = filled(y);
         let guards = self.guards(t, &state);
         let mut all: Crossed = [false; GUARDS];
         for (i, place) in all.iter_mut().enumerate().take(self.plant.guard_count()) {
@@ -195,7 +185,7 @@ impl<const N: usize> Equations for Bare<N> {
     }
 
     fn outputs(&self, t: f64, y: &[f64]) -> Outputs {
-        let y = padded(y);
+        let y = filled(y);
         let instant = self.plant.instant(&self.contacts, t, &y);
         let penetration = self.plant.penetration(&instant.pose);
         let torque = self.plant.signal().at(t).crank_torque;

@@ -3,7 +3,7 @@
 use super::Size;
 use super::equations::Linearization;
 use super::record;
-use super::run::{DIFFERENCE, Motion, filled, linearization, solver_outputs};
+use super::run::{Motion, filled, linearization, sensitivity, slopes, solver_outputs};
 use super::snapshot::{Reader, Snapshot};
 use super::system::{Bare, Equations};
 use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau};
@@ -77,20 +77,13 @@ impl<const N: usize> Motion for TimeStepping<N> {
         let (y, impulses) = self.integrator.state_at(self.plant.as_ref(), t);
         let mut rates = [0.0; N];
         self.plant.rates_under(&impulses, t, &y, &mut rates);
-        let along = |shift: f64| std::array::from_fn(|i| y[i] + shift * rates[i]);
-        let (before, after) = (t - DIFFERENCE, t + DIFFERENCE);
-        let first = self.observe(&impulses, before, &along(before - t));
-        let second = self.observe(&impulses, after, &along(after - t));
-        let mut slopes = second.combined(&first, |second, first| (second - first) / (after - before));
+        let mut slopes = slopes(t, &y, &rates, |t, y| self.observe(&impulses, t, y));
         self.observer.set_known_rates(&self.plant.instant_under(&impulses, t, &y), &mut slopes);
         slopes
     }
 
     fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs {
-        // Outputs are affine in the inputs: any difference is the derivative.
-        let one = self.observe_under(t, seed);
-        let other = self.observe_under(t, Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
-        one.combined(&other, |one, other| 0.5 * (one - other))
+        sensitivity(seed, |inputs| self.observe_under(t, inputs))
     }
 
     fn size(&self) -> Size {
