@@ -13,6 +13,27 @@ pub struct Settings {
     pub tolerance: f64,
     /// [s] Step of a method without an error estimate.
     pub fixed_step: f64,
+    /// How much one advance may cost.
+    pub effort: Effort,
+}
+
+/// The most evaluations of the rates that one advance may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// However short it is.
+    pub base: u64,
+    /// And more for each second of it.
+    pub per_second: u64,
+}
+
+impl Effort {
+    /// No bound.
+    pub const ANY: Self = Self { base: u64::MAX, per_second: 0 };
+
+    /// For an advance over `interval` [s].
+    pub fn over(self, interval: f64) -> u64 {
+        self.base.saturating_add((interval * self.per_second as f64) as u64)
+    }
 }
 
 const SAFETY: f64 = 0.9; // Hairer, Nørsett, Wanner I, II.4

@@ -29,12 +29,12 @@ pub enum IntegrationError {
         /// The guard that is lowest.
         guard: usize,
     },
-    /// One advance took more steps than the stated bound.
-    TooManySteps {
+    /// One advance took more evaluations of the rates than it may.
+    TooMuchWork {
         /// [s] Time reached.
         time: f64,
-        /// The bound.
-        steps: u64,
+        /// How many were made.
+        evaluations: u64,
     },
     /// No impulses satisfy the laws of the rigid contacts that are closed.
     Complementarity {
@@ -58,7 +58,7 @@ impl IntegrationError {
             Self::StepUnderflow { time, .. }
             | Self::NotFinite { time, .. }
             | Self::EventsAccumulate { time, .. }
-            | Self::TooManySteps { time, .. }
+            | Self::TooMuchWork { time, .. }
             | Self::Complementarity { time, .. } => time,
         }
     }
@@ -76,8 +76,8 @@ impl fmt::Display for IntegrationError {
             Self::EventsAccumulate { guard, .. } => {
                 write!(f, "events accumulate; guard {guard} is lowest")
             }
-            Self::TooManySteps { steps, .. } => {
-                write!(f, "{steps} steps did not reach the communication point")
+            Self::TooMuchWork { evaluations, .. } => {
+                write!(f, "{evaluations} evaluations did not reach the communication point")
             }
             Self::Complementarity { contacts, .. } => {
                 write!(f, "no impulses satisfy the laws of {contacts} closed contacts at once")

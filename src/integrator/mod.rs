@@ -26,7 +26,7 @@ mod step;
 mod tableau;
 mod unilateral;
 
-pub use controller::Settings;
+pub use controller::{Effort, Settings};
 pub use error::IntegrationError;
 pub use memory::{Front, Memory};
 pub use method::{Method, Room};

@@ -12,8 +12,6 @@ use super::statistics::Statistics;
 
 /// Most events without time passing.
 pub(super) const STANDSTILL: usize = 64;
-/// Most steps of one advance.
-pub(super) const STEPS: u64 = 200_000_000;
 
 /// A one-step integrator with event location.
 pub struct Integrator<const N: usize, D, M: Method> {
@@ -64,10 +62,13 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         P: Problem<N, Modes = D> + ?Sized,
     {
         let mut standing = 0;
-        for _ in 0..STEPS {
+        let before = self.memory.statistics.evaluations;
+        let most = self.settings.effort.over(t - self.memory.front.t);
+        while self.memory.front.t < t {
             let front = self.memory.front.t;
-            if front >= t {
-                return Ok(());
+            let evaluations = self.memory.statistics.evaluations - before;
+            if evaluations > most {
+                return Err(IntegrationError::TooMuchWork { time: front, evaluations });
             }
             self.settle(problem)?;
             self.step(problem)?;
@@ -76,7 +77,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                 return Err(IntegrationError::events_accumulate(front, &self.guards[..problem.guard_count()]));
             }
         }
-        Err(IntegrationError::TooManySteps { time: self.memory.front.t, steps: STEPS })
+        Ok(())
     }
 
     /// State and modes at `t` in the last step.

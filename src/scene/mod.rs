@@ -291,4 +291,6 @@ pub struct Solver {
     pub tolerance: f64,
     /// [s] Step of the fixed-step methods.
     pub step: f64,
+    /// Most evaluations of the equations of motion in one communication step; 0 leaves it to the simulation.
+    pub max_evaluations: i32,
 }

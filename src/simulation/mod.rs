@@ -12,6 +12,7 @@ pub use equations::Linearization;
 pub use snapshot::Snapshot;
 pub use system::System;
 
+use crate::integrator::IntegrationError;
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 use crate::model::start::StartPose;
@@ -110,7 +111,11 @@ impl Simulation {
             }
             Err(error) => {
                 self.time = self.time.max(error.time());
-                Err(SimulationError::Integration { time: error.time(), cause: error.to_string() })
+                let cause = match error {
+                    IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
+                    _ => error.to_string(),
+                };
+                Err(SimulationError::Integration { time: error.time(), cause })
             }
         }
     }

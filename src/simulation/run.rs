@@ -5,14 +5,14 @@ use super::equations::Linearization;
 use super::record;
 use super::snapshot::{Reader, Snapshot};
 use super::system::{Bare, Equations};
-use crate::integrator::{Extent, Front, IntegrationError, Integrator, Jacobian, Method, Settings, Statistics};
+use crate::integrator::{Effort, Extent, Front, IntegrationError, Integrator, Jacobian, Method, Settings, Statistics};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
 use crate::model::signals::{Inputs, Outputs, SolverOutputs};
 use crate::model::start::StartPose;
 use crate::model::state::Contacts;
-use crate::scene::Scene;
+use crate::scene::{Scene, Solver};
 use std::hint::black_box;
 
 /// A mechanism in motion, whatever its size.
@@ -57,11 +57,14 @@ pub struct Run<const N: usize, M: Method> {
 
 /// [s] Half the interval over which an output's derivative is taken.
 const DIFFERENCE: f64 = 1e-8;
+/// Where the scene sets no bound: seconds of computing for a communication step that leads nowhere, and several times
+/// what any shipped scene needs.
+const EFFORT: Effort = Effort { base: 20_000_000, per_second: 50_000_000 };
 
 impl<const N: usize, M: Method> Run<N, M> {
     /// Starts `plant` at `time` from `pose`.
     pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant<N>>) -> Self {
-        let settings = Settings { tolerance: scene.solver.tolerance, fixed_step: scene.solver.step };
+        let settings = settings(scene);
         let y = plant.start(pose);
         let contacts = plant.start_contacts(time, &y);
         let integrator = Integrator::start(plant.as_ref(), settings, time, y, contacts);
@@ -175,6 +178,16 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         self.integrator = Integrator::resume(self.plant.as_ref(), self.settings, memory);
         Some(())
     }
+}
+
+/// What a scene asks of its integrator.
+pub fn settings(scene: &Scene) -> Settings {
+    let Solver { tolerance, step, max_evaluations, .. } = scene.solver;
+    let effort = match u64::try_from(max_evaluations) {
+        Ok(base @ 1..) => Effort { base, per_second: 0 },
+        _ => EFFORT,
+    };
+    Settings { tolerance, fixed_step: step, effort }
 }
 
 /// Counters as outputs.

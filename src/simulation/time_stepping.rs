@@ -3,10 +3,10 @@
 use super::Size;
 use super::equations::Linearization;
 use super::record;
-use super::run::{Motion, filled, linearization, sensitivity, slopes, solver_outputs};
+use super::run::{Motion, filled, linearization, sensitivity, settings, slopes, solver_outputs};
 use super::snapshot::{Reader, Snapshot};
 use super::system::{Bare, Equations};
-use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau};
+use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau, Settings};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
@@ -21,16 +21,16 @@ use std::hint::black_box;
 pub struct TimeStepping<const N: usize> {
     plant: Box<dyn Plant<N>>,
     integrator: Moreau<N>,
-    step: f64,
+    settings: Settings,
     observer: Observer,
 }
 
 impl<const N: usize> TimeStepping<N> {
     /// Starts `plant` at `time` from `pose`.
     pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant<N>>) -> Self {
-        let step = scene.solver.step;
-        let integrator = Moreau::start(step, time, plant.start(pose));
-        Self { plant, integrator, step, observer: Observer::new(scene) }
+        let settings = settings(scene);
+        let integrator = Moreau::start(settings, time, plant.start(pose));
+        Self { plant, integrator, settings, observer: Observer::new(scene) }
     }
 
     fn observe(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N]) -> Outputs {
@@ -136,7 +136,7 @@ impl<const N: usize> Motion for TimeStepping<N> {
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
         let memory = record::load(self.plant.as_mut(), reader)?;
-        self.integrator = Moreau::resume(self.step, memory);
+        self.integrator = Moreau::resume(self.settings, memory);
         Some(())
     }
 }

@@ -155,6 +155,23 @@ fn a_failed_step_is_told_undone_and_redone() {
 }
 
 #[test]
+fn a_step_that_takes_too_much_work_ends_on_its_way() {
+    let slave = Slave::new();
+    slave.wear();
+    assert_eq!(slave.set_integer("solver.max_evaluations", 2000), Status::Ok);
+    assert_eq!(slave.setup_raw(0, 0.0, 0.0, 0, 0.0), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    let saved = slave.save();
+    assert_eq!(slave.step(0.0, 0.1), Status::Discard);
+    let (text, reached) = (slave.log.only().text, slave.last_time());
+    assert!(text.contains("solver.max_evaluations") && reached > 0.0 && reached < 0.1, "{text}");
+    let evaluations = slave.get_integer("solver.evaluations");
+    assert!((2000..4000).contains(&evaluations), "{evaluations}");
+    assert_eq!(slave.set_state(saved), Status::Ok);
+    slave.steps(0.0, 1e-4, 10);
+}
+
+#[test]
 fn a_failed_step_can_be_followed_by_a_reset() {
     let slave = Slave::running();
     assert_eq!(slave.set("slider.load", 1e308), Status::Ok);

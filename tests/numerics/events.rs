@@ -2,7 +2,7 @@
 
 use super::free::power;
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Crossed, GUARDS, Guard, Integrator, Jacobian, Method, Problem, Reset, Settings};
+use slidercrank::integrator::{Crossed, Effort, GUARDS, Guard, Integrator, Jacobian, Method, Problem, Reset, Settings};
 use std::cell::RefCell;
 use std::f64::consts::PI;
 
@@ -29,7 +29,7 @@ where
     }
 
     fn run<M: Method>(&self, tolerance: f64, start: [f64; 2], end: f64) -> Vec<f64> {
-        self.run_with::<M>(Settings { tolerance, fixed_step: 0.0 }, start, end)
+        self.run_with::<M>(Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY }, start, end)
     }
 
     fn run_with<M: Method>(&self, settings: Settings, start: [f64; 2], end: f64) -> Vec<f64> {
@@ -121,8 +121,9 @@ fn bounce_error<M: Method>(settings: Settings) -> f64 {
 #[test]
 fn bounces_happen_when_they_should_and_better_so_at_a_tighter_tolerance() {
     fn shrinks<M: Method>() {
-        let points = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10]
-            .map(|tolerance| (tolerance, bounce_error::<M>(Settings { tolerance, fixed_step: 0.0 })));
+        let points = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10].map(|tolerance| {
+            (tolerance, bounce_error::<M>(Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY }))
+        });
         let found = power(&points);
         println!("{}: error/tolerance {:.2?} s, power {found:.2}", M::NAME, points.map(|point| point.1 / point.0));
         // The floor is met at 2.4 m/s and a step's error is at most the tolerance; a bounce of 30 steps
@@ -140,7 +141,7 @@ fn bounces_happen_when_they_should_and_better_so_at_a_tighter_tolerance() {
 #[test]
 fn with_a_fixed_step_event_times_keep_the_method_s_order() {
     let points = [2e-4, 1.4e-4, 1e-4, 7e-5, 5e-5]
-        .map(|step| (step, bounce_error::<Rk4>(Settings { tolerance: 1e-13, fixed_step: step })));
+        .map(|step| (step, bounce_error::<Rk4>(Settings { tolerance: 1e-13, fixed_step: step, effort: Effort::ANY })));
     let order = power(&points);
     // The last step before an event is a shorter one, of any length, whose error is then missing.
     println!("rk4: {:.2?} ps, order {order:.2}", points.map(|point| 1e12 * point.1));

@@ -3,10 +3,10 @@
 use super::free::Free;
 use slidercrank::integrator::methods::{Dopri5, Rk4, Verner7};
 use slidercrank::integrator::{
-    Crossed, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Problem, Reset, Settings,
+    Crossed, Effort, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Problem, Reset, Settings,
 };
 
-const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3 };
+const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3, effort: Effort::ANY };
 
 #[test]
 fn rates_that_are_not_a_number_at_the_start_are_named() {
@@ -49,6 +49,27 @@ fn a_state_that_blows_up_stops_where_it_does() {
     let front = integrator.memory().front;
     assert_eq!(front.t, error.time());
     assert!(front.y.iter().all(|y| y.is_finite()), "{front:?}");
+}
+
+#[test]
+fn work_beyond_its_bound_is_refused_and_can_be_gone_on_with() {
+    let problem = Free { accelerations: |_: f64, q: &[f64], _: &[f64], a: &mut [f64]| a[0] = -q[0] };
+    let start = |effort| {
+        let settings = Settings { effort, ..SETTINGS };
+        Integrator::<2, (), Verner7>::start(&problem, settings, 0.0, [1.0, 0.0], ())
+    };
+    let mut free = start(Effort::ANY);
+    assert_eq!(free.advance(&problem, 50.0), Ok(()));
+    let mut bound = start(Effort { base: 100, per_second: 2 });
+    let mut refusals = 0_u64;
+    while let Err(error) = bound.advance(&problem, 50.0) {
+        let IntegrationError::TooMuchWork { time, evaluations } = error else { unreachable!("{error}") };
+        assert_eq!(time, bound.memory().front.t);
+        assert!(evaluations > 100 && evaluations < 300, "{evaluations} at {time} s");
+        refusals += 1;
+    }
+    assert!(refusals >= free.memory().statistics.evaluations / 300, "{refusals}");
+    assert_eq!(bound.state_at(&problem, 50.0), free.state_at(&problem, 50.0));
 }
 
 #[test]

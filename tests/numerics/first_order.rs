@@ -2,7 +2,9 @@
 
 use slidercrank::integrator::dense_output::Step;
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Crossed, Extent, GUARDS, Guard, Integrator, Jacobian, Method, Problem, Reset, Settings};
+use slidercrank::integrator::{
+    Crossed, Effort, Extent, GUARDS, Guard, Integrator, Jacobian, Method, Problem, Reset, Settings,
+};
 
 const N: usize = 32;
 
@@ -70,7 +72,7 @@ fn known(t: f64) -> [f64; 4] {
 }
 
 fn errors<M: Method>(problem: &Following, tolerance: f64) -> (f64, u64) {
-    let settings = Settings { tolerance, fixed_step: 1e-2 };
+    let settings = Settings { tolerance, fixed_step: 1e-2, effort: Effort::ANY };
     let mut integrator = Integrator::<N, (), M>::start(problem, settings, 0.0, start(), ());
     let mut worst = 0.0f64;
     for i in 1..=500 {
@@ -104,7 +106,7 @@ fn first_order_states_are_as_accurate_as_positions_inside_steps_too() {
 #[test]
 fn a_state_that_is_not_weighed_changes_no_step() {
     let run = |problem: Following| {
-        let settings = Settings { tolerance: 1e-13, fixed_step: 0.0 };
+        let settings = Settings { tolerance: 1e-13, fixed_step: 0.0, effort: Effort::ANY };
         let mut integrator = Integrator::<N, (), Verner7>::start(&problem, settings, 0.0, start(), ());
         integrator.advance(&problem, 20.0).expect("no trouble");
         let memory = integrator.memory();

@@ -2,14 +2,14 @@
 
 use super::free::{Free, distance, kepler, nearest, orbit, power};
 use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{Integrator, Method, Settings};
+use slidercrank::integrator::{Effort, Integrator, Method, Settings};
 
 const ECCENTRICITY: f64 = 0.5;
 
 /// Error and steps of three quarters of an orbit.
 fn run<M: Method>(tolerance: f64, fixed_step: f64) -> (f64, u64) {
     let problem = Free { accelerations: kepler };
-    let settings = Settings { tolerance, fixed_step };
+    let settings = Settings { tolerance, fixed_step, effort: Effort::ANY };
     let mut integrator = Integrator::<4, (), M>::start(&problem, settings, 0.0, nearest(ECCENTRICITY), ());
     let end = 4.7;
     integrator.advance(&problem, end).expect("an orbit has no trouble");
@@ -52,7 +52,7 @@ fn a_fixed_step_takes_as_many_steps_as_fit() {
 #[test]
 fn a_far_communication_point_does_not_change_the_steps() {
     let problem = Free { accelerations: kepler };
-    let settings = Settings { tolerance: 1e-8, fixed_step: 0.0 };
+    let settings = Settings { tolerance: 1e-8, fixed_step: 0.0, effort: Effort::ANY };
     let start = || Integrator::<4, (), Verner7>::start(&problem, settings, 0.0, nearest(ECCENTRICITY), ());
     let mut far = start();
     far.advance(&problem, 3.0).expect("an orbit has no trouble");
@@ -67,7 +67,7 @@ fn a_far_communication_point_does_not_change_the_steps() {
 fn no_step_is_longer_than_the_longest() {
     // Straight motion: no error, so the longest step of 1 is soon reached.
     let problem = Free { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = 0.0 };
-    let settings = Settings { tolerance: 1e-6, fixed_step: 0.0 };
+    let settings = Settings { tolerance: 1e-6, fixed_step: 0.0, effort: Effort::ANY };
     let mut integrator = Integrator::<2, (), Verner7>::start(&problem, settings, 0.0, [0.0, 1.0], ());
     let mut longest = 0.0f64;
     for i in 1..=4000 {

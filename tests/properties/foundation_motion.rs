@@ -8,7 +8,7 @@ use super::scenes::{
 };
 use super::symmetry::{mirror, mirrored};
 use slidercrank::integrator::methods::Verner7;
-use slidercrank::integrator::{Front, Integrator, Settings};
+use slidercrank::integrator::{Effort, Front, Integrator, Settings};
 use slidercrank::model::joint::foundation::Bed;
 use slidercrank::model::joint::guide::Guide;
 use slidercrank::model::open::Open;
@@ -147,7 +147,7 @@ fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
     let plant = Open::<true, true, true, false, false, 6>::assemble(&scene, 0.0);
     let y = plant.start(&StartPose::of(&scene).expect("a loop that closes"));
     let contacts = plant.start_contacts(0.0, &y);
-    let settings = Settings { tolerance: 1e-8, fixed_step: 1e-6 };
+    let settings = Settings { tolerance: 1e-8, fixed_step: 1e-6, effort: Effort::ANY };
     let mut integrator = Integrator::<6, _, Verner7>::start(&plant, settings, 0.0, y, contacts);
     let (mut closings, mut passages) = (0, 0);
     let (mut before, mut before_count) = (contacts, [0; 2]);

@@ -5,7 +5,7 @@
 //! axial mass block lacks the element's factor 1/15; both are run here. It knows no foreshortening.
 
 use slidercrank::integrator::methods::Verner7;
-use slidercrank::integrator::{Integrator, Settings};
+use slidercrank::integrator::{Effort, Integrator, Settings};
 use slidercrank::model::flexible::Flexible;
 use slidercrank::model::plant::Plant;
 use slidercrank::model::rod::{Rod, most_functions};
@@ -121,7 +121,7 @@ fn at_the_end(factor: f64) -> (Instant, [f64; 4]) {
     let mut y = [0.0; 32];
     y[..8].copy_from_slice(&[0.0, 0.0, a, b, 0.444896105, 0.463434311e-2, c, d]);
     let contacts = plant.start_contacts(0.0, &y);
-    let settings = Settings { tolerance: 1e-9, fixed_step: 0.0 };
+    let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: Effort::ANY };
     let mut integrator = Integrator::<32, _, Verner7>::start(&plant, settings, 0.0, y, contacts);
     integrator.advance(&plant, 0.1).expect("no trouble");
     let (y, contacts) = integrator.state_at(&plant, 0.1);

@@ -30,32 +30,33 @@
 mod attempt;
 mod closed;
 
+use super::controller::Settings;
 use super::error::IntegrationError;
 use super::memory::{Front, Memory};
 use super::problem::Extent;
 use super::statistics::Statistics;
-use super::step::STEPS;
 use super::unilateral::{Impulses, Unilateral};
 use attempt::{Made, attempt};
 
 /// Time stepping with a fixed step.
 pub struct Moreau<const N: usize> {
-    step: f64,
+    settings: Settings,
     memory: Memory<N, Impulses<N>>,
 }
 
 impl<const N: usize> Moreau<N> {
-    /// Starts from the state `y` at `t` with steps of `step` [s].
-    pub fn start(step: f64, t: f64, y: [f64; N]) -> Self {
+    /// Starts from the state `y` at `t`.
+    pub fn start(settings: Settings, t: f64, y: [f64; N]) -> Self {
         // Rates are of no use to it.
         let front = Front { t, y, rates: [0.0; N], modes: Impulses::none(t, y) };
         let statistics = Statistics::default();
-        Self::resume(step, Memory { start: front, end: front, front, step, last_error: 0.0, crossings: 0, statistics })
+        let (start, step) = (front, settings.fixed_step);
+        Self::resume(settings, Memory { start, end: front, front, step, last_error: 0.0, crossings: 0, statistics })
     }
 
     /// Goes on from a saved state.
-    pub fn resume(step: f64, memory: Memory<N, Impulses<N>>) -> Self {
-        Self { step, memory }
+    pub fn resume(settings: Settings, memory: Memory<N, Impulses<N>>) -> Self {
+        Self { settings, memory }
     }
 
     /// All that is needed to go on.
@@ -71,21 +72,25 @@ impl<const N: usize> Moreau<N> {
     where
         P: Unilateral<N, Modes: Default> + ?Sized,
     {
-        for _ in 0..STEPS {
+        let before = self.memory.statistics.evaluations;
+        let most = self.settings.effort.over(t - self.memory.front.t);
+        while self.memory.front.t < t {
             let start = self.memory.front;
-            if start.t >= t {
-                return Ok(());
+            let evaluations = self.memory.statistics.evaluations - before;
+            if evaluations > most {
+                return Err(IntegrationError::TooMuchWork { time: start.t, evaluations });
             }
             // The step is what time really moves by: nothing drifts from its rounding.
-            let end = start.t + self.step.min(problem.longest_step());
+            let step = self.settings.fixed_step;
+            let end = start.t + step.min(problem.longest_step());
             if end <= start.t {
-                return Err(IntegrationError::StepUnderflow { time: start.t, step: self.step, component: 0 });
+                return Err(IntegrationError::StepUnderflow { time: start.t, step, component: 0 });
             }
             let made = attempt(problem, &start, end - start.t)?;
             self.memory.start = start;
             self.commit(end, made);
         }
-        Err(IntegrationError::TooManySteps { time: self.memory.front.t, steps: STEPS })
+        Ok(())
     }
 
     /// State at `t` in the last step, and the step's impulses. Velocities change evenly within a step, at
