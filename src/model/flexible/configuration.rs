@@ -4,6 +4,7 @@
 //! Modes move joint centres through one number only, the chord's length L. Places are therefore given
 //! over the coordinates x = (rigid coordinates, L): a = J·ẍ + bias, where L̈ = ∂L/∂η·η̈ + bias.
 
+use super::chain::Chain;
 use crate::math::{self, Real};
 use crate::model::coordinates::Layout;
 use crate::model::drive::Rotor;
@@ -11,15 +12,12 @@ use crate::model::ideal::IdealMechanism;
 use crate::model::kinematics::{JointCentres, Turning};
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2, perp};
-use crate::model::rod::{Rod, Shape};
+use crate::model::rod::{Chord, Rod, Shape};
 use crate::model::state::Pose;
-
-/// Room for x: nine rigid coordinates at most, then L.
-pub const PLACES: usize = 10;
 
 /// A joint centre.
 #[derive(Clone, Copy, Debug)]
-pub struct Centre<R> {
+pub struct Centre<R, const P: usize> {
     /// [m]
     pub place: Vec2<R>,
     /// [m/s]
@@ -27,12 +25,12 @@ pub struct Centre<R> {
     /// [m/s²] Acceleration at q̈ = 0.
     pub bias: Vec2<R>,
     /// ∂/∂x.
-    pub slope: [Vec2<R>; PLACES],
+    pub slope: [Vec2<R>; P],
 }
 
 /// The angle of a body.
 #[derive(Clone, Copy, Debug)]
-pub struct Heading<R> {
+pub struct Heading<R, const P: usize> {
     /// By the angle.
     pub rotation: Rotation<R>,
     /// [rad]
@@ -42,26 +40,24 @@ pub struct Heading<R> {
     /// [rad/s²] Acceleration at q̈ = 0.
     pub bias: R,
     /// ∂θ/∂x.
-    pub slope: [R; PLACES],
+    pub slope: [R; P],
 }
 
 /// All of them at one instant.
 #[derive(Clone, Copy, Debug)]
-pub struct Configuration<R, const K: usize, const F: usize> {
+pub struct Configuration<R, const P: usize> {
     /// Crank, rod, slider.
-    pub heading: [Heading<R>; 3],
-    /// The rod.
-    pub shape: Shape<R, K, F>,
+    pub heading: [Heading<R, P>; 3],
     /// The crank's main journal and pin, the rod's ends, the slider's pin.
-    pub crank: Centre<R>,
+    pub crank: Centre<R, P>,
     /// The crank's pin.
-    pub crank_pin: Centre<R>,
+    pub crank_pin: Centre<R, P>,
     /// The rod's big end.
-    pub big_end: Centre<R>,
+    pub big_end: Centre<R, P>,
     /// The rod's small end.
-    pub small_end: Centre<R>,
+    pub small_end: Centre<R, P>,
     /// The slider's pin.
-    pub pin: Centre<R>,
+    pub pin: Centre<R, P>,
 }
 
 /// What places need to be known.
@@ -71,6 +67,8 @@ pub struct Geometry {
     pub topology: Topology,
     /// Where the coordinates stand.
     pub layout: Layout,
+    /// Which of them are in x.
+    pub chain: Chain,
     /// Lengths, and the height of the pin on an ideal guide.
     pub ideal: IdealMechanism,
     /// The prescribed rotation.
@@ -79,30 +77,27 @@ pub struct Geometry {
     pub rod: Rod,
 }
 
-impl<R: Real> Centre<R> {
-    const FIXED: Self = Self { place: Vec2::ZERO, velocity: Vec2::ZERO, bias: Vec2::ZERO, slope: [Vec2::ZERO; PLACES] };
+impl<R: Real, const P: usize> Centre<R, P> {
+    const FIXED: Self = Self { place: Vec2::ZERO, velocity: Vec2::ZERO, bias: Vec2::ZERO, slope: [Vec2::ZERO; P] };
 
-    /// A point whose coordinates, from the place `first` on, are positions themselves.
+    /// A point that is not in the rod's chain.
     #[inline(always)]
-    fn root(place: Vec2<R>, velocity: Vec2<R>, first: usize) -> Self {
-        let mut centre = Self { place, velocity, ..Self::FIXED };
-        centre.slope[first].x = R::ONE;
-        centre.slope[first + 1].y = R::ONE;
-        centre
+    fn alone(place: Vec2<R>, velocity: Vec2<R>) -> Self {
+        Self { place, velocity, ..Self::FIXED }
     }
 
-    /// The pin on an ideal guide, whose x is a position.
+    /// The chain's root, whose coordinates come first in x.
     #[inline(always)]
-    fn on_rail(x: R, speed: R, height: f64, coordinate: usize) -> Self {
-        let place = Vec2::new(x, R::constant(height));
-        let mut centre = Self { place, velocity: Vec2::new(speed, R::ZERO), ..Self::FIXED };
-        centre.slope[coordinate].x = R::ONE;
+    fn root(place: Vec2<R>, velocity: Vec2<R>) -> Self {
+        let mut centre = Self::alone(place, velocity);
+        centre.slope[0].x = R::ONE;
+        centre.slope[1].y = R::ONE;
         centre
     }
 
     /// The point `side`·`arm` further, `arm` turning with a body.
     #[inline(always)]
-    fn along(&self, heading: &Heading<R>, side: f64, arm: Vec2<R>) -> Self {
+    pub fn along(&self, heading: &Heading<R, P>, side: f64, arm: Vec2<R>) -> Self {
         let arm = arm * side;
         let across = perp(arm);
         Self {
@@ -115,41 +110,35 @@ impl<R: Real> Centre<R> {
 
     /// The other end of the rod, forwards or backwards; L stands at `chord`.
     #[inline(always)]
-    fn across_rod<const K: usize, const F: usize>(
-        &self,
-        rod: &Heading<R>,
-        shape: &Shape<R, K, F>,
-        chord: usize,
-        side: f64,
-    ) -> Self {
+    fn across_rod(&self, rod: &Heading<R, P>, chord: &Chord<R>, place: usize, side: f64) -> Self {
         let axis = rod.rotation.axis(side);
-        let mut end = self.along(rod, 1.0, shape.chord * axis);
-        end.velocity += shape.chord_rate * axis;
-        end.bias += shape.chord_bias * axis + shape.chord_rate * 2.0 * rod.speed * perp(axis);
-        end.slope[chord] += axis;
+        let mut end = self.along(rod, 1.0, chord.length * axis);
+        end.velocity += chord.rate * axis;
+        end.bias += chord.bias * axis + chord.rate * 2.0 * rod.speed * perp(axis);
+        end.slope[place] += axis;
         end
     }
 
     /// A point of a body, `arm` [m] away in its axes.
     #[inline(always)]
-    pub fn carried(&self, heading: &Heading<R>, arm: Vec2) -> Self {
+    pub fn carried(&self, heading: &Heading<R, P>, arm: Vec2) -> Self {
         self.along(heading, 1.0, heading.rotation.apply(arm))
     }
 
     /// [m/s²] At the accelerations `forced` of x, the bias of L apart.
-    pub fn acceleration(&self, forced: &[R; PLACES]) -> Vec2<R> {
+    pub fn acceleration(&self, forced: &[R; P]) -> Vec2<R> {
         self.slope.iter().zip(forced).fold(self.bias, |sum, (slope, a)| sum + *a * *slope)
     }
 }
 
-impl<R: Real> Heading<R> {
+impl<R: Real, const P: usize> Heading<R, P> {
     /// Of a slider on an ideal guide.
     const NONE: Self =
-        Self { rotation: Rotation::NONE, angle: R::ZERO, speed: R::ZERO, bias: R::ZERO, slope: [R::ZERO; PLACES] };
+        Self { rotation: Rotation::NONE, angle: R::ZERO, speed: R::ZERO, bias: R::ZERO, slope: [R::ZERO; P] };
 
     #[inline(always)]
     fn new(angle: R, speed: R, coordinate: Option<usize>) -> Self {
-        let mut slope = [R::ZERO; PLACES];
+        let mut slope = [R::ZERO; P];
         if let Some(k) = coordinate {
             slope[k] = R::ONE;
         }
@@ -157,7 +146,7 @@ impl<R: Real> Heading<R> {
     }
 
     /// [rad/s²] At the accelerations `forced` of x, the bias of L apart.
-    pub fn acceleration(&self, forced: &[R; PLACES]) -> R {
+    pub fn acceleration(&self, forced: &[R; P]) -> R {
         self.bias + self.slope.iter().zip(forced).fold(R::ZERO, |sum, (slope, a)| sum + *slope * *a)
     }
 }
@@ -175,86 +164,84 @@ impl Geometry {
     }
 
     /// Accelerations of x at `forced` of the coordinates, the bias of L apart.
-    pub fn accelerations<R: Real, const K: usize, const F: usize>(
+    pub fn accelerations<R: Real, const P: usize, const K: usize, const F: usize>(
         &self,
         shape: &Shape<R, K, F>,
         forced: &[R],
-    ) -> [R; PLACES] {
-        let rigid = self.rigid();
-        let mut all = [R::ZERO; PLACES];
-        all[..rigid].copy_from_slice(&forced[..rigid]);
+    ) -> [R; P] {
+        let mut all = self.chain.gather(forced);
         for (slope, a) in shape.chord_slope.iter().zip(&forced[self.modes()]) {
-            all[rigid] += *slope * *a;
+            all[self.chain.size] += *slope * *a;
         }
         all
     }
 
-    /// The configuration of `positions` and `rates` at `t`.
+    /// The configuration of `positions` and `rates` at `t`; L stands at `place` in x.
     #[inline(always)]
-    pub fn configuration<R: Real, const K: usize, const F: usize>(
+    pub fn configuration<R: Real, const P: usize>(
         &self,
         t: R,
         positions: &[R],
         rates: &[R],
-    ) -> Configuration<R, K, F> {
-        let Topology { a, b, c, t: guided, speed } = self.topology;
-        let closed = self.topology.is_closed();
-        let modes = self.modes();
-        let shape = self.rod.shape(&positions[modes.clone()], &rates[modes.clone()]);
-        let chord = modes.start;
+        chord: &Chord<R>,
+        place: usize,
+    ) -> Configuration<R, P> {
+        let Self { topology, layout, chain, rotor, .. } = self;
+        let Topology { a, b, c, t: guided, speed } = *topology;
+        let closed = topology.is_closed();
         let angle = |k: usize| {
-            let place = self.layout.angle(k);
-            Heading::new(place.map_or(R::ZERO, |i| positions[i]), place.map_or(R::ZERO, |i| rates[i]), place)
+            let position = layout.angle(k);
+            let of = |list: &[R]| position.map_or(R::ZERO, |i| list[i]);
+            Heading::new(of(positions), of(rates), chain.angle[k])
         };
-        let driven = || Heading::new(self.rotor.at(t), R::constant(self.rotor.speed), None);
-        let crank = if speed { driven() } else { angle(CRANK) };
+        let crank = if speed { Heading::new(rotor.at(t), R::constant(rotor.speed), None) } else { angle(CRANK) };
         let slider = if guided { Heading::NONE } else { angle(SLIDER) };
-        let rod = if closed { self.closing_rod(&crank, &shape, chord) } else { angle(ROD) };
-        let (roots, moving) = (self.layout.roots(positions), self.layout.roots(rates));
+        let rod = if closed { self.closing_rod(&crank, chord, place) } else { angle(ROD) };
+        let (mut roots, moving) = (layout.roots(positions), layout.roots(rates));
         let throw = crank.rotation.axis(self.ideal.crank);
-        // Roots stand in the order crank, rod, slider.
-        let rod_root = if self.topology.crank_floats() { 2 } else { 0 };
-        let slider_root = rod_root + if self.topology.rod_floats() { 2 } else { 0 };
-        let on_rail = || Centre::on_rail(roots.slider.x, moving.slider.x, self.ideal.height, slider_root);
-        let crank_root = || if a { Centre::FIXED } else { Centre::root(roots.crank, moving.crank, 0) };
+        if guided {
+            roots.slider.y = R::constant(self.ideal.height);
+        }
 
         let (crank_centre, crank_pin, big_end, small_end, pin);
         if c && guided && !closed {
-            pin = on_rail();
-            small_end = pin;
-            big_end = pin.across_rod(&rod, &shape, chord, -1.0);
+            let mut on_rail = Centre::alone(roots.slider, moving.slider);
+            on_rail.slope[0].x = R::ONE;
+            pin = on_rail;
+            small_end = on_rail;
+            big_end = pin.across_rod(&rod, chord, place, -1.0);
             if b {
                 crank_pin = big_end;
                 crank_centre = big_end.along(&crank, -1.0, throw);
             } else {
-                crank_centre = crank_root();
+                crank_centre = Centre::alone(roots.crank, moving.crank);
                 crank_pin = crank_centre.along(&crank, 1.0, throw);
             }
         } else {
-            crank_centre = crank_root();
-            crank_pin = crank_centre.along(&crank, 1.0, throw);
-            big_end = if b { crank_pin } else { Centre::root(roots.rod, moving.rod, rod_root) };
-            small_end = big_end.across_rod(&rod, &shape, chord, 1.0);
-            pin = if c {
-                small_end
-            } else if guided {
-                on_rail()
+            crank_centre = if a {
+                Centre::FIXED
+            } else if b {
+                Centre::root(roots.crank, moving.crank)
             } else {
-                Centre::root(roots.slider, moving.slider, slider_root)
+                Centre::alone(roots.crank, moving.crank)
             };
+            crank_pin = crank_centre.along(&crank, 1.0, throw);
+            big_end = if b { crank_pin } else { Centre::root(roots.rod, moving.rod) };
+            small_end = big_end.across_rod(&rod, chord, place, 1.0);
+            pin = if c { small_end } else { Centre::alone(roots.slider, moving.slider) };
         }
-        Configuration { heading: [crank, rod, slider], shape, crank: crank_centre, crank_pin, big_end, small_end, pin }
+        Configuration { heading: [crank, rod, slider], crank: crank_centre, crank_pin, big_end, small_end, pin }
     }
 
     /// The rod's angle where all joints are ideal: r·sin θ1 + L·sin θ2 = height, differentiated twice.
-    fn closing_rod<R: Real, const K: usize, const F: usize>(
+    fn closing_rod<R: Real, const P: usize>(
         &self,
-        crank: &Heading<R>,
-        shape: &Shape<R, K, F>,
-        chord: usize,
-    ) -> Heading<R> {
+        crank: &Heading<R, P>,
+        chord: &Chord<R>,
+        place: usize,
+    ) -> Heading<R, P> {
         let IdealMechanism { crank: r, height, .. } = self.ideal;
-        let (l, rate) = (shape.chord, shape.chord_rate);
+        let Chord { length: l, rate, bias: stretching, .. } = *chord;
         let sin = (-(crank.rotation.sin * r) + height) / l;
         let cos = ((-sin + 1.0) * (sin + 1.0)).sqrt();
         let per_reach = (l * cos).recip();
@@ -262,17 +249,17 @@ impl Geometry {
         let speed = -(throw * crank.speed + sin * rate) * per_reach;
         let bias = (crank.rotation.sin * r * crank.speed * crank.speed - throw * crank.bias + l * sin * speed * speed
             - rate * 2.0 * cos * speed
-            - sin * shape.chord_bias)
+            - sin * stretching)
             * per_reach;
         let mut slope = crank.slope.map(|slope| -throw * slope * per_reach);
-        slope[chord] -= sin * per_reach;
+        slope[place] -= sin * per_reach;
         Heading { rotation: Rotation { cos, sin }, angle: math::atan2(sin, cos), speed, bias, slope }
     }
 }
 
-impl<R: Real, const K: usize, const F: usize> Configuration<R, K, F> {
+impl<R: Real, const P: usize> Configuration<R, P> {
     /// Places and velocities without their slopes.
-    pub fn pose(&self) -> Pose<R> {
+    pub fn pose(&self, slope_rate: [R; 2]) -> Pose<R> {
         let [crank, rod, slider] = &self.heading;
         let turning = Turning {
             angle: [crank.angle, rod.angle, slider.angle],
@@ -283,12 +270,12 @@ impl<R: Real, const K: usize, const F: usize> Configuration<R, K, F> {
             turning,
             place: self.each(|centre| centre.place),
             velocity: self.each(|centre| centre.velocity),
-            section_speed: self.shape.slope_rate.map(|rate| rod.speed + rate),
+            section_speed: slope_rate.map(|rate| rod.speed + rate),
         }
     }
 
     /// One vector of every joint centre.
-    pub fn each(&self, of: impl Fn(&Centre<R>) -> Vec2<R>) -> JointCentres<R> {
+    pub fn each(&self, of: impl Fn(&Centre<R, P>) -> Vec2<R>) -> JointCentres<R> {
         JointCentres {
             crank: of(&self.crank),
             crank_pin: of(&self.crank_pin),

@@ -3,33 +3,34 @@
 
 #![allow(clippy::needless_range_loop)] // triangles are read by their indices
 
-use super::configuration::{Centre, Configuration, Heading, PLACES};
+use super::configuration::{Centre, Configuration, Heading};
 use crate::math::Real;
 use crate::model::dynamics::Loads;
-use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER};
+use crate::model::joint::{Kernel, Kernels};
+use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Vec2, cross, perp};
 use crate::model::reactions::Demand;
-use crate::model::rod::{Inertia, Rod};
+use crate::model::rod::{Inertia, Rod, Shape};
 use std::ops::Range;
 
 /// Mass matrix (lower triangle) and right side over x, the configuration's coordinates.
-pub struct Places<R> {
+pub struct Places<R, const P: usize> {
     /// How many: the rigid coordinates and the chord's length.
     size: usize,
-    matrix: [[R; PLACES]; PLACES],
-    right: [R; PLACES],
+    matrix: [[R; P]; P],
+    right: [R; P],
 }
 
-impl<R: Real> Places<R> {
-    /// Of `rigid` rigid coordinates, with nothing in them.
+impl<R: Real, const P: usize> Places<R, P> {
+    /// Of so many coordinates, with nothing in them.
     #[inline(always)]
-    pub fn new(rigid: usize) -> Self {
-        Self { size: rigid + 1, matrix: [[R::ZERO; PLACES]; PLACES], right: [R::ZERO; PLACES] }
+    pub fn new(size: usize) -> Self {
+        Self { size, matrix: [[R::ZERO; P]; P], right: [R::ZERO; P] }
     }
 
     /// Adds `force` [N] at a joint centre.
     #[inline(always)]
-    fn push(&mut self, centre: &Centre<R>, force: Vec2<R>) {
+    fn push(&mut self, centre: &Centre<R, P>, force: Vec2<R>) {
         for (right, slope) in self.right[..self.size].iter_mut().zip(&centre.slope) {
             *right += slope.dot(force);
         }
@@ -37,7 +38,7 @@ impl<R: Real> Places<R> {
 
     /// Adds `couple` [N·m] on a body.
     #[inline(always)]
-    fn twist(&mut self, heading: &Heading<R>, couple: R) {
+    fn twist(&mut self, heading: &Heading<R, P>, couple: R) {
         for (right, slope) in self.right[..self.size].iter_mut().zip(&heading.slope) {
             *right += *slope * couple;
         }
@@ -45,7 +46,7 @@ impl<R: Real> Places<R> {
 
     /// Adds a rigid body whose reference point is `centre`.
     #[inline(always)]
-    fn add_body(&mut self, body: &Body, heading: &Heading<R>, centre: &Centre<R>, gravity: f64) {
+    fn add_body(&mut self, body: &Body, heading: &Heading<R, P>, centre: &Centre<R, P>, gravity: f64) {
         let com = centre.carried(heading, body.com);
         for i in 0..self.size {
             let (push, twist) = (com.slope[i] * body.mass, heading.slope[i] * body.inertia);
@@ -57,27 +58,32 @@ impl<R: Real> Places<R> {
         self.twist(heading, heading.bias * -body.inertia);
     }
 
-    /// Adds forces and couples on crank and slider, with their inertia.
+    /// Adds crank and slider as far as they are in the rod's chain: their inertia, forces and couples.
     #[inline(always)]
-    pub fn add_rigid_bodies<const K: usize, const F: usize>(
+    pub fn add_rigid_bodies(
         &mut self,
+        topology: Topology,
         bodies: &Bodies,
-        configuration: &Configuration<R, K, F>,
+        configuration: &Configuration<R, P>,
         loads: &Loads<R>,
         gravity: f64,
     ) {
         let Configuration { heading, crank, crank_pin, pin, .. } = configuration;
-        self.add_body(&bodies[CRANK], &heading[CRANK], crank, gravity);
-        self.add_body(&bodies[SLIDER], &heading[SLIDER], pin, gravity);
-        self.push(crank, loads.crank);
-        self.push(crank_pin, loads.crank_pin);
-        self.push(pin, loads.pin);
-        self.twist(&heading[CRANK], loads.crank_couple);
-        self.twist(&heading[SLIDER], loads.slider_couple);
+        if topology.b {
+            self.add_body(&bodies[CRANK], &heading[CRANK], crank, gravity);
+            self.push(crank, loads.crank);
+            self.push(crank_pin, loads.crank_pin);
+            self.twist(&heading[CRANK], loads.crank_couple);
+        }
+        if topology.c {
+            self.add_body(&bodies[SLIDER], &heading[SLIDER], pin, gravity);
+            self.push(pin, loads.pin);
+            self.twist(&heading[SLIDER], loads.slider_couple);
+        }
     }
 }
 
-/// Mass matrix (lower triangle) and right side over all coordinates.
+/// Mass matrix (lower triangle) and right side over the coordinates of the rod's chain and its modes.
 pub struct Equations<R, const Q: usize> {
     size: usize,
     matrix: [[R; Q]; Q],
@@ -88,17 +94,17 @@ impl<R: Real, const Q: usize> Equations<R, Q> {
     /// Adds the rod to the other bodies' equations: its inertia and, at its ends and on its modes, its
     /// loads.
     #[inline(always)]
-    pub fn new<const K: usize, const F: usize>(
-        mut places: Places<R>,
-        rod: &Moving<'_, R, K, F>,
+    pub fn new<const P: usize, const K: usize, const F: usize>(
+        mut places: Places<R, P>,
+        rod: &Moving<'_, R, P, K, F>,
         loads: &Loads<R>,
         gravity: f64,
         modal_force: &[R; K],
     ) -> Self {
-        let Moving { rod: beam, inertia, configuration, modes } = rod;
-        let Configuration { heading, big_end, small_end, shape, .. } = configuration;
+        let Moving { rod: beam, shape, inertia, configuration, modes } = rod;
+        let Configuration { heading, big_end, small_end, .. } = configuration;
         let heading = &heading[ROD];
-        let (rigid, n) = (modes.start, modes.len());
+        let (rigid, n) = (places.size - 1, modes.len());
         let first = heading.rotation.apply(inertia.first);
         let lever = perp(first);
         let m = beam.mass();
@@ -118,7 +124,7 @@ impl<R: Real, const Q: usize> Equations<R, Q> {
         places.push(small_end, loads.small_end);
         places.twist(heading, loads.end_couple[0] + loads.end_couple[1] - couple);
 
-        let mut all = Self { size: modes.end, matrix: [[R::ZERO; Q]; Q], right: [R::ZERO; Q] };
+        let mut all = Self { size: rigid + n, matrix: [[R::ZERO; Q]; Q], right: [R::ZERO; Q] };
         for i in 0..rigid {
             all.matrix[i][..=i].copy_from_slice(&places.matrix[i][..=i]);
         }
@@ -150,51 +156,97 @@ impl<R: Real, const Q: usize> Equations<R, Q> {
 
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite.
     #[inline(always)]
-    pub fn solve(mut self) -> [R; Q] {
-        let Self { size, matrix, right: x } = &mut self;
+    pub fn solve(mut self, solver: Solver<R, Q>) -> [R; Q] {
+        solver(&mut self);
+        self.right
+    }
+
+    /// For any number of coordinates.
+    fn solve_any(&mut self) {
+        self.solve_in_place(self.size);
+    }
+
+    /// For `S` of them.
+    fn solve_sized<const S: usize>(&mut self) {
+        self.solve_in_place(S);
+    }
+
+    #[inline(always)]
+    fn solve_in_place(&mut self, size: usize) {
+        let Self { matrix, right: x, .. } = self;
         let mut per = [R::ZERO; Q];
-        // Each pivot's column is taken out of the rows below it, and kept.
-        for j in 0..*size {
-            let (above, below) = matrix[..*size].split_at_mut(j + 1);
-            per[j] = above[j][j].recip();
-            let mut column = [R::ZERO; Q];
-            for (row, kept) in below.iter().zip(&mut column) {
-                *kept = row[j];
-            }
-            for (i, row) in below.iter_mut().enumerate() {
-                let l = row[j] * per[j];
-                for (element, kept) in row[j + 1..].iter_mut().zip(&column[..=i]) {
-                    *element -= l * *kept;
+        for j in 0..size {
+            let (above, below) = matrix.split_at_mut(j);
+            let row = &mut below[0];
+            // Row j of L·D, in place.
+            for k in 1..j {
+                let mut element = row[k];
+                for m in 0..k {
+                    element -= row[m] * above[k][m];
                 }
-                row[j] = l;
-                let taken = l * x[j];
-                x[j + 1 + i] -= taken;
+                row[k] = element;
             }
-        }
-        for i in (0..*size).rev() {
-            x[i] = x[i] * per[i];
-            for k in i + 1..*size {
-                let taken = matrix[k][i] * x[k];
-                x[i] -= taken;
+            let (mut pivot, mut right) = (row[j], x[j]);
+            for k in 0..j {
+                let l = row[k] * per[k];
+                pivot -= l * row[k];
+                right -= l * x[k];
+                row[k] = l;
             }
+            (per[j], x[j]) = (pivot.recip(), right);
         }
-        *x
+        for i in (0..size).rev() {
+            let mut solved = x[i] * per[i];
+            for k in i + 1..size {
+                solved -= matrix[k][i] * x[k];
+            }
+            x[i] = solved;
+        }
+    }
+}
+
+/// Puts the solution in place of the right side.
+pub type Solver<R, const Q: usize> = fn(&mut Equations<R, Q>);
+
+/// Solvers as a kernel.
+#[derive(Clone, Copy, Debug)]
+pub struct Solvers<const Q: usize>;
+
+impl<const Q: usize> Kernel for Solvers<Q> {
+    type Of<R: Real> = Solver<R, Q>;
+}
+
+impl<const Q: usize> Solvers<Q> {
+    /// Those for `size` coordinates, compiled for that many where they are few.
+    pub fn of(size: usize) -> Kernels<Self> {
+        /// Chooses among the listed sizes.
+        macro_rules! compiled {
+            ($($size:literal)*) => {
+                match size {
+                    $($size if $size <= Q => Equations::solve_sized::<$size>,)*
+                    _ => Equations::solve_any,
+                }
+            };
+        }
+        Kernels { value: compiled!(1 2 3 4 5 6 7 8 9 10), tangent: Equations::solve_any }
     }
 }
 
 /// The rod in motion.
-pub struct Moving<'a, R, const K: usize, const F: usize> {
+pub struct Moving<'a, R, const P: usize, const K: usize, const F: usize> {
     /// Its modes.
     pub rod: &'a Rod,
+    /// How it is deformed.
+    pub shape: &'a Shape<R, K, F>,
     /// Its inertia.
     pub inertia: &'a Inertia<R, K>,
     /// Where it is.
-    pub configuration: &'a Configuration<R, K, F>,
+    pub configuration: &'a Configuration<R, P>,
     /// Where its modal coordinates stand.
     pub modes: Range<usize>,
 }
 
-impl<R: Real, const K: usize, const F: usize> Moving<'_, R, K, F> {
+impl<R: Real, const P: usize, const K: usize, const F: usize> Moving<'_, R, P, K, F> {
     /// [J] Kinetic energy at the modal `rate` [m/s].
     pub fn kinetic(&self, rate: &[R]) -> R {
         let Self { rod, inertia, configuration, .. } = self;
@@ -225,8 +277,8 @@ impl<R: Real, const K: usize, const F: usize> Moving<'_, R, K, F> {
 
     /// What the rod's motion needs of forces and of moments about its big end, gravity subtracted, at the
     /// accelerations `places` of the configuration's coordinates and `forced` of all.
-    pub fn demand(&self, places: &[R; PLACES], forced: &[R], gravity: f64) -> Demand<R> {
-        let Self { rod, inertia, configuration, modes } = self;
+    pub fn demand(&self, places: &[R; P], forced: &[R], gravity: f64) -> Demand<R> {
+        let Self { rod, inertia, configuration, modes, .. } = self;
         let heading = &configuration.heading[ROD];
         let origin = configuration.big_end.acceleration(places) + Vec2::new(0.0, gravity);
         let turning = heading.acceleration(places);

@@ -4,6 +4,8 @@
 //! coordinates after them. Which coordinates move which point is in the slopes of a
 //! `configuration`; a mechanism's own modes and joints decide how many there are.
 
+mod alone;
+mod chain;
 mod configuration;
 mod equations;
 mod motion;
@@ -15,23 +17,30 @@ use super::coordinates::Layout;
 use super::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers};
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
+use super::joint::Kernels;
 use super::mechanism::{Bodies, CRANK, Topology, bodies};
 use super::plant::Plant;
-use super::rod::{Integrals, Rod, most_functions};
+use super::rod::{Modes, Rod, most_functions};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, Instant, Pose};
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset, Unilateral};
+use crate::math::Real;
 use crate::scene::Scene;
+use chain::Chain;
 use configuration::Geometry;
+use equations::Solvers;
+use motion::Functions;
 
 /// A mechanism with a flexible rod, in arrays with room for `N` states, `Q` = `N`/2 coordinates, `K`
 /// modes and `F` functions of the rod.
 #[derive(Clone, Debug)]
 pub struct Flexible<const N: usize, const Q: usize, const K: usize, const F: usize> {
     geometry: Geometry,
-    integrals: Integrals<K, F>,
+    modes: Modes<K, F>,
+    functions: Functions<Self, N>,
+    solvers: Kernels<Solvers<Q>>,
     bodies: Bodies,
     gravity: f64,
     clear: [bool; 4],
@@ -57,16 +66,18 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
     pub fn assemble(scene: &Scene, time: f64, rod: Rod) -> Self {
         const { assert!(N >= ROOM && N == 2 * Q && F == most_functions(K)) };
         let topology = Topology::of(scene);
+        let layout = Layout::new(topology);
         let geometry = Geometry {
             topology,
-            layout: Layout::new(topology),
+            chain: Chain::new(topology, &layout),
+            layout,
             ideal: IdealMechanism::new(scene),
             rotor: Rotor::new(scene, time),
             rod,
         };
         let clearances = Clearances::new(scene);
-        let (rigid, modes) = (geometry.rigid(), geometry.modes());
-        let positions = modes.end;
+        let (rigid, modal) = (geometry.rigid(), geometry.modes());
+        let positions = modal.end;
         let states = 2 * positions + clearances.bristles.len();
         let scale = Scale::of(scene);
         let mut scales = [0.0; N];
@@ -76,7 +87,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         for (rate, position) in of_rates.iter_mut().zip(of_positions.iter()) {
             *rate = position * scale.frequency;
         }
-        for (k, &frequency) in modes.zip(&geometry.rod.frequency) {
+        for (k, &frequency) in modal.zip(&geometry.rod.frequency) {
             of_positions[k] = scale.deflection;
             of_rates[k] = scale.deflection * frequency.max(scale.frequency);
         }
@@ -84,10 +95,13 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
             *scale = deflection;
         }
         let Topology { a, b, c, t, .. } = topology;
-        let integrals = Integrals::new(&geometry.rod);
+        let solved = geometry.chain.size + geometry.rod.modes();
+        let (modes, functions) = (Modes::new(&geometry.rod), Self::functions(geometry.chain.size));
         Self {
             geometry,
-            integrals,
+            modes,
+            functions,
+            solvers: Solvers::of(solved),
             bodies: bodies(scene),
             gravity: scene.gravity,
             clear: [!a, !b, !c, !t],
@@ -111,7 +125,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        self.write_rates(contacts, t, y, rates);
+        (self.functions.rates)(self, contacts, t, y, rates);
     }
 
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
@@ -132,7 +146,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        self.clearances.guards(self.clear, contacts, &self.configuration(t, y).pose(), guards);
+        self.clearances.guards(self.clear, contacts, &self.pose(t, y), guards);
     }
 
     fn guard_scale(&self) -> f64 {
@@ -140,7 +154,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
-        let pose = self.configuration(t, y).pose();
+        let pose = self.pose(t, y);
         let bristles = &mut y[2 * self.extent.positions..];
         self.clearances.cross(self.clear, contacts, &pose, crossed, bristles)
     }
@@ -169,7 +183,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
-        self.clearances.start(self.clear, &self.configuration(t, y).pose())
+        self.clearances.start(self.clear, &self.pose(t, y))
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
@@ -189,7 +203,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        self.everything(contacts, t, y)
+        (self.functions.instant)(self, contacts, t, y, &mut [0.0; N])
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
@@ -201,7 +215,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
-        self.write_rates(contacts, t, y, rates);
+        self.tangent_motion(contacts, t, y, rates);
     }
 
     fn tangent_instant(
@@ -210,7 +224,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> fo
         t: Tangent,
         y: &[Tangent; N],
     ) -> (Instant<Tangent>, Account<Tangent>) {
-        let instant = self.everything(contacts, t, y);
+        let instant = self.instant_of(self.tangent_motion(contacts, t, y, &mut [Tangent::ZERO; N]), y);
         let bristles = &y[2 * self.extent.positions..];
         let account = self.clearances.account(self.clear, contacts, &instant.pose, bristles);
         (instant, account)

@@ -2,22 +2,84 @@
 //! accelerations.
 
 use super::Flexible;
-use super::configuration::Configuration;
+use super::alone;
+use super::chain::PLACES;
+use super::configuration::{Configuration, Geometry};
 use super::equations::{Equations, Moving, Places};
-use crate::math::Real;
 use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
 use crate::model::mechanism::{CRANK, ROD, SLIDER};
 use crate::model::plane::Vec2;
-use crate::model::rod::Inertia;
-use crate::model::scalar::Scalar;
+use crate::model::rod::{Inertia, Shape};
+use crate::model::scalar::{Scalar, Tangent};
 use crate::model::state::{Contacts, FlexibleInstant, Instant, Pose};
 
+/// The motion of `N` states in plain numbers, compiled for the number of places in x.
+#[derive(Clone, Copy, Debug)]
+pub struct Functions<M, const N: usize> {
+    /// Writes the rates of a state.
+    pub rates: fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N]),
+    /// Writes the rates of a state, and tells everything about that instant.
+    pub instant: fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N]) -> Instant,
+}
+
+/// The motion at one instant.
+pub(super) struct Motion<R, const P: usize, const Q: usize, const K: usize, const F: usize> {
+    shape: Shape<R, K, F>,
+    configuration: Configuration<R, P>,
+    inertia: Inertia<R, K>,
+    pose: Pose<R>,
+    loads: Loads<R>,
+    /// Accelerations of the coordinates.
+    forced: [R; Q],
+}
+
 impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N, Q, K, F> {
+    /// The functions for `size` coordinates in the rod's chain.
+    pub(super) fn functions(size: usize) -> Functions<Self, N> {
+        /// One for each number of places.
+        macro_rules! compiled {
+            ($($places:literal)*) => {
+                match size + 1 {
+                    $($places => Functions {
+                        rates: |all, contacts, t, y, rates| {
+                            all.motion::<f64, $places>($places - 1, contacts, t, y, rates);
+                        },
+                        instant: |all, contacts, t, y, rates| {
+                            all.instant_of(all.motion::<f64, $places>($places - 1, contacts, t, y, rates), y)
+                        },
+                    },)*
+                    places => unreachable!("{places} places in x"),
+                }
+            };
+        }
+        compiled!(1 2 3 4 5 6)
+    }
+
+    /// Places and velocities of the state `y` at `t`.
+    pub(super) fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
+        let (eta, rate) = self.modal(y);
+        let shape = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate);
+        self.configuration::<f64, PLACES>(self.geometry.chain.size, t, y, &shape).pose(shape.slope_rate)
+    }
+
+    /// Modal coordinates and their rates.
     #[inline(always)]
-    pub(super) fn configuration<R: Real>(&self, t: R, y: &[R; N]) -> Configuration<R, K, F> {
+    fn modal<'a, R>(&self, y: &'a [R; N]) -> (&'a [R], &'a [R]) {
+        let (modes, p) = (self.geometry.modes(), self.extent.positions);
+        (&y[modes.clone()], &y[p + modes.start..p + modes.end])
+    }
+
+    #[inline(always)]
+    fn configuration<R: Scalar, const P: usize>(
+        &self,
+        size: usize,
+        t: R,
+        y: &[R; N],
+        shape: &Shape<R, K, F>,
+    ) -> Configuration<R, P> {
         let p = self.extent.positions;
-        self.geometry.configuration(t, &y[..p], &y[p..2 * p])
+        self.geometry.configuration(t, &y[..p], &y[p..2 * p], &shape.chord, size)
     }
 
     #[inline(always)]
@@ -36,58 +98,73 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         loads
     }
 
+    /// The motion through the state `y` at `t`, whose rates it writes; `size` coordinates are in the rod's chain.
     #[inline(always)]
-    fn inertia<R: Real>(&self, configuration: &Configuration<R, K, F>, y: &[R; N]) -> Inertia<R, K> {
-        let (modes, p) = (self.geometry.modes(), self.extent.positions);
-        let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
-        self.integrals.inertia(&configuration.shape, eta, rate, configuration.heading[ROD].speed)
-    }
-
-    fn moving<'a, R: Real>(
-        &'a self,
-        configuration: &'a Configuration<R, K, F>,
-        inertia: &'a Inertia<R, K>,
-    ) -> Moving<'a, R, K, F> {
-        Moving { rod: &self.geometry.rod, inertia, configuration, modes: self.geometry.modes() }
-    }
-
-    #[inline(always)]
-    fn accelerations<R: Real>(&self, moving: &Moving<'_, R, K, F>, y: &[R; N], loads: &Loads<R>) -> [R; Q] {
+    fn motion<R: Scalar, const P: usize>(
+        &self,
+        size: usize,
+        contacts: &Contacts,
+        t: R,
+        y: &[R; N],
+        rates: &mut [R; N],
+    ) -> Motion<R, P, Q, K, F> {
         let p = self.extent.positions;
-        let modes = moving.modes.clone();
-        let mut modal_force = [R::ZERO; K];
-        let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
-        moving.rod.add_modal_forces(eta, rate, &loads.end_couple, &mut modal_force);
-        let mut places = Places::new(modes.start);
-        places.add_rigid_bodies(&self.bodies, moving.configuration, loads, self.gravity);
-        Equations::new(places, moving, loads, self.gravity, &modal_force).solve()
-    }
-
-    /// Writes the rates of the state `y`.
-    #[inline(always)]
-    pub(super) fn write_rates<R: Scalar>(&self, contacts: &Contacts, t: R, y: &[R; N], rates: &mut [R; N]) {
-        let p = self.extent.positions;
-        let configuration = self.configuration(t, y);
-        let loads = self.loads(contacts, t, y, &configuration.pose());
-        let inertia = self.inertia(&configuration, y);
-        let forced = self.accelerations(&self.moving(&configuration, &inertia), y, &loads);
+        let (eta, rate) = self.modal(y);
+        let rod = self.modes.functions::<R>();
+        let shape = (rod.shape)(&self.modes, eta, rate);
+        let mut configuration = self.configuration::<R, P>(size, t, y, &shape);
+        let pose = configuration.pose(shape.slope_rate);
+        let loads = self.loads(contacts, t, y, &pose);
+        let Geometry { topology, layout, chain, .. } = &self.geometry;
+        alone::accelerate(*topology, &self.bodies, &mut configuration, &loads, self.gravity);
+        let inertia = (rod.inertia)(&self.modes, &shape, eta, rate, configuration.heading[ROD].speed);
+        let mut places = Places::new(size + 1);
+        places.add_rigid_bodies(*topology, &self.bodies, &configuration, &loads, self.gravity);
+        let modal_force = self.modes.forces(eta, rate, &loads.end_couple);
+        let moving = self.moving(&shape, &configuration, &inertia);
+        let found =
+            Equations::new(places, &moving, &loads, self.gravity, &modal_force).solve(*R::kernel(&self.solvers));
+        let mut forced = [R::ZERO; Q];
+        chain.scatter(&found[..size], &mut forced);
+        forced[moving.modes.clone()].copy_from_slice(&found[size..size + moving.modes.len()]);
+        alone::write(*topology, layout, &configuration, &mut forced);
         rates[..p].copy_from_slice(&y[p..2 * p]);
         rates[p..2 * p].copy_from_slice(&forced[..p]);
         self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * p..]);
+        Motion { shape, configuration, inertia, pose, loads, forced }
     }
 
-    /// Everything about one instant.
-    pub(super) fn everything<R: Scalar>(&self, contacts: &Contacts, t: R, y: &[R; N]) -> Instant<R> {
-        let configuration = self.configuration(t, y);
-        let pose = configuration.pose();
-        let loads = self.loads(contacts, t, y, &pose);
-        let inertia = self.inertia(&configuration, y);
-        let moving = self.moving(&configuration, &inertia);
-        let forced = self.accelerations(&moving, y, &loads);
-        let places = self.geometry.accelerations(&configuration.shape, &forced);
-        let p = self.extent.positions;
-        let modes = moving.modes.clone();
-        let (eta, rate) = (&y[modes.clone()], &y[p + modes.start..p + modes.end]);
+    #[inline(always)]
+    fn moving<'a, R, const P: usize>(
+        &'a self,
+        shape: &'a Shape<R, K, F>,
+        configuration: &'a Configuration<R, P>,
+        inertia: &'a Inertia<R, K>,
+    ) -> Moving<'a, R, P, K, F> {
+        Moving { rod: &self.geometry.rod, shape, inertia, configuration, modes: self.geometry.modes() }
+    }
+
+    /// The motion in numbers with derivatives.
+    pub(super) fn tangent_motion(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent; N],
+        rates: &mut [Tangent; N],
+    ) -> Motion<Tangent, PLACES, Q, K, F> {
+        self.motion(self.geometry.chain.size, contacts, t, y, rates)
+    }
+
+    /// Everything about the instant of a motion.
+    pub(super) fn instant_of<R: Scalar, const P: usize>(
+        &self,
+        motion: Motion<R, P, Q, K, F>,
+        y: &[R; N],
+    ) -> Instant<R> {
+        let Motion { shape, configuration, inertia, pose, loads, forced } = motion;
+        let moving = self.moving(&shape, &configuration, &inertia);
+        let places = self.geometry.accelerations(&shape, &forced);
+        let (eta, rate) = self.modal(y);
         Instant {
             pose,
             acceleration: configuration.each(|centre| centre.acceleration(&places)),
@@ -95,7 +172,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
             loads,
             flexible: Some(FlexibleInstant {
                 demand: moving.demand(&places, &forced, self.gravity),
-                elastic: moving.rod.elastic(&configuration.shape, eta, rate),
+                elastic: moving.rod.elastic(&shape, eta, rate),
                 kinetic: moving.kinetic(rate),
                 mass_height: moving.mass_height(),
             }),

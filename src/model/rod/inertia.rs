@@ -2,7 +2,8 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
-use super::{Rod, Shape};
+use super::Shape;
+use super::modes::{Counts, Modes};
 use crate::math::Real;
 use crate::model::plane::{Vec2, perp};
 use std::ops::Mul;
@@ -29,153 +30,139 @@ pub struct Inertia<R, const K: usize> {
     pub modal_force: [R; K],
 }
 
-/// The rod's integrals in arrays for the inner loop: room for `K` modes and `F` functions, zero where
-/// there is none, so that sums over functions have a length known to the compiler.
-#[derive(Clone, Debug)]
-pub struct Integrals<const K: usize, const F: usize> {
-    bending: usize,
-    axial: usize,
-    /// How many bending modes foreshorten: all, or none without geometric stiffness.
-    shortening: usize,
-    /// Where the foreshortening of two bending modes stands among the functions.
-    pair: [[usize; K]; K],
-    /// [kg·m] ∫B dm.
-    first: [f64; F],
-    /// [kg·m²] ∫B·Bᵀ dm.
-    second: [[f64; F]; F],
-    /// [kg·m] ∫φ·Bᵀ dm.
-    coupling: [[f64; F]; K],
-    /// [kg] ∫φ dm.
-    moment: [f64; K],
-    /// [kg] ∫φ² dm.
-    modal_mass: [f64; K],
+/// Moments of a field along x, over the rod's mass.
+#[derive(Clone, Copy, Debug)]
+pub struct Moments<R, const K: usize, const F: usize> {
+    /// [kg] of the field's unit: with 1,
+    pub mass: R,
+    /// with the functions B, times m,
+    pub functions: [R; F],
+    /// with the bending modes φ.
+    pub bending: [R; K],
 }
 
-impl<const K: usize, const F: usize> Integrals<K, F> {
-    /// Of a rod that has room here.
-    pub fn new(rod: &Rod) -> Self {
-        let (n, count) = (rod.bending, rod.first.len());
-        let mut integrals = Self {
-            bending: n,
-            axial: rod.axial,
-            shortening: if rod.pairs.is_empty() { 0 } else { n },
-            pair: [[0; K]; K],
-            first: [0.0; F],
-            second: [[0.0; F]; F],
-            coupling: [[0.0; F]; K],
-            moment: [0.0; K],
-            modal_mass: [0.0; K],
-        };
-        integrals.first[..count].copy_from_slice(&rod.first);
-        integrals.moment[..n].copy_from_slice(&rod.moment);
-        integrals.modal_mass[..n].copy_from_slice(&rod.modal_mass[..n]);
-        for k in 0..count {
-            integrals.second[k][..count].copy_from_slice(&rod.second[k * count..][..count]);
-            for i in 0..n {
-                integrals.coupling[i][k] = rod.coupling[k * n + i];
-            }
+impl<R: Real, const K: usize, const F: usize> Moments<R, K, F> {
+    /// Of nothing.
+    pub const NONE: Self = Self { mass: R::ZERO, functions: [R::ZERO; F], bending: [R::ZERO; K] };
+
+    /// Of a field that depends on nothing.
+    #[inline(always)]
+    fn constant(of: &Moments<f64, K, F>) -> Self {
+        Self {
+            mass: R::constant(of.mass),
+            functions: of.functions.map(R::constant),
+            bending: of.bending.map(R::constant),
         }
-        for (place, &(i, j)) in rod.pairs.iter().enumerate() {
-            integrals.pair[i][j] = 1 + rod.axial + place;
-            integrals.pair[j][i] = 1 + rod.axial + place;
-        }
-        integrals
     }
 
+    /// Adds `factor` times a field.
+    #[inline(always)]
+    fn add<S: Copy>(&mut self, counts: Counts, factor: R, field: &Moments<S, K, F>)
+    where
+        R: Mul<S, Output = R>,
+    {
+        self.mass += factor * field.mass;
+        for k in 0..counts.functions() {
+            self.functions[k] += factor * field.functions[k];
+        }
+        for i in 0..counts.bending {
+            self.bending[i] += factor * field.bending[i];
+        }
+    }
+}
+
+impl<const K: usize, const F: usize> Modes<K, F> {
     /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
     /// [rad/s].
     #[inline(always)]
-    pub fn inertia<R: Real>(&self, shape: &Shape<R, K, F>, eta: &[R], rate: &[R], speed: R) -> Inertia<R, K> {
-        let Self { bending: n, axial, shortening, .. } = *self;
+    pub(super) fn inertia<R: Real>(
+        &self,
+        counts: Counts,
+        shape: &Shape<R, K, F>,
+        eta: &[R],
+        rate: &[R],
+        speed: R,
+    ) -> Inertia<R, K> {
+        let Counts { bending: n, axial, shortening } = counts;
         let Shape { xi, xi_rate, xi_bias, .. } = shape;
         let (q, dq) = (&eta[..n], &rate[..n]);
-        // S·∂ξ/∂q_i, S·ξ, S·ξ_bias over the functions, where S = ∫B·Bᵀ dm. Foreshortenings are of second
-        // degree: their part of ξ is half of Σ q_i·∂ξ/∂q_i.
-        let mut moved = [[R::ZERO; F]; K];
-        let mut of_xi = self.second[0].map(R::constant);
-        let mut of_bias = [R::ZERO; F];
+        // Of ∂x/∂q_i, x, its rate and its bias. Foreshortenings are of second degree: their part of x is half
+        // of Σ q_i·∂x/∂q_i.
+        let mut slope = [Moments::NONE; K];
+        let mut field = Moments::constant(&self.moments[0]);
+        let (mut moving, mut bias) = (Moments::NONE, Moments::NONE);
         for j in 0..axial {
-            add(&mut of_xi, xi[1 + j], &self.second[1 + j]);
+            field.add(counts, xi[1 + j], &self.moments[1 + j]);
+            moving.add(counts, xi_rate[1 + j], &self.moments[1 + j]);
         }
         for i in 0..shortening {
             for j in 0..n {
-                add(&mut moved[i], q[j] * -2.0, &self.second[self.pair[i][j]]);
+                slope[i].add(counts, q[j] * -2.0, &self.moments[counts.pair(i, j)]);
             }
-            add(&mut of_xi, q[i] * 0.5, &moved[i]);
+            field.add(counts, q[i] * 0.5, &slope[i]);
+            moving.add(counts, dq[i], &slope[i]);
             for j in 0..=i {
-                let place = self.pair[i][j];
-                add(&mut of_bias, xi_bias[place], &self.second[place]);
+                let place = counts.pair(i, j);
+                bias.add(counts, xi_bias[place], &self.moments[place]);
             }
         }
-        // Cᵀ·q, Cᵀ·q̇ over the functions, where C = ∫φ·Bᵀ dm.
-        let (mut across, mut across_rate) = ([R::ZERO; F], [R::ZERO; F]);
-        for i in 0..n {
-            add(&mut across, q[i], &self.coupling[i]);
-            add(&mut across_rate, dq[i], &self.coupling[i]);
-        }
-        let square = speed * speed;
-        // What accelerations at ξ̈ = ξ_bias, q̈ = 0 ask of each function.
-        let asked: [R; F] = std::array::from_fn(|k| of_bias[k] - square * of_xi[k] - speed * 2.0 * across_rate[k]);
-
+        let (square, twice) = (speed * speed, speed * 2.0);
         let mut inertia = Inertia {
-            first: Vec2::new(dot(xi, &self.first), R::ZERO),
-            about_origin: dot(&of_xi, xi),
+            first: Vec2::new(field.mass, R::ZERO),
+            about_origin: R::ZERO,
             first_slope: [Vec2::ZERO; K],
             turning: [R::ZERO; K],
             modal: [[R::ZERO; K]; K],
             force: Vec2::ZERO,
-            couple: speed * 2.0 * dot(&of_xi, xi_rate) - dot(&across, xi_bias),
+            couple: R::ZERO,
             modal_force: [R::ZERO; K],
         };
-        let mut first_rate = Vec2::new(dot(xi_rate, &self.first), R::ZERO);
+        let mut first_rate = Vec2::new(moving.mass, R::ZERO);
+        let mut spreading = R::ZERO;
+        for k in 0..counts.functions() {
+            inertia.about_origin += xi[k] * field.functions[k];
+            spreading += xi_rate[k] * field.functions[k];
+        }
         for i in 0..n {
             let (m, moment) = (self.modal_mass[i], self.moment[i]);
             inertia.first.y += q[i] * moment;
             first_rate.y += dq[i] * moment;
             inertia.about_origin += q[i] * m * q[i];
-            inertia.couple += speed * 2.0 * m * q[i] * dq[i];
-            inertia.first_slope[i] = Vec2::new(R::ZERO, R::constant(moment));
-            inertia.turning[i] = dot(xi, &self.coupling[i]);
-            inertia.modal_force[i] = speed * 2.0 * dot(xi_rate, &self.coupling[i]) - square * m * q[i];
+            spreading += q[i] * m * dq[i];
+            inertia.couple -= q[i] * bias.bending[i];
+            inertia.first_slope[i] = Vec2::new(slope[i].mass, R::constant(moment));
+            inertia.turning[i] = field.bending[i];
+            inertia.modal_force[i] = twice * moving.bending[i] - square * m * q[i];
             inertia.modal[i][i] = R::constant(m);
         }
+        // What the accelerations of x at q̈ = 0 ask of each function.
+        let asked = |place: usize| bias.functions[place] - square * field.functions[place];
         for i in 0..shortening {
             for k in 0..n {
-                let (place, slope) = (self.pair[i][k], q[k] * -2.0);
-                inertia.first_slope[i].x += slope * self.first[place];
-                inertia.turning[i] -= slope * across[place];
-                inertia.modal_force[i] += slope * asked[place];
+                let (place, with) = (counts.pair(i, k), q[k] * -2.0);
+                inertia.turning[i] -= slope[i].bending[k] * q[k];
+                inertia.modal_force[i] += with * asked(place) - twice * slope[i].bending[k] * dq[k];
                 for j in 0..=i {
-                    inertia.modal[i][j] += slope * moved[j][place];
+                    inertia.modal[i][j] += with * slope[j].functions[place];
                 }
             }
         }
         for j in 0..axial {
             let (a, place) = (n + j, 1 + j);
-            inertia.first_slope[a] = Vec2::constant(Vec2::new(self.first[place], 0.0));
-            inertia.turning[a] = -across[place];
-            inertia.modal_force[a] = asked[place];
-            for i in 0..shortening {
-                inertia.modal[a][i] = moved[i][place];
+            let Moments { mass, functions, bending } = &self.moments[place];
+            inertia.first_slope[a] = Vec2::constant(Vec2::new(*mass, 0.0));
+            inertia.modal_force[a] = asked(place);
+            for i in 0..n {
+                inertia.turning[a] -= q[i] * bending[i];
+                inertia.modal_force[a] -= twice * bending[i] * dq[i];
+                inertia.modal[a][i] = slope[i].functions[place];
             }
             for i in 0..=j {
-                inertia.modal[a][n + i] = R::constant(self.second[place][1 + i]);
+                inertia.modal[a][n + i] = R::constant(functions[1 + i]);
             }
         }
-        inertia.force =
-            Vec2::new(dot(xi_bias, &self.first), R::ZERO) - square * inertia.first + speed * 2.0 * perp(first_rate);
+        inertia.couple += twice * spreading;
+        inertia.force = Vec2::new(bias.mass, R::ZERO) - square * inertia.first + twice * perp(first_rate);
         inertia
     }
-}
-
-#[inline(always)]
-fn add<R: Real + Mul<S, Output = R>, S: Copy, const F: usize>(sum: &mut [R; F], factor: R, column: &[S; F]) {
-    for (sum, element) in sum.iter_mut().zip(column) {
-        *sum += factor * *element;
-    }
-}
-
-#[inline(always)]
-fn dot<R: Real + Mul<S, Output = R>, S: Copy, const F: usize>(a: &[R; F], b: &[S; F]) -> R {
-    a.iter().zip(b).fold(-R::ZERO, |sum, (a, b)| sum + *a * *b)
 }

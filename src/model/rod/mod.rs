@@ -8,8 +8,12 @@
 
 pub mod beam;
 mod inertia;
+mod modes;
+mod shape;
 
-pub use inertia::{Inertia, Integrals};
+pub use inertia::Inertia;
+pub use modes::{Counts, Modes};
+pub use shape::{Chord, Shape};
 
 use super::mechanism::Body;
 use super::plane::Vec2;
@@ -25,10 +29,7 @@ pub const fn most_functions(modes: usize) -> usize {
 /// The rod's modes, as the scene calls for them.
 #[derive(Clone, Debug)]
 pub struct Rod {
-    bending: usize,
-    axial: usize,
-    /// Pairs i ≤ j that foreshorten; none without geometric stiffness.
-    pairs: Vec<(usize, usize)>,
+    counts: Counts,
     /// [m] Undeformed.
     length: f64,
     /// [kg]
@@ -51,25 +52,6 @@ pub struct Rod {
     /// [rad/s] Frequencies of η.
     pub frequency: Vec<f64>,
     damping_ratio: f64,
-}
-
-/// The deformed rod in its own frame, and how it deforms; with room for `K` modes and `F` functions.
-#[derive(Clone, Copy, Debug)]
-pub struct Shape<R, const K: usize, const F: usize> {
-    /// [m] Chord length L = l + stretch.
-    pub chord: R,
-    /// [m/s] Its rate.
-    pub chord_rate: R,
-    /// [m/s²] L̈ at η̈ = 0.
-    pub chord_bias: R,
-    /// ∂L/∂η.
-    pub chord_slope: [R; K],
-    /// [rad/s] Rates of the end slopes.
-    pub slope_rate: [R; 2],
-    xi: [R; F],
-    xi_rate: [R; F],
-    /// ξ̈ at η̈ = 0.
-    xi_bias: [R; F],
 }
 
 /// What outputs tell of the rod's elasticity.
@@ -110,13 +92,11 @@ impl Rod {
     fn of(table: &ModalTable, bending: usize, axial: usize, length: f64, damping_ratio: f64, shortens: bool) -> Self {
         let all = table.bending.len();
         let mut kept: Vec<usize> = (0..=axial).collect();
-        let mut kept_pairs = Vec::new();
         let mut place = 1 + table.axial.len();
         for i in 0..all {
             for j in i..all {
                 if shortens && j < bending {
                     kept.push(place);
-                    kept_pairs.push((i, j));
                 }
                 place += 1;
             }
@@ -129,9 +109,7 @@ impl Rod {
             (0..bending).map(of_bending).chain((0..axial).map(of_axial)).collect::<Vec<f64>>()
         };
         Self {
-            bending,
-            axial,
-            pairs: kept_pairs,
+            counts: Counts { bending, axial, shortening: if shortens { bending } else { 0 } },
             length,
             mass: table.mass,
             first: kept.iter().map(|&k| table.first[k]).collect(),
@@ -159,71 +137,12 @@ impl Rod {
 
     /// Number of modal coordinates.
     pub fn modes(&self) -> usize {
-        self.bending + self.axial
+        self.counts.modes()
     }
 
     /// [kg]
     pub fn mass(&self) -> f64 {
         self.mass
-    }
-
-    /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
-    #[inline(always)]
-    pub fn shape<R: Real, const K: usize, const F: usize>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
-        let Self { bending, axial, .. } = *self;
-        let mut shape = Shape {
-            chord: R::ZERO,
-            chord_rate: R::ZERO,
-            chord_bias: R::ZERO,
-            chord_slope: [R::ZERO; K],
-            slope_rate: [R::ZERO; 2],
-            xi: [R::ZERO; F],
-            xi_rate: [R::ZERO; F],
-            xi_bias: [R::ZERO; F],
-        };
-        let (q, dq) = (&eta[..bending], &rate[..bending]);
-        shape.xi[0] = R::ONE;
-        for j in 0..axial {
-            shape.xi[1 + j] = eta[bending + j];
-            shape.xi_rate[1 + j] = rate[bending + j];
-            shape.chord_slope[bending + j] = R::constant(self.end[1 + j]);
-            shape.chord_rate += rate[bending + j] * self.end[1 + j];
-        }
-        for (k, &(i, j)) in self.pairs.iter().enumerate() {
-            let place = 1 + axial + k;
-            let twice = if i == j { 1.0 } else { 2.0 };
-            shape.xi[place] = q[i] * -twice * q[j];
-            shape.xi_rate[place] = (q[i] * dq[j] + dq[i] * q[j]) * -twice;
-            shape.xi_bias[place] = dq[i] * (-2.0 * twice) * dq[j];
-            let end = self.end[place] * twice;
-            shape.chord_slope[i] -= q[j] * end;
-            shape.chord_slope[j] -= q[i] * end;
-            shape.chord_rate += shape.xi_rate[place] * self.end[place];
-            shape.chord_bias += shape.xi_bias[place] * self.end[place];
-        }
-        shape.chord = self.stretch(&shape.xi) + self.length;
-        for (end, slope) in self.slope.iter().enumerate() {
-            shape.slope_rate[end] = dot(dq, slope);
-        }
-        shape
-    }
-
-    fn stretch<R: Real>(&self, xi: &[R]) -> R {
-        dot(&xi[1..], &self.end[1..])
-    }
-
-    /// [N] Adds what elasticity, modal damping and the couples [N·m] on the end sections do to η.
-    #[inline(always)]
-    pub fn add_modal_forces<R: Real>(&self, eta: &[R], rate: &[R], couple: &[R; 2], force: &mut [R]) {
-        for k in 0..self.modes() {
-            let (m, omega) = (self.modal_mass[k], self.frequency[k]);
-            force[k] -= (eta[k] * omega + rate[k] * (2.0 * self.damping_ratio)) * (m * omega);
-        }
-        for (slope, couple) in self.slope.iter().zip(couple) {
-            for (force, slope) in force.iter_mut().zip(slope) {
-                *force += *couple * *slope;
-            }
-        }
     }
 
     /// Deflection, stretch and elastic energy.
@@ -233,8 +152,8 @@ impl Rod {
         eta: &[R],
         rate: &[R],
     ) -> Elastic<R> {
-        let mut elastic = Elastic { stretch: self.stretch(&shape.xi), ..Elastic::default() };
-        elastic.deflection = dot(&eta[..self.bending], &self.middle);
+        let mut elastic = Elastic { stretch: shape.chord.stretch, ..Elastic::default() };
+        elastic.deflection = eta.iter().zip(&self.middle).fold(R::ZERO, |sum, (eta, middle)| sum + *eta * *middle);
         for k in 0..self.modes() {
             let (m, omega) = (self.modal_mass[k], self.frequency[k]);
             elastic.energy += eta[k] * (0.5 * m * omega * omega) * eta[k];
@@ -242,8 +161,4 @@ impl Rod {
         }
         elastic
     }
-}
-
-fn dot<R: Real>(a: &[R], b: &[f64]) -> R {
-    a.iter().zip(b).fold(-R::ZERO, |sum, (a, b)| sum + *a * *b)
 }

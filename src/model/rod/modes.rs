@@ -1,0 +1,172 @@
+//! The rod's modes in arrays for the inner loop, and functions compiled for how many there are.
+
+use super::inertia::{Inertia, Moments};
+use super::{Rod, Shape};
+use crate::math::Real;
+use crate::model::joint::{Kernel, Kernels};
+
+/// How many modes there are, in the order of the modal coordinates, and which of them foreshorten.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// Bending modes.
+    pub bending: usize,
+    /// Axial modes.
+    pub axial: usize,
+    /// Bending modes that foreshorten: all, or none without geometric stiffness.
+    pub shortening: usize,
+}
+
+impl Counts {
+    /// Number of modal coordinates.
+    #[inline(always)]
+    pub const fn modes(self) -> usize {
+        self.bending + self.axial
+    }
+
+    /// Number of functions along x: the rod itself, axial modes, foreshortenings of pairs i ≤ j.
+    #[inline(always)]
+    pub const fn functions(self) -> usize {
+        1 + self.axial + self.shortening * (self.shortening + 1) / 2
+    }
+
+    /// Place among the functions of the foreshortening of the bending modes `i` and `j`.
+    #[inline(always)]
+    pub const fn pair(self, i: usize, j: usize) -> usize {
+        let (i, j) = if i < j { (i, j) } else { (j, i) };
+        1 + self.axial + i * (2 * self.shortening - i + 1) / 2 + j - i
+    }
+}
+
+/// The modes in arrays with room for `K` modes and `F` functions.
+#[derive(Clone, Debug)]
+pub struct Modes<const K: usize, const F: usize> {
+    /// How many there are.
+    pub counts: Counts,
+    /// [m] Undeformed length.
+    pub(super) length: f64,
+    /// B(l), of functions.
+    pub(super) end: [f64; F],
+    /// [1/m] φ'(0) and φ'(l).
+    pub(super) slope: [[f64; K]; 2],
+    /// [N/m] Modal mass times ω².
+    stiffness: [f64; K],
+    /// [N·s/m] 2·ζ·ω times the modal mass.
+    damping: [f64; K],
+    /// Of each function.
+    pub(super) moments: [Moments<f64, K, F>; F],
+    /// [kg] ∫φ dm.
+    pub(super) moment: [f64; K],
+    /// [kg] ∫φ² dm.
+    pub(super) modal_mass: [f64; K],
+    kernels: Kernels<Family<K, F>>,
+}
+
+impl<const K: usize, const F: usize> Modes<K, F> {
+    /// Of a rod that has room here.
+    pub fn new(rod: &Rod) -> Self {
+        let counts = rod.counts;
+        let (n, count) = (counts.bending, counts.functions());
+        let mut modes = Self {
+            counts,
+            length: rod.length,
+            end: [0.0; F],
+            slope: [[0.0; K]; 2],
+            stiffness: [0.0; K],
+            damping: [0.0; K],
+            moments: [Moments::NONE; F],
+            moment: [0.0; K],
+            modal_mass: [0.0; K],
+            kernels: Kernels { value: by_counts(counts), tangent: Functions::ANY },
+        };
+        modes.end[..count].copy_from_slice(&rod.end);
+        modes.moment[..n].copy_from_slice(&rod.moment);
+        for (slope, of_rod) in modes.slope.iter_mut().zip(&rod.slope) {
+            slope[..n].copy_from_slice(of_rod);
+        }
+        for k in 0..counts.modes() {
+            let (mass, omega) = (rod.modal_mass[k], rod.frequency[k]);
+            modes.modal_mass[k] = mass;
+            modes.stiffness[k] = mass * omega * omega;
+            modes.damping[k] = 2.0 * rod.damping_ratio * mass * omega;
+        }
+        for k in 0..count {
+            let Moments { mass, functions, bending } = &mut modes.moments[k];
+            *mass = rod.first[k];
+            functions[..count].copy_from_slice(&rod.second[k * count..][..count]);
+            bending[..n].copy_from_slice(&rod.coupling[k * n..][..n]);
+        }
+        modes
+    }
+
+    /// The functions of this rod, for a number.
+    #[inline(always)]
+    pub fn functions<R: crate::model::scalar::Scalar>(&self) -> &Functions<R, K, F> {
+        R::kernel(&self.kernels)
+    }
+
+    /// [N] What elasticity, modal damping and the couples [N·m] on the end sections do to η.
+    #[inline(always)]
+    pub fn forces<R: Real>(&self, eta: &[R], rate: &[R], couple: &[R; 2]) -> [R; K] {
+        let mut force = [R::ZERO; K];
+        for k in 0..K.min(eta.len()).min(rate.len()) {
+            let bent = couple[0] * self.slope[0][k] + couple[1] * self.slope[1][k];
+            force[k] = bent - (eta[k] * self.stiffness[k] + rate[k] * self.damping[k]);
+        }
+        force
+    }
+}
+
+/// Shape and inertia of a rod, compiled for its counts or for any.
+#[derive(Clone, Copy, Debug)]
+pub struct Functions<R, const K: usize, const F: usize> {
+    /// The shape of the modal coordinates η [m] and their rates [m/s].
+    pub shape: fn(&Modes<K, F>, &[R], &[R]) -> Shape<R, K, F>,
+    /// The inertia of a shape, with η and its rates, whose frame turns at a speed [rad/s].
+    pub inertia: fn(&Modes<K, F>, &Shape<R, K, F>, &[R], &[R], R) -> Inertia<R, K>,
+}
+
+impl<R: Real, const K: usize, const F: usize> Functions<R, K, F> {
+    /// For any counts.
+    const ANY: Self = Self {
+        shape: |modes, eta, rate| modes.shape(modes.counts, eta, rate),
+        inertia: |modes, shape, eta, rate, speed| modes.inertia(modes.counts, shape, eta, rate, speed),
+    };
+
+    /// For these counts.
+    const fn of<const BENDING: usize, const AXIAL: usize>() -> Self {
+        Self {
+            shape: |modes, eta, rate| modes.shape(const { all::<BENDING, AXIAL>() }, eta, rate),
+            inertia: |modes, shape, eta, rate, speed| {
+                modes.inertia(const { all::<BENDING, AXIAL>() }, shape, eta, rate, speed)
+            },
+        }
+    }
+}
+
+/// With geometric stiffness.
+const fn all<const BENDING: usize, const AXIAL: usize>() -> Counts {
+    Counts { bending: BENDING, axial: AXIAL, shortening: BENDING }
+}
+
+/// The functions for `counts`: compiled for them where they are small and usual.
+fn by_counts<const K: usize, const F: usize>(counts: Counts) -> Functions<f64, K, F> {
+    /// Chooses among the listed numbers of bending and axial modes.
+    macro_rules! compiled {
+        ($(($bending:literal, $axial:literal))*) => {
+            match counts {
+                $(_ if counts == const { all::<$bending, $axial>() } && $bending + $axial <= K =>
+                    Functions::of::<$bending, $axial>(),)*
+                _ => Functions::ANY,
+            }
+        };
+    }
+    compiled!((1, 0)(2, 0)(3, 0)(4, 0)(1, 1)(2, 1)(3, 1)(2, 2)(0, 1))
+}
+
+/// The functions as a kernel.
+#[derive(Clone, Copy, Debug)]
+struct Family<const K: usize, const F: usize>;
+
+impl<const K: usize, const F: usize> Kernel for Family<K, F> {
+    type Of<R: Real> = Functions<R, K, F>;
+}

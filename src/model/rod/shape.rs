@@ -1,0 +1,82 @@
+//! The deformed rod in its own frame: amplitudes of its functions, and the chord.
+
+#![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
+
+use super::modes::{Counts, Modes};
+use crate::math::Real;
+
+/// The deformed rod, and how it deforms; with room for `K` modes and `F` functions.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape<R, const K: usize, const F: usize> {
+    /// The chord.
+    pub chord: Chord<R>,
+    /// ∂L/∂η.
+    pub chord_slope: [R; K],
+    /// [rad/s] Rates of the end slopes.
+    pub slope_rate: [R; 2],
+    pub(super) xi: [R; F],
+    pub(super) xi_rate: [R; F],
+    /// ξ̈ at η̈ = 0.
+    pub(super) xi_bias: [R; F],
+}
+
+/// The chord of the deformed rod.
+#[derive(Clone, Copy, Debug)]
+pub struct Chord<R> {
+    /// [m] Its length L = l + stretch.
+    pub length: R,
+    /// [m]
+    pub stretch: R,
+    /// [m/s] Its rate.
+    pub rate: R,
+    /// [m/s²] L̈ at η̈ = 0.
+    pub bias: R,
+}
+
+impl<const K: usize, const F: usize> Modes<K, F> {
+    /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
+    #[inline(always)]
+    pub(super) fn shape<R: Real>(&self, counts: Counts, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+        let Counts { bending, axial, shortening } = counts;
+        let mut shape = Shape {
+            chord: Chord { length: R::ZERO, stretch: R::ZERO, rate: R::ZERO, bias: R::ZERO },
+            chord_slope: [R::ZERO; K],
+            slope_rate: [R::ZERO; 2],
+            xi: [R::ZERO; F],
+            xi_rate: [R::ZERO; F],
+            xi_bias: [R::ZERO; F],
+        };
+        let Shape { chord, chord_slope, slope_rate, xi, xi_rate, xi_bias } = &mut shape;
+        let (eta, rate) = (&eta[..counts.modes()], &rate[..counts.modes()]);
+        xi[0] = R::ONE;
+        for j in 0..axial {
+            let (place, end) = (1 + j, self.end[1 + j]);
+            (xi[place], xi_rate[place]) = (eta[bending + j], rate[bending + j]);
+            chord_slope[bending + j] = R::constant(end);
+            chord.stretch += xi[place] * end;
+            chord.rate += xi_rate[place] * end;
+        }
+        for i in 0..shortening {
+            for j in i..shortening {
+                let place = counts.pair(i, j);
+                let twice = if i == j { 1.0 } else { 2.0 };
+                xi[place] = eta[i] * -twice * eta[j];
+                xi_rate[place] = (eta[i] * rate[j] + rate[i] * eta[j]) * -twice;
+                xi_bias[place] = rate[i] * (-2.0 * twice) * rate[j];
+                let end = self.end[place];
+                chord_slope[i] -= eta[j] * (end * twice);
+                chord_slope[j] -= eta[i] * (end * twice);
+                chord.stretch += xi[place] * end;
+                chord.rate += xi_rate[place] * end;
+                chord.bias += xi_bias[place] * end;
+            }
+        }
+        chord.length = chord.stretch + self.length;
+        for i in 0..bending {
+            for (end, slope) in slope_rate.iter_mut().zip(&self.slope) {
+                *end += rate[i] * slope[i];
+            }
+        }
+        shape
+    }
+}
