@@ -8,7 +8,7 @@ use crate::model::audit::{self, Audited};
 use crate::model::bristles::bristled_contacts;
 use crate::model::closed::Closed;
 use crate::model::drive::InputSignal;
-use crate::model::flexible::{Flexible, state_count};
+use crate::model::flexible::{Flexible, most_equations, state_count};
 use crate::model::mechanism::Topology;
 use crate::model::open::Open;
 use crate::model::plant::Plant;
@@ -49,13 +49,21 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
             ($n:expr, $modes:expr) => {{
                 const N: usize = $n;
                 const MODES: usize = $modes;
-                let plant = Flexible::<N, { N / 2 }, MODES, { most_functions(MODES) }>::assemble(scene, time, rod);
+                let plant = Flexible::<N, { most_equations(MODES) }, MODES, { most_functions(MODES) }>::assemble(
+                    scene, time, rod,
+                );
                 with_audit::<N, _>(scene, time, pose, signal, plant)
             }};
         }
         let audit = if scene.energy.audit { audit::STATES } else { 0 };
-        let few = rod.modes() <= FEW_MODES && state_count(scene, &rod) + audit <= ROOM;
-        return if few { flexible!(ROOM, FEW_MODES) } else { flexible!(LARGE, 2 * MOST_MODES) };
+        let (modes, states) = (rod.modes(), state_count(scene, &rod) + audit);
+        return if modes <= FEW_MODES && states <= ROOM {
+            flexible!(ROOM, FEW_MODES)
+        } else if modes <= MOST_MODES {
+            flexible!(LARGE, MOST_MODES)
+        } else {
+            flexible!(LARGE, 2 * MOST_MODES)
+        };
     }
     let Topology { a, b, c, t, speed } = Topology::of(scene);
     match (a, b, c, t) {

@@ -84,13 +84,13 @@ impl<R: Real, const P: usize> Places<R, P> {
 }
 
 /// Mass matrix (lower triangle) and right side over the coordinates of the rod's chain and its modes.
-pub struct Equations<R, const Q: usize> {
+pub struct Equations<R, const S: usize> {
     size: usize,
-    matrix: [[R; Q]; Q],
-    right: [R; Q],
+    matrix: [[R; S]; S],
+    right: [R; S],
 }
 
-impl<R: Real, const Q: usize> Equations<R, Q> {
+impl<R: Real, const S: usize> Equations<R, S> {
     /// Adds the rod to the other bodies' equations: its inertia and, at its ends and on its modes, its
     /// loads.
     #[inline(always)]
@@ -124,7 +124,7 @@ impl<R: Real, const Q: usize> Equations<R, Q> {
         places.push(small_end, loads.small_end);
         places.twist(heading, loads.end_couple[0] + loads.end_couple[1] - couple);
 
-        let mut all = Self { size: rigid + n, matrix: [[R::ZERO; Q]; Q], right: [R::ZERO; Q] };
+        let mut all = Self { size: rigid + n, matrix: [[R::ZERO; S]; S], right: [R::ZERO; S] };
         for i in 0..rigid {
             all.matrix[i][..=i].copy_from_slice(&places.matrix[i][..=i]);
         }
@@ -156,7 +156,7 @@ impl<R: Real, const Q: usize> Equations<R, Q> {
 
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite.
     #[inline(always)]
-    pub fn solve(mut self, solver: Solver<R, Q>) -> [R; Q] {
+    pub fn solve(mut self, solver: Solver<R, S>) -> [R; S] {
         solver(&mut self);
         self.right
     }
@@ -166,15 +166,15 @@ impl<R: Real, const Q: usize> Equations<R, Q> {
         self.solve_in_place(self.size);
     }
 
-    /// For `S` of them.
-    fn solve_sized<const S: usize>(&mut self) {
-        self.solve_in_place(S);
+    /// For `SIZE` of them.
+    fn solve_sized<const SIZE: usize>(&mut self) {
+        self.solve_in_place(SIZE);
     }
 
     #[inline(always)]
     fn solve_in_place(&mut self, size: usize) {
         let Self { matrix, right: x, .. } = self;
-        let mut per = [R::ZERO; Q];
+        let mut per = [R::ZERO; S];
         for j in 0..size {
             let (above, below) = matrix.split_at_mut(j);
             let row = &mut below[0];
@@ -206,24 +206,24 @@ impl<R: Real, const Q: usize> Equations<R, Q> {
 }
 
 /// Puts the solution in place of the right side.
-pub type Solver<R, const Q: usize> = fn(&mut Equations<R, Q>);
+pub type Solver<R, const S: usize> = fn(&mut Equations<R, S>);
 
 /// Solvers as a kernel.
 #[derive(Clone, Copy, Debug)]
-pub struct Solvers<const Q: usize>;
+pub struct Solvers<const S: usize>;
 
-impl<const Q: usize> Kernel for Solvers<Q> {
-    type Of<R: Real> = Solver<R, Q>;
+impl<const S: usize> Kernel for Solvers<S> {
+    type Of<R: Real> = Solver<R, S>;
 }
 
-impl<const Q: usize> Solvers<Q> {
+impl<const S: usize> Solvers<S> {
     /// Those for `size` coordinates, compiled for that many where they are few.
     pub fn of(size: usize) -> Kernels<Self> {
         /// Chooses among the listed sizes.
         macro_rules! compiled {
             ($($size:literal)*) => {
                 match size {
-                    $($size if $size <= Q => Equations::solve_sized::<$size>,)*
+                    $($size if $size <= S => Equations::solve_sized::<$size>,)*
                     _ => Equations::solve_any,
                 }
             };

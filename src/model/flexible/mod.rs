@@ -28,19 +28,19 @@ use super::state::{CONTACTS, Contacts, Instant, Pose};
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset, Unilateral};
 use crate::math::Real;
 use crate::scene::Scene;
-use chain::Chain;
+use chain::{Chain, PLACES};
 use configuration::Geometry;
 use equations::Solvers;
 use motion::Functions;
 
-/// A mechanism with a flexible rod, in arrays with room for `N` states, `Q` = `N`/2 coordinates, `K`
-/// modes and `F` functions of the rod.
+/// A mechanism with a flexible rod, in arrays with room for `N` states, `S` equations to solve together, `K` modes and
+/// `F` functions of the rod.
 #[derive(Clone, Debug)]
-pub struct Flexible<const N: usize, const Q: usize, const K: usize, const F: usize> {
+pub struct Flexible<const N: usize, const S: usize, const K: usize, const F: usize> {
     geometry: Geometry,
     modes: Modes<K, F>,
     functions: Functions<Self, N>,
-    solvers: Kernels<Solvers<Q>>,
+    solvers: Kernels<Solvers<S>>,
     bodies: Bodies,
     gravity: f64,
     clear: [bool; 4],
@@ -54,6 +54,11 @@ pub struct Flexible<const N: usize, const Q: usize, const K: usize, const F: usi
     guard_scale: f64,
 }
 
+/// Most equations that have to be solved together with those of `modes` modes.
+pub const fn most_equations(modes: usize) -> usize {
+    PLACES - 1 + modes
+}
+
 /// Number of states of the scene's mechanism with its rod.
 pub fn state_count(scene: &Scene, rod: &Rod) -> usize {
     let topology = Topology::of(scene);
@@ -61,10 +66,10 @@ pub fn state_count(scene: &Scene, rod: &Rod) -> usize {
     2 * (rigid + rod.modes()) + bristled_contacts(scene).len()
 }
 
-impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N, Q, K, F> {
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
     /// Assembles the mechanism of a scene that starts at `time` [s], with its rod.
     pub fn assemble(scene: &Scene, time: f64, rod: Rod) -> Self {
-        const { assert!(N >= ROOM && N == 2 * Q && F == most_functions(K)) };
+        const { assert!(N >= ROOM && S == most_equations(K) && F == most_functions(K)) };
         let topology = Topology::of(scene);
         let layout = Layout::new(topology);
         let geometry = Geometry {
@@ -117,7 +122,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
     }
 }
 
-impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> for Flexible<N, Q, K, F> {
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> for Flexible<N, S, K, F> {
     type Modes = Contacts;
 
     fn extent(&self) -> Extent {
@@ -160,9 +165,9 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Problem<N> 
     }
 }
 
-impl<const N: usize, const Q: usize, const K: usize, const F: usize> Unilateral<N> for Flexible<N, Q, K, F> {}
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Unilateral<N> for Flexible<N, S, K, F> {}
 
-impl<const N: usize, const Q: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, Q, K, F> {
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, S, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {
         let layout = &self.geometry.layout;
         let p = self.extent.positions;

@@ -24,17 +24,17 @@ pub struct Functions<M, const N: usize> {
 }
 
 /// The motion at one instant.
-pub(super) struct Motion<R, const P: usize, const Q: usize, const K: usize, const F: usize> {
+pub(super) struct Motion<R, const N: usize, const P: usize, const K: usize, const F: usize> {
     shape: Shape<R, K, F>,
     configuration: Configuration<R, P>,
     inertia: Inertia<R, K>,
     pose: Pose<R>,
     loads: Loads<R>,
     /// Accelerations of the coordinates.
-    forced: [R; Q],
+    forced: [R; N],
 }
 
-impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N, Q, K, F> {
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
     /// The functions for `size` coordinates in the rod's chain.
     pub(super) fn functions(size: usize) -> Functions<Self, N> {
         /// One for each number of places.
@@ -107,7 +107,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         t: R,
         y: &[R; N],
         rates: &mut [R; N],
-    ) -> Motion<R, P, Q, K, F> {
+    ) -> Motion<R, N, P, K, F> {
         let p = self.extent.positions;
         let (eta, rate) = self.modal(y);
         let rod = self.modes.functions::<R>();
@@ -124,7 +124,7 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         let moving = self.moving(&shape, &configuration, &inertia);
         let found =
             Equations::new(places, &moving, &loads, self.gravity, &modal_force).solve(*R::kernel(&self.solvers));
-        let mut forced = [R::ZERO; Q];
+        let mut forced = [R::ZERO; N];
         chain.scatter(&found[..size], &mut forced);
         forced[moving.modes.clone()].copy_from_slice(&found[size..size + moving.modes.len()]);
         alone::write(*topology, layout, &configuration, &mut forced);
@@ -151,14 +151,14 @@ impl<const N: usize, const Q: usize, const K: usize, const F: usize> Flexible<N,
         t: Tangent,
         y: &[Tangent; N],
         rates: &mut [Tangent; N],
-    ) -> Motion<Tangent, PLACES, Q, K, F> {
+    ) -> Motion<Tangent, N, PLACES, K, F> {
         self.motion(self.geometry.chain.size, contacts, t, y, rates)
     }
 
     /// Everything about the instant of a motion.
     pub(super) fn instant_of<R: Scalar, const P: usize>(
         &self,
-        motion: Motion<R, P, Q, K, F>,
+        motion: Motion<R, N, P, K, F>,
         y: &[R; N],
     ) -> Instant<R> {
         let Motion { shape, configuration, inertia, pose, loads, forced } = motion;
