@@ -143,8 +143,7 @@ impl<const N: usize> Problem<N> for Audited<N> {
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        self.plant.rates(contacts, t, y, rates);
-        let instant = self.plant.instant(contacts, t, y);
+        let instant = self.plant.rates_and_instant(contacts, t, y, rates);
         let account = self.plant.account(contacts, &instant.pose, y);
         rates[self.first()..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
     }

@@ -136,46 +136,92 @@ impl Linkage {
     /// bristles as far as `rates` has room.
     #[inline(always)]
     pub fn rates<R: Scalar>(&self, arrangement: Arrangement, contacts: &Contacts, t: R, y: &[R], rates: &mut [R]) {
-        let p = arrangement.positions;
-        let pose = self.pose(arrangement, t, y);
-        let loads = self.loads(arrangement, contacts, t, &y[2 * p..], &pose);
-        self.write_rates(arrangement, &pose, &loads, y, rates);
-        self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * p..]);
-    }
-
-    /// Writes velocities and accelerations.
-    #[inline(always)]
-    pub(super) fn write_rates<R: Scalar>(
-        &self,
-        arrangement: Arrangement,
-        pose: &Pose<R>,
-        loads: &Loads<R>,
-        y: &[R],
-        rates: &mut [R],
-    ) {
-        let Arrangement { topology, layout, positions: p, .. } = arrangement;
-        let accelerations = self.accelerations(topology, pose, loads);
-        let (velocities, forced) = rates[..2 * p].split_at_mut(p);
-        velocities.copy_from_slice(&y[p..2 * p]);
-        layout.set_roots(&accelerations.roots, forced);
-        layout.set_angles(&accelerations.angle, forced);
+        let (pose, loads) = self.pose_and_loads(arrangement, contacts, t, y);
+        let accelerations = self.accelerations(arrangement.topology, &pose, &loads);
+        self.write_rates(arrangement, &accelerations, &loads, y, rates);
     }
 
     /// Everything about one instant.
     #[inline(always)]
     pub fn instant<R: Scalar>(&self, arrangement: Arrangement, contacts: &Contacts, t: R, y: &[R]) -> Instant<R> {
-        let pose = self.pose(arrangement, t, y);
-        self.instant_of(arrangement, pose, self.loads(arrangement, contacts, t, &y[2 * arrangement.positions..], &pose))
+        let (pose, loads) = self.pose_and_loads(arrangement, contacts, t, y);
+        let accelerations = self.accelerations(arrangement.topology, &pose, &loads);
+        self.instant_of(arrangement, &accelerations, pose, loads)
+    }
+
+    /// Both at once.
+    #[inline(always)]
+    pub fn rates_and_instant<R: Scalar>(
+        &self,
+        arrangement: Arrangement,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
+    ) -> Instant<R> {
+        let (pose, loads) = self.pose_and_loads(arrangement, contacts, t, y);
+        let accelerations = self.accelerations(arrangement.topology, &pose, &loads);
+        self.write_rates(arrangement, &accelerations, &loads, y, rates);
+        self.instant_of(arrangement, &accelerations, pose, loads)
     }
 
     /// Everything about an instant with this pose and these loads.
     #[inline(always)]
-    pub(super) fn instant_of<R: Scalar>(&self, arrangement: Arrangement, pose: Pose<R>, loads: Loads<R>) -> Instant<R> {
-        let topology = arrangement.topology;
-        let Accelerations { roots, angle } = self.accelerations(topology, &pose, &loads);
-        let forced = Acceleration(&pose.turning, &angle);
-        let acceleration = walk(topology, &self.bodies, &self.chains, &roots, forced);
-        Instant { pose, acceleration, angle_acceleration: angle, loads, flexible: None }
+    pub fn instant_under(&self, arrangement: Arrangement, pose: Pose, loads: Loads) -> Instant {
+        let accelerations = self.accelerations(arrangement.topology, &pose, &loads);
+        self.instant_of(arrangement, &accelerations, pose, loads)
+    }
+
+    /// Writes the rates of the state `y` at this pose under these loads.
+    #[inline(always)]
+    pub fn rates_under(&self, arrangement: Arrangement, pose: &Pose, loads: &Loads, y: &[f64], rates: &mut [f64]) {
+        let accelerations = self.accelerations(arrangement.topology, pose, loads);
+        self.write_rates(arrangement, &accelerations, loads, y, rates);
+    }
+
+    #[inline(always)]
+    fn pose_and_loads<R: Scalar>(
+        &self,
+        arrangement: Arrangement,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+    ) -> (Pose<R>, Loads<R>) {
+        let pose = self.pose(arrangement, t, y);
+        let loads = self.loads(arrangement, contacts, t, &y[2 * arrangement.positions..], &pose);
+        (pose, loads)
+    }
+
+    #[inline(always)]
+    fn write_rates<R: Scalar>(
+        &self,
+        arrangement: Arrangement,
+        accelerations: &Accelerations<R>,
+        loads: &Loads<R>,
+        y: &[R],
+        rates: &mut [R],
+    ) {
+        let Arrangement { layout, positions: p, .. } = arrangement;
+        let (velocities, rest) = rates.split_at_mut(p);
+        let (forced, bristles) = rest.split_at_mut(p);
+        velocities.copy_from_slice(&y[p..2 * p]);
+        layout.set_roots(&accelerations.roots, forced);
+        layout.set_angles(&accelerations.angle, forced);
+        self.clearances.write_bristle_rates(&loads.bristle_rate, bristles);
+    }
+
+    #[inline(always)]
+    fn instant_of<R: Scalar>(
+        &self,
+        arrangement: Arrangement,
+        accelerations: &Accelerations<R>,
+        pose: Pose<R>,
+        loads: Loads<R>,
+    ) -> Instant<R> {
+        let Accelerations { roots, angle } = accelerations;
+        let forced = Acceleration(&pose.turning, angle);
+        let acceleration = walk(arrangement.topology, &self.bodies, &self.chains, roots, forced);
+        Instant { pose, acceleration, angle_acceleration: *angle, loads, flexible: None }
     }
 
     /// Elastic energy of the closed contacts, and the powers that they take.

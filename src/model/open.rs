@@ -154,15 +154,19 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         self.linkage.instant(Self::ARRANGEMENT, contacts, t, y)
     }
 
+    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
+        self.linkage.rates_and_instant(Self::ARRANGEMENT, contacts, t, y, rates)
+    }
+
     fn instant_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
         let pose = self.pose(t, y);
-        self.linkage.instant_of(Self::ARRANGEMENT, pose, self.loads_under(impulses, t, y, &pose))
+        self.linkage.instant_under(Self::ARRANGEMENT, pose, self.loads_under(impulses, t, y, &pose))
     }
 
     fn rates_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         let pose = self.pose(t, y);
         let loads = self.loads_under(impulses, t, y, &pose);
-        self.linkage.write_rates(Self::ARRANGEMENT, &pose, &loads, y, rates);
+        self.linkage.rates_under(Self::ARRANGEMENT, &pose, &loads, y, rates);
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {

@@ -32,6 +32,12 @@ pub trait Plant<const N: usize>: Unilateral<N, Modes = Contacts> + Send {
     /// Everything about one instant.
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant;
 
+    /// The rates of a state and everything about that instant, at the cost of about one of them.
+    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
+        self.rates(contacts, t, y, rates);
+        self.instant(contacts, t, y)
+    }
+
     /// Everything about one instant of a motion with rigid contacts, whose forces are those of `impulses`.
     fn instant_under(&self, _: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
         self.instant(&Contacts::default(), t, y)

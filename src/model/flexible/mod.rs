@@ -211,6 +211,10 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
         (self.functions.instant)(self, contacts, t, y, &mut [0.0; N])
     }
 
+    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
+        (self.functions.instant)(self, contacts, t, y, rates)
+    }
+
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
         self.clearances.depths(self.clear, pose)
     }
