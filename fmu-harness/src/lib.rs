@@ -1,7 +1,9 @@
 //! Builds, packages, loads and runs FMUs of FMI 2.0 co-simulation.
 
 pub mod command;
+pub mod dynamics;
 pub mod effects;
+pub mod frame;
 pub mod host;
 pub mod inputs;
 pub mod inspect;

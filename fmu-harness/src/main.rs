@@ -1,7 +1,7 @@
 //! The command line: without a command it packages a scene, runs it through the packaged file and reports.
 
 use clap::{Parser, Subcommand};
-use fmu_harness::command::{Effects, Inspect, Package, Peers, Precision, Realtime, Run};
+use fmu_harness::command::{Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run};
 use std::process::ExitCode;
 
 /// Builds, packages and runs the slider-crank FMU.
@@ -25,6 +25,8 @@ enum Command {
     Run(Run),
     /// Prints what an FMU declares
     Inspect(Inspect),
+    /// Tells what a motion is in the long run: periodic or chaotic
+    Dynamics(Dynamics),
     /// Prices every effect
     Effects(Effects),
     /// Times the same scene in what people use instead
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
         Some(Command::Package(package)) => package.execute(),
         Some(Command::Run(run)) => run.execute(),
         Some(Command::Inspect(inspect)) => inspect.execute(),
+        Some(Command::Dynamics(dynamics)) => dynamics.execute(),
         Some(Command::Effects(effects)) => effects.execute(),
         Some(Command::Peers(peers)) => peers.execute(),
         Some(Command::Precision(precision)) => precision.execute(),

@@ -61,10 +61,44 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
+        self.march(problem, t, |_| false)
+    }
+
+    /// Steps until `t` lies within the last step, or until a step has ended with an event after `after`, and tells
+    /// when that was.
+    ///
+    /// # Errors
+    /// As [`Integrator::advance`].
+    pub fn advance_to_event<P>(&mut self, problem: &P, after: f64, t: f64) -> Result<Option<f64>, IntegrationError>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let happened = |memory: &Memory<N, D>| memory.crossings > 0 && memory.front.t > after;
+        self.march(problem, t, happened)?;
+        Ok(Some(self.memory.front.t).filter(|&event| happened(&self.memory) && event <= t))
+    }
+
+    /// Starts anew from the state `y` at `t`, with the step that it had.
+    pub fn place<P>(&mut self, problem: &P, t: f64, y: [f64; N], modes: D)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let Memory { step, statistics, .. } = self.memory;
+        *self = Self::start(problem, self.settings, t, y, modes);
+        self.memory.step = step;
+        self.memory.statistics = statistics;
+        self.memory.statistics.evaluations += 1;
+    }
+
+    /// Steps until `t` lies within the last step, or `done` is so.
+    fn march<P>(&mut self, problem: &P, t: f64, done: impl Fn(&Memory<N, D>) -> bool) -> Result<(), IntegrationError>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
         let mut standing = 0;
         let before = self.memory.statistics.evaluations;
         let most = self.settings.effort.over(t - self.memory.front.t);
-        while self.memory.front.t < t {
+        while self.memory.front.t < t && !done(&self.memory) {
             let front = self.memory.front.t;
             let evaluations = self.memory.statistics.evaluations - before;
             if evaluations > most {

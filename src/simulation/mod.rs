@@ -2,6 +2,7 @@
 
 mod assemble;
 mod equations;
+mod phase;
 mod record;
 mod run;
 mod snapshot;
@@ -9,6 +10,7 @@ mod system;
 mod time_stepping;
 
 pub use equations::Linearization;
+pub use phase::{Phase, PhaseScales};
 pub use snapshot::Snapshot;
 pub use system::System;
 
@@ -109,15 +111,18 @@ impl Simulation {
                 self.time = time;
                 Ok(())
             }
-            Err(error) => {
-                self.time = self.time.max(error.time());
-                let cause = match error {
-                    IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
-                    _ => error.to_string(),
-                };
-                Err(SimulationError::Integration { time: error.time(), cause })
-            }
+            Err(error) => Err(self.failed(error)),
         }
+    }
+
+    /// Stays where it could not go on.
+    fn failed(&mut self, error: IntegrationError) -> SimulationError {
+        self.time = self.time.max(error.time());
+        let cause = match error {
+            IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
+            _ => error.to_string(),
+        };
+        SimulationError::Integration { time: error.time(), cause }
     }
 
     /// Outputs at the communication point.

@@ -2,13 +2,16 @@
 
 use super::Size;
 use super::equations::Linearization;
+use super::phase::{Phase, PhaseScales};
 use super::record;
 use super::snapshot::{Reader, Snapshot};
-use super::system::{Bare, Equations};
+use super::system::{Bare, Equations, write};
 use crate::integrator::{Effort, Extent, Front, IntegrationError, Integrator, Jacobian, Method, Settings, Statistics};
+use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
+use crate::model::scales::Scale;
 use crate::model::signals::{Inputs, Outputs, SolverOutputs};
 use crate::model::start::StartPose;
 use crate::model::state::Contacts;
@@ -19,6 +22,14 @@ use std::hint::black_box;
 pub trait Motion: Send {
     /// Steps until `t` lies within the last step.
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError>;
+    /// Steps until `t` lies within the last step, or to an event after `after`, and tells when that was.
+    fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError>;
+    /// The point of phase space at `t` in the last step.
+    fn phase(&mut self, t: f64) -> Phase;
+    /// Starts anew from such a point.
+    fn place(&mut self, phase: &Phase);
+    /// What size of difference is noticeable in a point of phase space.
+    fn phase_scales(&self) -> PhaseScales;
     /// Inputs from the communication point `signal.at` on.
     fn set_signal(&mut self, signal: InputSignal);
     /// Outputs at `t` in the last step.
@@ -53,6 +64,8 @@ pub struct Run<const N: usize, M: Method> {
     integrator: Integrator<N, Contacts, M>,
     settings: Settings,
     observer: Observer,
+    /// [m/s] A noticeable difference of approach speeds.
+    approach_scale: f64,
 }
 
 /// [s] Half the interval over which an output's derivative is taken.
@@ -68,7 +81,8 @@ impl<const N: usize, M: Method> Run<N, M> {
         let y = plant.start(pose);
         let contacts = plant.start_contacts(time, &y);
         let integrator = Integrator::start(plant.as_ref(), settings, time, y, contacts);
-        Self { plant, integrator, settings, observer: Observer::new(scene) }
+        let Scale { length, frequency, .. } = Scale::of(scene);
+        Self { plant, integrator, settings, observer: Observer::new(scene), approach_scale: length * frequency }
     }
 
     fn observe(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Outputs {
@@ -94,6 +108,32 @@ impl<const N: usize, M: Method> Run<N, M> {
 impl<const N: usize, M: Method> Motion for Run<N, M> {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
         self.integrator.advance(self.plant.as_ref(), t)
+    }
+
+    fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError> {
+        self.integrator.advance_to_event(self.plant.as_ref(), after, t)
+    }
+
+    fn phase(&mut self, t: f64) -> Phase {
+        self.integrator.rewind(self.plant.as_ref(), t);
+        let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
+        let weighed = Extent::of(self.plant.as_ref()).weighed;
+        let approach = contacts.iter().map(|mode| Some(mode.approach).filter(|_| mode.closed)).collect();
+        Phase { time: t, states: y[..weighed].to_vec(), approach }
+    }
+
+    fn place(&mut self, phase: &Phase) {
+        let (mut y, mut contacts) = self.integrator.state_at(self.plant.as_ref(), phase.time);
+        write(&phase.states, &mut y);
+        for (mode, approach) in contacts.iter_mut().zip(&phase.approach) {
+            *mode = approach.map_or(ContactMode::default(), |approach| ContactMode::closing(approach, approach));
+        }
+        self.integrator.place(self.plant.as_ref(), phase.time, y, contacts);
+    }
+
+    fn phase_scales(&self) -> PhaseScales {
+        let weighed = Extent::of(self.plant.as_ref()).weighed;
+        PhaseScales { states: self.plant.scales()[..weighed].to_vec(), approach: self.approach_scale }
     }
 
     fn set_signal(&mut self, signal: InputSignal) {

@@ -131,7 +131,7 @@ impl<const N: usize> Bare<N> {
 
 /// As many of `values` as `list` has room for.
 #[inline(always)]
-fn write(values: &[f64], list: &mut [f64]) {
+pub fn write(values: &[f64], list: &mut [f64]) {
     for (place, value) in list.iter_mut().zip(values) {
         *place = *value;
     }

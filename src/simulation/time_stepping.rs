@@ -2,10 +2,11 @@
 
 use super::Size;
 use super::equations::Linearization;
+use super::phase::{Phase, PhaseScales};
 use super::record;
 use super::run::{Motion, filled, linearization, sensitivity, settings, slopes, solver_outputs};
 use super::snapshot::{Reader, Snapshot};
-use super::system::{Bare, Equations};
+use super::system::{Bare, Equations, write};
 use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau, Settings};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -58,6 +59,28 @@ impl<const N: usize> TimeStepping<N> {
 impl<const N: usize> Motion for TimeStepping<N> {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
         self.integrator.advance(self.plant.as_ref(), t)
+    }
+
+    fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError> {
+        self.integrator.advance_to_event(self.plant.as_ref(), after, t)
+    }
+
+    fn phase(&mut self, t: f64) -> Phase {
+        self.integrator.rewind(self.plant.as_ref(), t);
+        let (y, _) = self.integrator.state_at(self.plant.as_ref(), t);
+        let states = y[..Extent::of(self.plant.as_ref()).states].to_vec();
+        Phase { time: t, states, approach: vec![None; CONTACTS] }
+    }
+
+    fn place(&mut self, phase: &Phase) {
+        let mut y = [0.0; N];
+        write(&phase.states, &mut y);
+        self.integrator.place(phase.time, y);
+    }
+
+    fn phase_scales(&self) -> PhaseScales {
+        let states = self.plant.scales()[..Extent::of(self.plant.as_ref()).states].to_vec();
+        PhaseScales { states, approach: 1.0 }
     }
 
     fn set_signal(&mut self, signal: InputSignal) {

@@ -1,5 +1,6 @@
 //! The subcommands.
 
+mod dynamics;
 mod effects;
 mod inspect;
 mod package;
@@ -8,6 +9,7 @@ mod precision;
 mod realtime;
 mod run;
 
+pub use dynamics::Dynamics;
 pub use effects::Effects;
 pub use inspect::Inspect;
 pub use package::Package;

@@ -1,6 +1,6 @@
 //! The figures of a run of the slider-crank beside the same run with ideal joints, one function a figure.
 
-use super::plot::{Curve, Panel, Role, Sheet, square_panel};
+use super::plot::{Curve, Mark, Panel, Role, Sheet, square_panel};
 use super::units::Shown;
 use crate::run::{ANGLE, Recording};
 use anyhow::Result;
@@ -94,8 +94,8 @@ fn path(pair: &Pair, joint: &str) -> Result<Panel> {
         x_label: shown.axis(&format!("eccentricity of {joint} along the guide")),
         y_label: shown.axis("across"),
         curves: vec![
-            Curve { role: Role::Limit, points: circle.collect() },
-            Curve { role: Role::Actual, points: points.skip(first).collect() },
+            Curve { role: Role::Limit, points: circle.collect(), mark: Mark::Path },
+            Curve { role: Role::Actual, points: points.skip(first).collect(), mark: Mark::Path },
         ],
         square: true,
     })
@@ -117,7 +117,7 @@ impl Pair<'_> {
         let curve = |role: Role, recording: &Recording, values: Vec<f64>| -> Result<Curve> {
             let first = first_shown(recording, TURNS_SHOWN)?;
             let points = turns(recording)?.into_iter().zip(values.iter().map(|value| value * shown.factor));
-            Ok(Curve { role, points: points.skip(first).collect() })
+            Ok(Curve { role, points: points.skip(first).collect(), mark: Mark::Line })
         };
         let curves = vec![curve(Role::Ideal, self.ideal, ideal)?, curve(Role::Actual, self.actual, actual)?];
         Ok(Panel { x_label: "crank turns".into(), y_label: shown.axis(name), curves, square: false })

@@ -2,6 +2,7 @@
 
 pub mod bars;
 pub mod contest;
+pub mod dynamics;
 pub mod figure;
 pub mod loglog;
 pub mod named;

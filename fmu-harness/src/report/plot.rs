@@ -8,6 +8,8 @@ use std::ops::Range;
 
 /// Drawing units a pixel: the library rounds to whole units, so that a fine grid keeps curves smooth.
 pub(super) const FINE: u32 = 8;
+/// Radius of a dot [drawing unit].
+const DOT: u32 = 9;
 /// Curves are thinned to so many points, peaks kept.
 const MOST_POINTS: usize = 4000;
 /// Room for numbers and names of the axes [pixel].
@@ -77,6 +79,20 @@ pub struct Curve {
     pub role: Role,
     /// Its points, in the units of the axes.
     pub points: Vec<(f64, f64)>,
+    /// What is drawn of them.
+    pub mark: Mark,
+}
+
+/// What is drawn of a curve's points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mark {
+    /// A line through them, from left to right: peaks are kept if there are too many.
+    #[default]
+    Line,
+    /// A line through them, wherever they lie.
+    Path,
+    /// A dot at each.
+    Dots,
 }
 
 /// One coordinate system. Curves are drawn in their order, the last on top.
@@ -205,7 +221,12 @@ impl Paint for Panel {
             .y_desc(self.y_label.as_str())
             .draw()?;
         for curve in &self.curves {
-            let points = if self.square { curve.points.clone() } else { thinned(&curve.points) };
+            if curve.mark == Mark::Dots {
+                let dot = |point: &(f64, f64)| Circle::new(*point, DOT, curve.role.style().filled());
+                chart.draw_series(curve.points.iter().map(dot))?;
+                continue;
+            }
+            let points = if curve.mark == Mark::Path { curve.points.clone() } else { thinned(&curve.points) };
             chart.draw_series(LineSeries::new(points, curve.role.style()))?;
         }
         Ok(())

@@ -72,9 +72,43 @@ impl<const N: usize> Moreau<N> {
     where
         P: Unilateral<N, Modes: Default> + ?Sized,
     {
+        self.march(problem, t, |_| false)
+    }
+
+    /// Steps until `t` lies within the last step, or until a step has ended after `after` that closed or opened
+    /// contacts, and tells when that was.
+    ///
+    /// # Errors
+    /// As [`Moreau::advance`].
+    pub fn advance_to_event<P>(&mut self, problem: &P, after: f64, t: f64) -> Result<Option<f64>, IntegrationError>
+    where
+        P: Unilateral<N, Modes: Default> + ?Sized,
+    {
+        let happened = |memory: &Memory<N, Impulses<N>>| memory.crossings > 0 && memory.front.t > after;
+        self.march(problem, t, happened)?;
+        Ok(Some(self.memory.front.t).filter(|&event| happened(&self.memory) && event <= t))
+    }
+
+    /// Starts anew from the state `y` at `t`.
+    pub fn place(&mut self, t: f64, y: [f64; N]) {
+        let statistics = self.memory.statistics;
+        *self = Self::start(self.settings, t, y);
+        self.memory.statistics = statistics;
+    }
+
+    /// Steps until `t` lies within the last step, or `done` is so.
+    fn march<P>(
+        &mut self,
+        problem: &P,
+        t: f64,
+        done: impl Fn(&Memory<N, Impulses<N>>) -> bool,
+    ) -> Result<(), IntegrationError>
+    where
+        P: Unilateral<N, Modes: Default> + ?Sized,
+    {
         let before = self.memory.statistics.evaluations;
         let most = self.settings.effort.over(t - self.memory.front.t);
-        while self.memory.front.t < t {
+        while self.memory.front.t < t && !done(&self.memory) {
             let start = self.memory.front;
             let evaluations = self.memory.statistics.evaluations - before;
             if evaluations > most {

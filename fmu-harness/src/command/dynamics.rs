@@ -1,0 +1,142 @@
+//! `dynamics`: what a motion is in the long run.
+
+use super::{out_directory, shown};
+use crate::dynamics::bifurcation::{From, Range};
+use crate::dynamics::portrait::Plan;
+use crate::report::dynamics as report;
+use crate::scenes::Scenario;
+use anyhow::{Context, Result};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::scene::parameter::Parameter;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Poincaré sections, phase portrait, journal orbits, impacts, spectrum, largest Lyapunov exponent and a verdict.
+///
+/// With `--parameter` a bifurcation diagram over its range, too. Runs in this process; a second motion beside the first
+/// measures the exponent. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and with a parameter
+/// dynamics-SCENE-bifurcation.svg with data.
+#[derive(Args)]
+pub struct Dynamics {
+    /// The scene: name of a shipped one, or a .toml file
+    #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
+    scene: String,
+    /// A parameter's value, in SI units; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Turns that are forgotten
+    #[arg(long, default_value_t = 100, value_name = "TURNS")]
+    transient: usize,
+    /// Turns that are looked at
+    #[arg(long, default_value_t = 400, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(6..=1_000_000))]
+    turns: u32,
+    /// Crank angle of the section past its start
+    #[arg(long, default_value_t = 0.0, value_name = "DEGREES")]
+    section: f64,
+    /// Measurements of the exponent in each turn
+    #[arg(long, default_value_t = 25, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    per_turn: u32,
+    /// A bifurcation diagram over this parameter
+    #[arg(long, value_name = "NAME", requires = "from", requires = "to")]
+    parameter: Option<String>,
+    /// First value, in SI units
+    #[arg(long, value_name = "VALUE")]
+    from: Option<f64>,
+    /// Last value
+    #[arg(long, value_name = "VALUE")]
+    to: Option<f64>,
+    /// Number of values
+    #[arg(long, default_value_t = 60, value_name = "NUMBER")]
+    values: usize,
+    /// Turns looked at for each value
+    #[arg(long, default_value_t = 60, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(6..=100_000))]
+    value_turns: u32,
+    /// Space the values evenly in their logarithms
+    #[arg(long)]
+    logarithmic: bool,
+    /// Follow a branch: start each value where the one before ended, in place of the scene's start
+    #[arg(long)]
+    follow: bool,
+    /// Directory of the results [default: target/out]
+    #[arg(short, long, value_name = "DIRECTORY")]
+    output: Option<PathBuf>,
+}
+
+impl Dynamics {
+    /// Runs, judges, reports.
+    pub fn execute(&self) -> Result<()> {
+        let out = self.output.clone().unwrap_or_else(out_directory);
+        fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
+        let mut scenario = Scenario::find(&self.scene)?;
+        for assignment in &self.set {
+            assign(&mut scenario, assignment)?;
+        }
+        scenario.file.scene.check()?;
+        let range = self.range()?;
+        let plan = Plan {
+            transient: self.transient,
+            turns: self.turns as usize,
+            section: self.section.to_radians(),
+            per_turn: self.per_turn as usize,
+        };
+        let style = ProgressStyle::with_template("{msg:14} {wide_bar:.cyan/blue} {percent}% {elapsed:>4} (eta {eta})")?;
+        let bar = ProgressBar::new(plan.ticks() as u64).with_style(style.clone()).with_message("portrait");
+        let portrait = plan.portrait(&scenario.file, || bar.inc(1))?;
+        bar.finish_and_clear();
+        let (name, scene) = (&scenario.name, &scenario.file.scene);
+        let base = out.join(format!("dynamics-{name}"));
+        let table = report::table(&portrait);
+        println!("{}\n{name}: {}\n", table.print(), report::sentence(&portrait));
+        let mut written = vec![write(&base, "svg", &report::sheet(name, scene, &portrait).svg()?)?];
+        let mut page = table.markdown();
+        for (part, frame) in [
+            ("section", report::visits(&portrait.visits)),
+            ("path", report::visits(&portrait.path)),
+            ("impacts", report::impact_frame(&portrait)),
+            ("spectrum", report::spectrum_frame(&portrait)),
+        ] {
+            let file = out.join(format!("dynamics-{name}-{part}.parquet"));
+            frame.save(&file)?;
+            written.extend([file.with_extension("csv"), file]);
+        }
+        if let Some(range) = range {
+            let plan = Plan { turns: self.value_turns as usize, ..plan };
+            let bar = ProgressBar::new(range.values.len() as u64).with_style(style).with_message("bifurcation");
+            let from = if self.follow { From::Before } else { From::Fresh };
+            let branches = range.branches(&scenario.file, &plan, from, || bar.inc(1))?;
+            bar.finish_and_clear();
+            let verdicts = report::verdicts(&range, &branches);
+            println!("{}", verdicts.print());
+            page += &format!("\n{}", verdicts.markdown());
+            let base = out.join(format!("dynamics-{name}-bifurcation"));
+            written.push(write(&base, "svg", &report::bifurcation(name, scene, &range, &branches).svg()?)?);
+            report::bifurcation_frame(&range, &branches).save(&base)?;
+            written.extend(["csv", "parquet"].map(|ending| base.with_extension(ending)));
+        }
+        written.push(write(&base, "md", &page)?);
+        written.iter().for_each(|file| println!("{}", shown(file)));
+        Ok(())
+    }
+
+    fn range(&self) -> Result<Option<Range>> {
+        let Some(name) = &self.parameter else { return Ok(None) };
+        let (from, to) = (self.from.context("--from is missing")?, self.to.context("--to is missing")?);
+        Range::new(name, from, to, self.values, self.logarithmic).map(Some)
+    }
+}
+
+/// Sets `NAME=VALUE`.
+fn assign(scenario: &mut Scenario, assignment: &str) -> Result<()> {
+    let (name, value) = assignment.split_once('=').with_context(|| format!("`{assignment}` is not NAME=VALUE"))?;
+    let parameter = Parameter::named(name).with_context(|| format!("there is no parameter `{name}`"))?;
+    let value = value.parse().with_context(|| format!("`{value}` is not a number for `{name}`"))?;
+    parameter.write(&mut scenario.file.scene, value)?;
+    Ok(())
+}
+
+fn write(base: &Path, ending: &str, text: &str) -> Result<PathBuf> {
+    let file = base.with_extension(ending);
+    fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok(file)
+}

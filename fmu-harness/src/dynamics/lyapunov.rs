@@ -1,0 +1,113 @@
+//! The largest Lyapunov exponent by two trajectories (G. Benettin, L. Galgani, J.-M. Strelcyn, Phys. Rev. A 14 (1976)
+//! 2338): a neighbour is followed for a while, the growth of its distance noted, and it is brought near again along the
+//! same direction.
+//!
+//! The distance has in it all that decides how the motion goes on: bristles and the approach speeds of closed contacts
+//! too. Two neighbours may for a moment have different contacts closed; then their distance is taken as soon as they
+//! agree again. Both start anew after each measurement, so that they take like steps and what these err by cancels.
+
+use super::{Flow, Point};
+use anyhow::{Result, bail};
+
+/// How an exponent is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probe {
+    /// [s] Between two measurements.
+    pub interval: f64,
+    /// How many measurements there are.
+    pub count: usize,
+    /// Of these the first are not counted, while the neighbour turns into the direction of fastest growth.
+    pub settling: usize,
+    /// The neighbour's distance, in noticeable differences.
+    pub distance: f64,
+}
+
+/// An exponent and how well it is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exponent {
+    /// [1/s]
+    pub value: f64,
+    /// [1/s] Standard error, from the scatter of the means of [`BATCHES`] consecutive parts.
+    pub error: f64,
+    /// Time [s] and the mean up to it [1/s].
+    pub history: Vec<(f64, f64)>,
+}
+
+/// Parts whose means are compared: long ones, so that what happens in one does not tell about the next.
+pub const BATCHES: usize = 20;
+/// Waits for equal modes, in parts of an interval.
+const WAITS: usize = 400;
+const PATIENCE: f64 = 0.02;
+
+impl Probe {
+    /// Measures the exponent of `flow` by `neighbour`, another flow of the same system, wherever that is.
+    ///
+    /// # Errors
+    /// If a flow cannot go on, or neighbours never agree on their modes.
+    pub fn measure<F: Flow>(&self, flow: &mut F, neighbour: &mut F, mut tick: impl FnMut()) -> Result<Exponent> {
+        let start = flow.point();
+        let mut near = start.clone();
+        // Alternating signs: no symmetry of the system leaves such a direction as it is.
+        let sign = |i: usize| if i % 3 == 1 { -1.0 } else { 1.0 };
+        near.coordinates.iter_mut().enumerate().for_each(|(i, x)| *x += sign(i) * self.distance);
+        neighbour.place(&near);
+        flow.place(&start);
+        let (mut growths, mut history) = (Vec::with_capacity(self.count), Vec::with_capacity(self.count));
+        let (mut sum, mut span) = (0.0, 0.0);
+        let mut last = start.time;
+        for number in 0..self.count {
+            let (here, there) = self.meet(flow, neighbour, last + self.interval)?;
+            let distance = here.distance(&there);
+            if !(distance > 0.0 && distance.is_finite()) {
+                bail!("at {} s the neighbour's distance is {distance}", here.time);
+            }
+            let (growth, passed) = ((distance / self.distance).ln(), here.time - last);
+            last = here.time;
+            if number >= self.settling {
+                (sum, span) = (sum + growth, span + passed);
+                growths.push((growth, passed));
+                history.push((last, sum / span));
+            }
+            neighbour.place(&nearer(&here, &there, self.distance / distance));
+            flow.place(&here);
+            tick();
+        }
+        Ok(Exponent { value: sum / span, error: standard_error(&growths), history })
+    }
+
+    /// Both at the first time from `time` on at which their modes are the same.
+    fn meet<F: Flow>(&self, flow: &mut F, neighbour: &mut F, time: f64) -> Result<(Point, Point)> {
+        for wait in 0..WAITS {
+            let to = time + PATIENCE * self.interval * wait as f64;
+            flow.advance(to)?;
+            neighbour.advance(to)?;
+            let (here, there) = (flow.point(), neighbour.point());
+            if here.modes == there.modes {
+                return Ok((here, there));
+            }
+        }
+        bail!("from {time} s on two neighbours do not agree on their contacts")
+    }
+}
+
+/// The point at `share` of the way from `here` to `there`.
+fn nearer(here: &Point, there: &Point, share: f64) -> Point {
+    let between = here.coordinates.iter().zip(&there.coordinates).map(|(a, b)| a + share * (b - a));
+    Point { coordinates: between.collect(), ..here.clone() }
+}
+
+/// Of the mean rate, by batch means.
+fn standard_error(growths: &[(f64, f64)]) -> f64 {
+    let size = growths.len() / BATCHES;
+    if size == 0 {
+        return f64::INFINITY;
+    }
+    let rate = |batch: &[(f64, f64)]| {
+        let (sum, span) = batch.iter().fold((0.0, 0.0), |(sum, span), (growth, passed)| (sum + growth, span + passed));
+        sum / span
+    };
+    let rates: Vec<f64> = growths.chunks_exact(size).take(BATCHES).map(rate).collect();
+    let mean = rates.iter().sum::<f64>() / BATCHES as f64;
+    let variance = rates.iter().map(|rate| (rate - mean).powi(2)).sum::<f64>() / (BATCHES - 1) as f64;
+    (variance / BATCHES as f64).sqrt()
+}

@@ -1,0 +1,184 @@
+//! A scene's mechanism in this process, with its inputs, as a flow.
+
+use super::{Flow, Point};
+use anyhow::{Context, Result, bail, ensure};
+use slidercrank::model::signals::{Inputs, Outputs};
+use slidercrank::scene::profile::{Profile, Profiles};
+use slidercrank::scene::read::SceneFile;
+use slidercrank::scene::{DriveMode, JointModel, Scene};
+use slidercrank::simulation::{Phase, PhaseScales, Simulation};
+use std::f64::consts::TAU;
+
+/// Looks for a crank angle within a turn.
+const LOOKS: f64 = 400.0;
+/// Turns that a crank may take for one at its start speed, before it counts as stopped.
+const SLOWEST: f64 = 100.0;
+
+/// A mechanism that runs.
+pub struct Machine {
+    simulation: Simulation,
+    scene: Scene,
+    inputs: Profiles,
+    /// [s] Between two looks at the inputs, where they change.
+    step: Option<f64>,
+    scales: PhaseScales,
+}
+
+impl Machine {
+    /// Starts a scene.
+    ///
+    /// # Errors
+    /// If it cannot start, or its crank is not moving.
+    pub fn start(file: &SceneFile) -> Result<Self> {
+        let SceneFile { scene, inputs, run, .. } = file;
+        ensure!(scene.crank.speed_start != 0.0, "crank.speed_start = 0 rad/s: a crank that stands has no turns");
+        let changes = |profile: &Profile| !matches!(profile, Profile::Constant(_));
+        let step = (changes(&inputs.crank_torque) || changes(&inputs.slider_load)).then_some(run.step);
+        let simulation = Simulation::start(scene, 0.0, values(inputs, 0.0, scene.crank.angle_start))?;
+        let scales = simulation.phase_scales();
+        Ok(Self { simulation, scene: scene.clone(), inputs: inputs.clone(), step, scales })
+    }
+
+    /// What it does.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// [s] Of one turn at the speed of the start.
+    pub fn turn(&self) -> f64 {
+        TAU / self.scene.crank.speed_start.abs()
+    }
+
+    /// Outputs where it is.
+    pub fn outputs(&mut self) -> Outputs {
+        self.simulation.outputs()
+    }
+
+    /// [rad] Turned since the start, forwards.
+    pub fn turned(&mut self) -> f64 {
+        (self.outputs().crank.angle - self.scene.crank.angle_start).abs()
+    }
+
+    /// Moves to where the crank has turned by `angle` [rad] since the start.
+    ///
+    /// # Errors
+    /// If it cannot go on, or the crank does not get there.
+    pub fn advance_turned(&mut self, angle: f64) -> Result<()> {
+        if self.scene.drive.mode == DriveMode::Speed {
+            return self.advance(angle / self.scene.crank.speed_start.abs());
+        }
+        let look = self.turn() / LOOKS;
+        let latest = self.time() + SLOWEST * self.turn() * (1.0 + angle / TAU);
+        while self.time() < latest {
+            let left = angle - self.turned();
+            let reach = left / self.outputs().crank.speed.abs();
+            if reach.is_nan() || reach > look {
+                self.advance(self.time() + look)?;
+                continue;
+            }
+            // Once from near below, where what is left is almost a straight line.
+            self.advance(self.time() + 0.99 * reach)?;
+            let left = angle - self.turned();
+            let speed = self.outputs().crank.speed.abs();
+            return if left > 0.0 { self.advance(self.time() + left / speed) } else { Ok(()) };
+        }
+        bail!("the crank does not come round: at {} s it has made {:.3} turns", self.time(), self.turned() / TAU)
+    }
+
+    /// Moves to the next closing or opening of a contact, or to `time`; tells whether there was one.
+    ///
+    /// # Errors
+    /// If it cannot go on.
+    pub fn advance_to_event(&mut self, time: f64) -> Result<bool> {
+        while self.time() < time {
+            let next = self.next_look(time);
+            if self.simulation.advance_to_event(next)? {
+                return Ok(true);
+            }
+            self.look();
+        }
+        Ok(false)
+    }
+
+    /// [m/s] Approach speed of the closed contact in joint A, B or C (0, 1, 2).
+    pub fn approach(&mut self, joint: usize) -> Option<f64> {
+        self.simulation.phase().approach.get(joint).copied().flatten()
+    }
+
+    /// Goes on where another machine of the same joints is, at the same crank angle.
+    pub fn take_over(&mut self, other: &mut Self) {
+        let mut phase = other.simulation.phase();
+        if self.scene.drive.mode == DriveMode::Speed {
+            phase.time = other.turned() / self.scene.crank.speed_start.abs();
+        }
+        self.simulation.place(&phase);
+        self.look();
+    }
+
+    fn next_look(&self, time: f64) -> f64 {
+        self.step.map_or(time, |step| time.min(((self.time() / step + 1e-6).floor() + 1.0) * step))
+    }
+
+    /// Sets the inputs to what holds now.
+    fn look(&mut self) {
+        if self.step.is_some() {
+            let angle = self.outputs().crank.angle;
+            self.simulation.set_inputs(values(&self.inputs, self.time(), angle), Inputs::default());
+        }
+    }
+}
+
+/// Clearances of a scene's joints that have one: name, value [m].
+pub fn clearances(scene: &Scene) -> Vec<(char, f64)> {
+    let joint = &scene.joint;
+    let all = [
+        ('A', joint.a.model, joint.a.clearance),
+        ('B', joint.b.model, joint.b.clearance),
+        ('C', joint.c.model, joint.c.clearance),
+        ('T', joint.t.model, joint.t.clearance),
+    ];
+    let there = all.into_iter().filter(|(_, model, _)| *model == JointModel::Clearance);
+    there.map(|(name, _, clearance)| (name, clearance)).collect()
+}
+
+fn values(profiles: &Profiles, time: f64, angle: f64) -> Inputs {
+    let Profiles { crank_torque, slider_load } = profiles;
+    Inputs { crank_torque: crank_torque.value(time, angle), slider_load: slider_load.value(time, angle) }
+}
+
+impl Flow for Machine {
+    fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    fn advance(&mut self, time: f64) -> Result<()> {
+        while self.time() < time {
+            let next = self.next_look(time);
+            self.simulation.advance_to(next).with_context(|| format!("after {} s", self.time()))?;
+            self.look();
+        }
+        Ok(())
+    }
+
+    fn point(&mut self) -> Point {
+        let Phase { time, states, approach } = self.simulation.phase();
+        let states = states.iter().zip(&self.scales.states).map(|(state, scale)| state / scale);
+        let approach_scale = self.scales.approach;
+        let speeds = approach.iter().flatten().map(|speed| speed / approach_scale);
+        Point {
+            time,
+            coordinates: states.chain(speeds).collect(),
+            modes: approach.iter().map(Option::is_some).collect(),
+        }
+    }
+
+    fn place(&mut self, point: &Point) {
+        let (states, speeds) = point.coordinates.split_at(self.scales.states.len());
+        let mut speeds = speeds.iter().map(|speed| speed * self.scales.approach);
+        self.simulation.place(&Phase {
+            time: point.time,
+            states: states.iter().zip(&self.scales.states).map(|(state, scale)| state * scale).collect(),
+            approach: point.modes.iter().map(|closed| closed.then(|| speeds.next()).flatten()).collect(),
+        });
+    }
+}

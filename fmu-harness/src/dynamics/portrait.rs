@@ -1,0 +1,136 @@
+//! What one scene's motion is, from one long run and a second beside it.
+
+use super::lyapunov::{Exponent, Probe};
+use super::section::{Impact, Visit, impacts, stroboscope};
+use super::verdict::{Evidence, judge};
+use super::{Flow, Machine, machine, spectrum};
+use anyhow::Result;
+use slidercrank::model::signals::Outputs;
+use slidercrank::scene::Scene;
+use slidercrank::scene::read::SceneFile;
+
+/// How long, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Turns that are forgotten.
+    pub transient: usize,
+    /// Turns that are looked at.
+    pub turns: usize,
+    /// [rad] Of the section, from the crank's start.
+    pub section: f64,
+    /// Measurements of the exponent in each turn.
+    pub per_turn: usize,
+}
+
+/// Turns of which the path is kept, points in each, and points in each turn for the spectrum.
+const PATH_TURNS: usize = 8;
+const PATH_POINTS: usize = 2000;
+/// Samples of one segment of the spectrum.
+const SEGMENT: usize = 8192;
+/// Most impacts that are kept.
+const MOST_IMPACTS: usize = 20_000;
+/// The neighbour's distance [noticeable differences]: far above what the integrator errs by, far below what contacts
+/// notice.
+const DISTANCE: f64 = 1e-3;
+/// Share of the measurements that are not counted.
+const SETTLING: f64 = 0.1;
+
+/// All of it.
+pub struct Portrait {
+    /// Passages through the section, one a turn.
+    pub visits: Vec<Visit>,
+    /// Path of the last turns.
+    pub path: Vec<Visit>,
+    /// Closings of journals' contacts.
+    pub impacts: Vec<Impact>,
+    /// Density of the slider's acceleration: frequency [Hz], density [(m/s²)²/Hz].
+    pub spectrum: Vec<(f64, f64)>,
+    /// The largest Lyapunov exponent.
+    pub exponent: Exponent,
+    /// [s] One turn.
+    pub turn: f64,
+    /// Periodic or chaotic, and why.
+    pub evidence: Evidence,
+}
+
+impl Plan {
+    /// Ticks of one portrait.
+    pub fn ticks(&self) -> usize {
+        self.turns * (1 + self.per_turn)
+    }
+
+    /// The portrait of a scene.
+    ///
+    /// # Errors
+    /// If it cannot run.
+    pub fn portrait(&self, file: &SceneFile, mut tick: impl FnMut()) -> Result<Portrait> {
+        let mut machine = self.settled(file)?;
+        let begin = machine.point();
+        let visits = stroboscope(&mut machine, self.section, self.turns, &mut tick)?;
+        let path = path(&mut machine, PATH_TURNS, PATH_POINTS)?;
+        let accelerations: Vec<f64> = path.iter().map(|visit| visit.outputs.slider.a).collect();
+        let spectrum = spectrum::density(&accelerations, machine.turn() / PATH_POINTS as f64, SEGMENT);
+        let impacts = impacts(&mut machine, PATH_TURNS as f64, MOST_IMPACTS)?;
+        machine.place(&begin);
+        let exponent = self.exponent(file, &mut machine, tick)?;
+        let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(machine.scene(), &visit.outputs)).collect();
+        let evidence = judge(&vectors, &exponent);
+        Ok(Portrait { visits, path, impacts, spectrum, exponent, turn: machine.turn(), evidence })
+    }
+
+    /// The exponent from where the machine is.
+    ///
+    /// # Errors
+    /// If it cannot run.
+    pub fn exponent(&self, file: &SceneFile, machine: &mut Machine, tick: impl FnMut()) -> Result<Exponent> {
+        let count = self.turns * self.per_turn;
+        let interval = machine.turn() / self.per_turn as f64;
+        let settling = (SETTLING * count as f64) as usize;
+        let probe = Probe { interval, count, settling, distance: DISTANCE };
+        probe.measure(machine, &mut Machine::start(file)?, tick)
+    }
+
+    /// The machine after the transient.
+    ///
+    /// # Errors
+    /// If it cannot run.
+    pub fn settled(&self, file: &SceneFile) -> Result<Machine> {
+        let mut machine = Machine::start(file)?;
+        machine.advance_turned(std::f64::consts::TAU * self.transient as f64)?;
+        Ok(machine)
+    }
+}
+
+/// Evenly spaced points of the next turns at the speed of the start.
+fn path(machine: &mut Machine, turns: usize, points: usize) -> Result<Vec<Visit>> {
+    let (start, step) = (machine.time(), machine.turn() / points as f64);
+    let mut path = Vec::with_capacity(turns * points);
+    for point in 1..=turns * points {
+        machine.advance(start + step * point as f64)?;
+        path.push(Visit { time: machine.time(), outputs: machine.outputs() });
+    }
+    Ok(path)
+}
+
+/// What is compared from visit to visit: journals and slider in their clearances, in clearances; the rod's deflection
+/// and, without any clearance, the slider in thousandths of the crank's length.
+pub fn noticed(scene: &Scene, outputs: &Outputs) -> Vec<f64> {
+    let mut noticed = Vec::new();
+    let clearances = machine::clearances(scene);
+    for (joint, clearance) in &clearances {
+        let revolute = match joint {
+            'A' => outputs.joint_a,
+            'B' => outputs.joint_b,
+            'C' => outputs.joint_c,
+            _ => {
+                noticed.extend([outputs.slider.y / clearance, outputs.slider.angle * scene.slider.length / clearance]);
+                continue;
+            }
+        };
+        noticed.extend(revolute.eccentricity.map(|e| e / clearance));
+    }
+    let least = clearances.iter().map(|(_, clearance)| *clearance).reduce(f64::min);
+    let least = least.unwrap_or(1e-3 * scene.crank.length);
+    noticed.extend([outputs.accuracy.position / least, outputs.rod.deflection / least]);
+    noticed
+}

@@ -1,0 +1,77 @@
+//! Sections of a motion: once a turn at a crank angle, and at impact.
+
+use super::{Flow, Machine};
+use anyhow::Result;
+use slidercrank::model::signals::Outputs;
+use std::f64::consts::TAU;
+
+/// A passage through a section.
+#[derive(Clone, Copy, Debug)]
+pub struct Visit {
+    /// [s]
+    pub time: f64,
+    /// Outputs there.
+    pub outputs: Outputs,
+}
+
+/// A journal or a corner that touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// [s]
+    pub time: f64,
+    /// The joint: A, B, C.
+    pub joint: char,
+    /// [rad] Crank angle, within a turn.
+    pub crank: f64,
+    /// [rad] Where on the bearing.
+    pub place: f64,
+    /// [m/s] Approach speed.
+    pub speed: f64,
+}
+
+/// Passages of the crank through `angle` [rad] past its start, once in each of `count` turns after the machine's whole
+/// turns so far.
+///
+/// # Errors
+/// If the machine cannot go on.
+pub fn stroboscope(machine: &mut Machine, angle: f64, count: usize, mut tick: impl FnMut()) -> Result<Vec<Visit>> {
+    // A billionth of a turn, which rounding may have left, is no turn.
+    let first = ((machine.turned() - angle) / TAU - 1e-9).ceil();
+    let mut visits = Vec::with_capacity(count);
+    for turn in 0..count {
+        machine.advance_turned(angle + TAU * (first + turn as f64))?;
+        visits.push(Visit { time: machine.time(), outputs: machine.outputs() });
+        tick();
+    }
+    Ok(visits)
+}
+
+/// Every closing of a revolute contact within the next `turns` at the speed of the start, at most `most`.
+///
+/// # Errors
+/// If the machine cannot go on.
+pub fn impacts(machine: &mut Machine, turns: f64, most: usize) -> Result<Vec<Impact>> {
+    let end = machine.time() + turns * machine.turn();
+    let contacts = |outputs: &Outputs| revolutes(outputs).map(|(_, joint)| joint.contact);
+    let mut closed = contacts(&machine.outputs());
+    let mut impacts = Vec::new();
+    while impacts.len() < most && machine.advance_to_event(end)? {
+        let outputs = machine.outputs();
+        let now = contacts(&outputs);
+        for (number, (name, joint)) in revolutes(&outputs).into_iter().enumerate() {
+            if now[number] && !closed[number] {
+                let [x, y] = joint.eccentricity;
+                let speed = machine.approach(number).unwrap_or_default();
+                let crank = outputs.crank.angle.rem_euclid(TAU);
+                impacts.push(Impact { time: machine.time(), joint: name, crank, place: y.atan2(x), speed });
+            }
+        }
+        closed = now;
+    }
+    Ok(impacts)
+}
+
+/// The journals, by name.
+fn revolutes(outputs: &Outputs) -> [(char, slidercrank::model::signals::RevoluteOutputs); 3] {
+    [('A', outputs.joint_a), ('B', outputs.joint_b), ('C', outputs.joint_c)]
+}

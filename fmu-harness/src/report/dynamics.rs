@@ -1,0 +1,289 @@
+//! What a motion is in the long run, in figures, tables and columns.
+
+use super::plot::{Curve, Mark, Panel, Role, Sheet};
+use super::table::Table;
+use super::units::{Shown, significant, three_digits};
+use crate::dynamics::bifurcation::{Branch, Range};
+use crate::dynamics::machine::clearances;
+use crate::dynamics::portrait::Portrait;
+use crate::dynamics::section::Visit;
+use crate::dynamics::verdict::{SAME, Verdict};
+use crate::frame::{Column, Frame};
+use slidercrank::model::signals::{Outputs, RevoluteOutputs};
+use slidercrank::scene::Scene;
+use slidercrank::scene::parameter::{Kind, Parameter};
+use std::f64::consts::TAU;
+
+/// Decades below its peak down to which a spectrum is drawn.
+const DECADES: f64 = 12.0;
+
+/// The journal of a joint.
+fn journal(joint: char, outputs: &Outputs) -> RevoluteOutputs {
+    match joint {
+        'A' => outputs.joint_a,
+        'B' => outputs.joint_b,
+        _ => outputs.joint_c,
+    }
+}
+
+/// One scene's sheet.
+pub fn sheet(title: &str, scene: &Scene, portrait: &Portrait) -> Sheet {
+    let journals: Vec<(char, f64)> = clearances(scene).into_iter().filter(|(joint, _)| *joint != 'T').collect();
+    let mut panels = vec![phase_portrait(&portrait.path)];
+    for &(joint, clearance) in &journals {
+        panels.push(in_bearing(joint, clearance, &portrait.path, Mark::Path, "path"));
+        panels.push(in_bearing(joint, clearance, &portrait.visits, Mark::Dots, "once a turn"));
+    }
+    panels.push(slider_section(&portrait.visits));
+    if !journals.is_empty() {
+        panels.push(impacts(portrait, &journals));
+    }
+    panels.push(spectrum(&portrait.spectrum));
+    panels.push(convergence(portrait));
+    let legend = vec![(Role::Actual, "motion, and its passages once a turn".into()), (Role::Limit, "clearance".into())];
+    Sheet { title: format!("{title}: {}", sentence(portrait)), legend, panels, columns: 3, panel_size: (440, 400) }
+}
+
+fn curve(role: Role, points: Vec<(f64, f64)>, mark: Mark) -> Curve {
+    Curve { role, points, mark }
+}
+
+/// Two quantities of visits in the units that suit them.
+fn plane(visits: &[Visit], [x, y]: [(&str, &str, fn(&Outputs) -> f64); 2], mark: Mark) -> Panel {
+    let peak = |of: fn(&Outputs) -> f64| visits.iter().map(|visit| of(&visit.outputs).abs()).fold(0.0, f64::max);
+    let (of_x, of_y) = (Shown::of(x.1, peak(x.2)), Shown::of(y.1, peak(y.2)));
+    let point = |visit: &Visit| (x.2(&visit.outputs) * of_x.factor, y.2(&visit.outputs) * of_y.factor);
+    Panel {
+        x_label: of_x.axis(x.0),
+        y_label: of_y.axis(y.0),
+        curves: vec![curve(Role::Actual, visits.iter().map(point).collect(), mark)],
+        square: false,
+    }
+}
+
+fn phase_portrait(path: &[Visit]) -> Panel {
+    let velocity = ("slider velocity", "m/s", (|outputs: &Outputs| outputs.slider.v) as fn(&Outputs) -> f64);
+    plane(path, [velocity, ("slider acceleration", "m/s2", |outputs| outputs.slider.a)], Mark::Path)
+}
+
+fn slider_section(visits: &[Visit]) -> Panel {
+    let position = (
+        "slider's position error, once a turn",
+        "m",
+        (|outputs: &Outputs| outputs.accuracy.position) as fn(&Outputs) -> f64,
+    );
+    plane(visits, [position, ("velocity error", "m/s", |outputs| outputs.accuracy.velocity)], Mark::Dots)
+}
+
+fn in_bearing(joint: char, clearance: f64, visits: &[Visit], mark: Mark, what: &str) -> Panel {
+    let shown = Shown::of("m", clearance);
+    let circle = (0..=180).map(|step| TAU * f64::from(step) / 180.0);
+    let circle = circle.map(|angle| (clearance * angle.cos() * shown.factor, clearance * angle.sin() * shown.factor));
+    let place = |visit: &Visit| {
+        let [x, y] = journal(joint, &visit.outputs).eccentricity;
+        (x * shown.factor, y * shown.factor)
+    };
+    Panel {
+        x_label: shown.axis(&format!("journal of {joint} along the guide, {what}")),
+        y_label: shown.axis("across"),
+        curves: vec![
+            curve(Role::Limit, circle.collect(), Mark::Line),
+            curve(Role::Actual, visits.iter().map(place).collect(), mark),
+        ],
+        square: true,
+    }
+}
+
+fn impacts(portrait: &Portrait, journals: &[(char, f64)]) -> Panel {
+    let curves = journals.iter().enumerate().map(|(number, (joint, _))| {
+        let of_joint = portrait.impacts.iter().filter(|impact| impact.joint == *joint);
+        let points = of_joint.map(|impact| (impact.crank.to_degrees(), impact.speed));
+        curve(if journals.len() == 1 { Role::Actual } else { Role::Member(number) }, points.collect(), Mark::Dots)
+    });
+    let names: String = journals.iter().map(|(joint, _)| *joint).collect();
+    Panel {
+        x_label: format!("crank angle at impact in {names} [°]"),
+        y_label: "approach speed [m/s]".into(),
+        curves: curves.collect(),
+        square: false,
+    }
+}
+
+fn spectrum(density: &[(f64, f64)]) -> Panel {
+    let peak = density.iter().map(|(_, density)| *density).fold(0.0, f64::max);
+    let kept = density.iter().skip(1).filter(|(_, density)| *density > peak * 10f64.powf(-DECADES));
+    Panel {
+        x_label: "log10 of frequency [Hz]".into(),
+        y_label: "log10 of the acceleration's density [(m/s²)²/Hz]".into(),
+        curves: vec![curve(Role::Actual, kept.map(|(f, d)| (f.log10(), d.log10())).collect(), Mark::Line)],
+        square: false,
+    }
+}
+
+fn convergence(portrait: &Portrait) -> Panel {
+    let history = &portrait.exponent.history;
+    let turns = |time: f64| (time - history.first().map_or(0.0, |(first, _)| *first)) / portrait.turn;
+    let points: Vec<(f64, f64)> = history.iter().map(|(time, mean)| (turns(*time), mean * portrait.turn)).collect();
+    let ends = points.first().into_iter().chain(points.last()).map(|point| (point.0, 0.0)).collect();
+    Panel {
+        x_label: "turns".into(),
+        y_label: "mean exponent so far [1/turn]".into(),
+        curves: vec![curve(Role::Limit, ends, Mark::Line), curve(Role::Actual, points, Mark::Line)],
+        square: false,
+    }
+}
+
+/// The verdict with its evidence.
+pub fn sentence(portrait: &Portrait) -> String {
+    let (evidence, exponent) = (&portrait.evidence, &portrait.exponent);
+    let [value, error] = [exponent.value, exponent.error].map(|number| three_digits(number * portrait.turn));
+    format!(
+        "{}; exponent {value} ± {error} a turn; repeats after {} turns to {} of a clearance",
+        evidence.verdict,
+        evidence.repeats_after,
+        significant(evidence.misses_by)
+    )
+}
+
+/// The same as a table.
+pub fn table(portrait: &Portrait) -> Table {
+    let (evidence, exponent) = (&portrait.evidence, &portrait.exponent);
+    let mut table = Table::default();
+    table.row(["what", "value"]);
+    table.row(["verdict", &evidence.verdict.to_string()]);
+    table.row(["largest Lyapunov exponent [1/s]", &three_digits(exponent.value)]);
+    table.row(["its standard error [1/s]", &three_digits(exponent.error)]);
+    table.row(["the exponent in one turn", &three_digits(exponent.value * portrait.turn)]);
+    table.row(["turns looked at", &portrait.visits.len().to_string()]);
+    table.row(["best repetition after turns", &evidence.repeats_after.to_string()]);
+    table.row(["which misses by, in clearances", &significant(evidence.misses_by)]);
+    table.row(["counts as the same below", &significant(SAME)]);
+    table.row(["impacts of journals in the last turns", &portrait.impacts.len().to_string()]);
+    table
+}
+
+/// Visits as columns.
+pub fn visits(visits: &[Visit]) -> Frame {
+    let column = |of: fn(&Outputs) -> f64| visits.iter().map(move |visit| of(&visit.outputs));
+    let mut frame = Frame::default()
+        .reals("time", visits.iter().map(|visit| visit.time))
+        .reals("crank.angle", column(|outputs| outputs.crank.angle))
+        .reals("slider.x", column(|outputs| outputs.slider.x))
+        .reals("slider.v", column(|outputs| outputs.slider.v))
+        .reals("slider.a", column(|outputs| outputs.slider.a))
+        .reals("slider.y", column(|outputs| outputs.slider.y))
+        .reals("slider.angle", column(|outputs| outputs.slider.angle))
+        .reals("accuracy.position", column(|outputs| outputs.accuracy.position))
+        .reals("accuracy.velocity", column(|outputs| outputs.accuracy.velocity));
+    for joint in ['A', 'B', 'C'] {
+        for (axis, name) in ["x", "y"].into_iter().enumerate() {
+            let values = visits.iter().map(|visit| journal(joint, &visit.outputs).eccentricity[axis]);
+            frame = frame.reals(format!("joint.{joint}.eccentricity.{name}"), values.collect::<Vec<_>>());
+        }
+    }
+    frame
+}
+
+/// Impacts as columns.
+pub fn impact_frame(portrait: &Portrait) -> Frame {
+    let column = |of: fn(&crate::dynamics::section::Impact) -> f64| portrait.impacts.iter().map(of).collect::<Vec<_>>();
+    Frame::default()
+        .reals("time", column(|impact| impact.time))
+        .with("joint", Column::Texts(portrait.impacts.iter().map(|impact| impact.joint.to_string()).collect()))
+        .reals("crank.angle", column(|impact| impact.crank))
+        .reals("place", column(|impact| impact.place))
+        .reals("speed", column(|impact| impact.speed))
+}
+
+/// Frequency and density as columns.
+pub fn spectrum_frame(portrait: &Portrait) -> Frame {
+    let [frequency, density] = [0, 1].map(|which| {
+        portrait.spectrum.iter().map(move |(frequency, density)| if which == 0 { *frequency } else { *density })
+    });
+    Frame::default().reals("frequency", frequency.collect::<Vec<_>>()).reals("density", density.collect::<Vec<_>>())
+}
+
+/// A bifurcation diagram: the slider's velocity and a journal at every visit, and the exponent, over the parameter.
+pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch]) -> Sheet {
+    let unit = match Parameter::named(&range.name).map(|parameter| &parameter.kind) {
+        Some(Kind::Real { unit, .. }) => *unit,
+        _ => "1",
+    };
+    let peak = range.values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
+    let shown = Shown::of(unit, peak);
+    let x_label = shown.axis(&range.name);
+    let found =
+        || branches.iter().filter_map(|branch| Some((branch.value * shown.factor, branch.outcome.as_ref().ok()?)));
+    let over = |of: &dyn Fn(&Outputs) -> f64| -> Vec<(f64, f64)> {
+        found()
+            .flat_map(|(x, (visits, _))| visits.iter().map(move |visit| (x, visit.outputs)))
+            .map(|(x, o)| (x, of(&o)))
+            .collect()
+    };
+    let dots = |y_label: &str, points| Panel {
+        x_label: x_label.clone(),
+        y_label: y_label.into(),
+        curves: vec![curve(Role::Actual, points, Mark::Dots)],
+        square: false,
+    };
+    let mut panels = vec![dots("slider velocity once a turn [m/s]", over(&|outputs| outputs.slider.v))];
+    if let Some((joint, _)) = clearances(scene).into_iter().find(|(joint, _)| *joint != 'T') {
+        panels.push(dots(
+            &format!("journal of {joint} across the guide [µm]"),
+            over(&|outputs| 1e6 * journal(joint, outputs).eccentricity[1]),
+        ));
+    }
+    let exponents: Vec<(f64, f64)> = found().map(|(x, (_, evidence))| (x, evidence.exponent)).collect();
+    let ends = exponents.first().into_iter().chain(exponents.last()).map(|point| (point.0, 0.0)).collect();
+    panels.push(Panel {
+        x_label: x_label.clone(),
+        y_label: "largest exponent [1/s]".into(),
+        curves: vec![curve(Role::Limit, ends, Mark::Line), curve(Role::Actual, exponents, Mark::Line)],
+        square: false,
+    });
+    let upper = panels.len() - 1;
+    panels[..upper].iter_mut().for_each(|panel| panel.x_label.clear());
+    let legend = vec![(Role::Actual, format!("every visit of {} values", branches.len()))];
+    Sheet { title: format!("{title}: bifurcation"), legend, panels, columns: 1, panel_size: (1100, 300) }
+}
+
+/// Every visit of every value as columns.
+pub fn bifurcation_frame(range: &Range, branches: &[Branch]) -> Frame {
+    let mut rows: Vec<(f64, Visit)> = Vec::new();
+    let mut verdicts = Vec::new();
+    for branch in branches {
+        if let Ok((visits, evidence)) = &branch.outcome {
+            rows.extend(visits.iter().map(|visit| (branch.value, *visit)));
+            verdicts.extend(visits.iter().map(|_| evidence.verdict.to_string()));
+        }
+    }
+    let all: Vec<Visit> = rows.iter().map(|(_, visit)| *visit).collect();
+    let mut frame =
+        Frame::default().reals(range.name.clone(), rows.iter().map(|(value, _)| *value).collect::<Vec<_>>());
+    for (name, column) in visits(&all).columns() {
+        frame = frame.with(name.clone(), column.clone());
+    }
+    frame.with("verdict", Column::Texts(verdicts))
+}
+
+/// Intervals of the parameter with one verdict each.
+pub fn verdicts(range: &Range, branches: &[Branch]) -> Table {
+    let name = |branch: &Branch| match &branch.outcome {
+        Ok((_, evidence)) => match evidence.verdict {
+            Verdict::Periodic(turns) => format!("period {turns}"),
+            other => other.to_string(),
+        },
+        Err(error) => format!("failed: {error:#}"),
+    };
+    let mut table = Table::default();
+    table.row([range.name.as_str(), "to", "values", "verdict"]);
+    let mut start = 0;
+    for end in 1..=branches.len() {
+        if end == branches.len() || name(&branches[end]) != name(&branches[start]) {
+            let [from, to] = [start, end - 1].map(|place| format!("{:.4e}", branches[place].value));
+            table.row([from, to, (end - start).to_string(), name(&branches[start])]);
+            start = end;
+        }
+    }
+    table
+}

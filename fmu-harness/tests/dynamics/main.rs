@@ -1,0 +1,6 @@
+//! Sections, exponents and verdicts, on motions whose answers are known.
+
+mod ball;
+mod lorenz;
+mod mechanism;
+mod system;

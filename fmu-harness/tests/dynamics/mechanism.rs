@@ -1,0 +1,92 @@
+//! The crank drive itself: what is known of it, and that a failing value stops no other.
+
+use fmu_harness::dynamics::bifurcation::{From, Range};
+use fmu_harness::dynamics::portrait::Plan;
+use fmu_harness::dynamics::section::stroboscope;
+use fmu_harness::dynamics::verdict::Verdict;
+use fmu_harness::dynamics::{Flow, Machine};
+use fmu_harness::scenes::Scenario;
+use slidercrank::scene::read::SceneFile;
+use std::f64::consts::TAU;
+
+const PLAN: Plan = Plan { transient: 30, turns: 60, section: 0.0, per_turn: 25 };
+
+fn wornpin(clearance: f64) -> SceneFile {
+    let mut file = Scenario::find("wornpin").expect("a shipped scene").file;
+    file.scene.joint.c.clearance = clearance;
+    file
+}
+
+#[test]
+fn a_small_clearance_is_periodic_and_a_large_one_chaotic() {
+    let small = PLAN.portrait(&wornpin(0.02e-3), || {}).expect("a portrait");
+    assert_eq!(small.evidence.verdict, Verdict::Periodic(1), "{:?}", small.evidence);
+    assert_eq!(small.impacts, [], "the journal never leaves its bearing");
+    // A lasting contact keeps its approach speed: that difference neither grows nor fades.
+    assert!(small.evidence.exponent.abs() < 1.0, "{:?}", small.evidence);
+    let large = PLAN.portrait(&wornpin(0.5e-3), || {}).expect("a portrait");
+    assert_eq!(large.evidence.verdict, Verdict::Chaotic, "{:?}", large.evidence);
+    // Neighbours part by about e^5 a turn.
+    let per_turn = large.evidence.exponent * large.turn;
+    assert!((3.5..6.5).contains(&per_turn), "{per_turn}");
+    assert!(large.impacts.iter().all(|impact| impact.joint == 'C' && impact.speed > 0.0));
+}
+
+#[test]
+fn a_section_is_once_a_turn_at_its_angle_under_both_drives() {
+    for scene in ["allplay", "wornpin"] {
+        let file = Scenario::find(scene).expect("a shipped scene").file;
+        let mut machine = Machine::start(&file).expect("a machine");
+        let visits = stroboscope(&mut machine, 1.0, 3, || {}).expect("visits");
+        for (turn, visit) in visits.iter().enumerate() {
+            let turned = (visit.outputs.crank.angle - file.scene.crank.angle_start).abs();
+            assert!((turned - 1.0 - TAU * turn as f64).abs() < 1e-8, "{scene}, visit {turn}: {turned} rad");
+        }
+    }
+}
+
+#[test]
+fn a_machine_goes_on_from_where_it_was_placed() {
+    let file = wornpin(0.5e-3);
+    let mut machine = Machine::start(&file).expect("a machine");
+    machine.advance(0.02).expect("it runs");
+    let point = machine.point();
+    machine.advance(0.021).expect("it runs");
+    let first = machine.point();
+    machine.place(&point);
+    machine.advance(0.021).expect("it runs");
+    // The step sequence is another: the same motion up to the tolerance.
+    assert!(machine.point().distance(&first) < 1e-2, "{}", machine.point().distance(&first));
+}
+
+#[test]
+fn a_branch_is_followed_or_started_anew_and_a_bad_value_is_refused_by_name() {
+    let plan = Plan { transient: 20, turns: 12, ..PLAN };
+    let range = Range::new("joint.C.clearance", 1e-5, 2e-5, 3, false).expect("a range");
+    for from in [From::Fresh, From::Before] {
+        let branches = range.branches(&wornpin(1e-5), &plan, from, || {}).expect("branches");
+        let values: Vec<f64> = branches.iter().map(|branch| branch.value).collect();
+        let apart = values.iter().zip([1e-5, 1.5e-5, 2e-5]).map(|(found, wanted)| (found - wanted).abs());
+        assert!(values.len() == 3 && apart.fold(0.0, f64::max) < 1e-18, "{values:?}");
+        for branch in &branches {
+            let (visits, evidence) = branch.outcome.as_ref().expect("it runs");
+            assert_eq!((visits.len(), evidence.verdict), (12, Verdict::Periodic(1)), "{}", branch.value);
+        }
+    }
+    for (name, from, to, word) in [
+        ("joint.C.clearanse", 1e-5, 2e-5, "joint.C.clearanse"),
+        ("joint.C.clearance", 1e-5, 2.0, "1e-9 to 0.1 m"),
+        ("solver.method", 1.0, 2.0, "real number"),
+    ] {
+        let error = Range::new(name, from, to, 3, false).expect_err(name);
+        assert!(error.to_string().contains(word), "{error}");
+    }
+}
+
+#[test]
+fn a_crank_that_stands_has_no_turns() {
+    let mut file = wornpin(1e-4);
+    file.scene.crank.speed_start = 0.0;
+    let error = Machine::start(&file).err().expect("nothing to section");
+    assert!(error.to_string().contains("crank.speed_start"), "{error}");
+}

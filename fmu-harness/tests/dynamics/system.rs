@@ -1,0 +1,55 @@
+//! A system of two or three states under the product's own integrator, as a flow.
+
+use anyhow::Result;
+use fmu_harness::dynamics::{Flow, Point};
+use slidercrank::integrator::methods::Verner7;
+use slidercrank::integrator::{Effort, Integrator, Problem, Settings};
+
+/// Noticeable differences of these systems.
+const SCALE: f64 = 1e-3;
+
+/// A system that runs.
+pub struct System<const N: usize, P> {
+    problem: P,
+    integrator: Integrator<N, (), Verner7>,
+    time: f64,
+}
+
+impl<const N: usize, P: Problem<N, Modes = ()>> System<N, P> {
+    /// Starts at time 0.
+    pub fn start(problem: P, start: [f64; N]) -> Self {
+        let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: Effort::ANY };
+        let integrator = Integrator::start(&problem, settings, 0.0, start, ());
+        Self { problem, integrator, time: 0.0 }
+    }
+
+    /// Where it is.
+    pub fn state(&mut self) -> [f64; N] {
+        self.integrator.state_at(&self.problem, self.time).0
+    }
+}
+
+impl<const N: usize, P: Problem<N, Modes = ()>> Flow for System<N, P> {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn advance(&mut self, time: f64) -> Result<()> {
+        self.integrator.advance(&self.problem, time)?;
+        self.integrator.rewind(&self.problem, time);
+        self.time = time;
+        Ok(())
+    }
+
+    fn point(&mut self) -> Point {
+        let coordinates = self.state().iter().map(|x| x / SCALE).collect();
+        Point { time: self.time, coordinates, modes: vec![] }
+    }
+
+    fn place(&mut self, point: &Point) {
+        let mut state = [0.0; N];
+        state.iter_mut().zip(&point.coordinates).for_each(|(x, coordinate)| *x = coordinate * SCALE);
+        self.integrator.place(&self.problem, point.time, state, ());
+        self.time = point.time;
+    }
+}
