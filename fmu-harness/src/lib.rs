@@ -1,5 +1,6 @@
 //! Builds, packages, loads and runs FMUs of FMI 2.0 co-simulation.
 
+pub mod accuracy;
 pub mod command;
 pub mod dynamics;
 pub mod effects;
@@ -15,4 +16,5 @@ pub mod realtime;
 pub mod report;
 pub mod run;
 pub mod scenes;
+pub mod sweep;
 pub mod trajectory;

@@ -1,7 +1,7 @@
 //! The command line: without a command it packages a scene, runs it through the packaged file and reports.
 
 use clap::{Parser, Subcommand};
-use fmu_harness::command::{Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run};
+use fmu_harness::command::{Accuracy, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run, Sweep};
 use std::process::ExitCode;
 
 /// Builds, packages and runs the slider-crank FMU.
@@ -25,6 +25,8 @@ enum Command {
     Run(Run),
     /// Prints what an FMU declares
     Inspect(Inspect),
+    /// Shows what play does to the slider's motion
+    Accuracy(Accuracy),
     /// Tells what a motion is in the long run: periodic or chaotic
     Dynamics(Dynamics),
     /// Prices every effect
@@ -35,6 +37,8 @@ enum Command {
     Precision(Precision),
     /// Times single communication steps
     Realtime(Realtime),
+    /// Runs a study: many runs with other parameters
+    Sweep(Sweep),
 }
 
 fn main() -> ExitCode {
@@ -44,11 +48,13 @@ fn main() -> ExitCode {
         Some(Command::Package(package)) => package.execute(),
         Some(Command::Run(run)) => run.execute(),
         Some(Command::Inspect(inspect)) => inspect.execute(),
+        Some(Command::Accuracy(accuracy)) => accuracy.execute(),
         Some(Command::Dynamics(dynamics)) => dynamics.execute(),
         Some(Command::Effects(effects)) => effects.execute(),
         Some(Command::Peers(peers)) => peers.execute(),
         Some(Command::Precision(precision)) => precision.execute(),
         Some(Command::Realtime(realtime)) => realtime.execute(),
+        Some(Command::Sweep(sweep)) => sweep.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,5 +1,6 @@
 //! The subcommands.
 
+mod accuracy;
 mod dynamics;
 mod effects;
 mod inspect;
@@ -8,7 +9,9 @@ mod peers;
 mod precision;
 mod realtime;
 mod run;
+mod sweep;
 
+pub use accuracy::Accuracy;
 pub use dynamics::Dynamics;
 pub use effects::Effects;
 pub use inspect::Inspect;
@@ -17,6 +20,7 @@ pub use peers::Peers;
 pub use precision::Precision;
 pub use realtime::Realtime;
 pub use run::Run;
+pub use sweep::Sweep;
 
 use crate::package::build::workspace;
 use std::env;

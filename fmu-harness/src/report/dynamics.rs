@@ -48,31 +48,40 @@ fn curve(role: Role, points: Vec<(f64, f64)>, mark: Mark) -> Curve {
     Curve { role, points, mark }
 }
 
+/// An output with its name and unit.
+struct Quantity {
+    name: &'static str,
+    unit: &'static str,
+    of: fn(&Outputs) -> f64,
+}
+
 /// Two quantities of visits in the units that suit them.
-fn plane(visits: &[Visit], [x, y]: [(&str, &str, fn(&Outputs) -> f64); 2], mark: Mark) -> Panel {
-    let peak = |of: fn(&Outputs) -> f64| visits.iter().map(|visit| of(&visit.outputs).abs()).fold(0.0, f64::max);
-    let (of_x, of_y) = (Shown::of(x.1, peak(x.2)), Shown::of(y.1, peak(y.2)));
-    let point = |visit: &Visit| (x.2(&visit.outputs) * of_x.factor, y.2(&visit.outputs) * of_y.factor);
+fn plane(visits: &[Visit], [x, y]: [Quantity; 2], mark: Mark) -> Panel {
+    let shown = |quantity: &Quantity| {
+        let peak = visits.iter().map(|visit| (quantity.of)(&visit.outputs).abs()).fold(0.0, f64::max);
+        Shown::of(quantity.unit, peak)
+    };
+    let (of_x, of_y) = (shown(&x), shown(&y));
+    let point = |visit: &Visit| ((x.of)(&visit.outputs) * of_x.factor, (y.of)(&visit.outputs) * of_y.factor);
     Panel {
-        x_label: of_x.axis(x.0),
-        y_label: of_y.axis(y.0),
+        x_label: of_x.axis(x.name),
+        y_label: of_y.axis(y.name),
         curves: vec![curve(Role::Actual, visits.iter().map(point).collect(), mark)],
         square: false,
     }
 }
 
 fn phase_portrait(path: &[Visit]) -> Panel {
-    let velocity = ("slider velocity", "m/s", (|outputs: &Outputs| outputs.slider.v) as fn(&Outputs) -> f64);
-    plane(path, [velocity, ("slider acceleration", "m/s2", |outputs| outputs.slider.a)], Mark::Path)
+    let velocity = Quantity { name: "slider velocity", unit: "m/s", of: |outputs| outputs.slider.v };
+    let acceleration = Quantity { name: "slider acceleration", unit: "m/s2", of: |outputs| outputs.slider.a };
+    plane(path, [velocity, acceleration], Mark::Path)
 }
 
 fn slider_section(visits: &[Visit]) -> Panel {
-    let position = (
-        "slider's position error, once a turn",
-        "m",
-        (|outputs: &Outputs| outputs.accuracy.position) as fn(&Outputs) -> f64,
-    );
-    plane(visits, [position, ("velocity error", "m/s", |outputs| outputs.accuracy.velocity)], Mark::Dots)
+    let of_position = |outputs: &Outputs| outputs.accuracy.position;
+    let position = Quantity { name: "slider's position error, once a turn", unit: "m", of: of_position };
+    let velocity = Quantity { name: "velocity error", unit: "m/s", of: |outputs| outputs.accuracy.velocity };
+    plane(visits, [position, velocity], Mark::Dots)
 }
 
 fn in_bearing(joint: char, clearance: f64, visits: &[Visit], mark: Mark, what: &str) -> Panel {

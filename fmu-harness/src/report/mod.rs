@@ -1,5 +1,6 @@
 //! What a run says, in figures and in numbers.
 
+pub mod accuracy;
 pub mod bars;
 pub mod contest;
 pub mod dynamics;
@@ -10,6 +11,8 @@ pub mod plot;
 pub mod precision;
 pub mod price;
 pub mod realtime;
+pub mod study;
 pub mod summary;
 pub mod table;
+mod thinning;
 pub mod units;

@@ -1,6 +1,6 @@
 //! A run without a word on the way: what it gave, what it cost, why it ended.
 
-use super::{Experiment, MOST_POINTS, Runner};
+use super::{Experiment, MOST_POINTS, Runner, Until};
 use crate::host::{Fmu, Log};
 use crate::trajectory::Trajectory;
 use anyhow::Result;
@@ -43,7 +43,8 @@ pub struct March {
 /// Steps between two looks at the clock.
 const UNWATCHED: usize = 8;
 
-/// Runs the experiment without a word on the way and for at most about `budget`.
+/// Runs the experiment without a word on the way and for at most about `budget`. Turns are counted where it looks
+/// everywhere.
 ///
 /// # Errors
 /// If it cannot begin; whatever happens later is its ending.
@@ -62,6 +63,9 @@ pub fn march(fmu: &Fmu, experiment: &Experiment, look: Look, budget: Duration) -
         reached = to;
         if look == Look::Everywhere {
             runner.record(to)?;
+            if matches!(experiment.until, Until::Turns { .. }) && runner.share_done(to)? >= 1.0 {
+                break;
+            }
         }
         if point % UNWATCHED == 0 && clock.elapsed() > budget {
             ending = Ending::Stopped;

@@ -116,13 +116,16 @@ impl<const K: usize, const F: usize> Modes<K, F> {
     }
 }
 
+type ShapeOf<R, const K: usize, const F: usize> = fn(&Modes<K, F>, &[R], &[R]) -> Shape<R, K, F>;
+type InertiaOf<R, const K: usize, const F: usize> = fn(&Modes<K, F>, &Shape<R, K, F>, &[R], &[R], R) -> Inertia<R, K>;
+
 /// Shape and inertia of a rod, compiled for its counts or for any.
 #[derive(Clone, Copy, Debug)]
 pub struct Functions<R, const K: usize, const F: usize> {
     /// The shape of the modal coordinates η [m] and their rates [m/s].
-    pub shape: fn(&Modes<K, F>, &[R], &[R]) -> Shape<R, K, F>,
+    pub shape: ShapeOf<R, K, F>,
     /// The inertia of a shape, with η and its rates, whose frame turns at a speed [rad/s].
-    pub inertia: fn(&Modes<K, F>, &Shape<R, K, F>, &[R], &[R], R) -> Inertia<R, K>,
+    pub inertia: InertiaOf<R, K, F>,
 }
 
 impl<R: Real, const K: usize, const F: usize> Functions<R, K, F> {
@@ -150,11 +153,12 @@ const fn all<const BENDING: usize, const AXIAL: usize>() -> Counts {
 
 /// The functions for `counts`: compiled for them where they are small and usual.
 fn by_counts<const K: usize, const F: usize>(counts: Counts) -> Functions<f64, K, F> {
+    const { assert!(K >= 4, "room for every counts below") };
     /// Chooses among the listed numbers of bending and axial modes.
     macro_rules! compiled {
         ($(($bending:literal, $axial:literal))*) => {
             match counts {
-                $(_ if counts == const { all::<$bending, $axial>() } && $bending + $axial <= K =>
+                $(_ if counts == const { all::<$bending, $axial>() } =>
                     Functions::of::<$bending, $axial>(),)*
                 _ => Functions::ANY,
             }

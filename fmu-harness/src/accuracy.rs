@@ -1,0 +1,250 @@
+//! Kinematic accuracy: the slider against that of the ideal mechanism at the same crank motion, and what it does at
+//! bottom dead centre.
+
+use crate::dynamics::Machine;
+use anyhow::{Context, Result};
+use rayon::prelude::*;
+use slidercrank::model::rod::Rod;
+use slidercrank::model::signals::Outputs;
+use slidercrank::scene::JointModel;
+use slidercrank::scene::read::SceneFile;
+use std::f64::consts::{PI, TAU};
+
+/// Points of one turn.
+const POINTS: usize = 720;
+
+/// How long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Turns that are forgotten.
+    pub transient: usize,
+    /// Turns that are looked at.
+    pub turns: usize,
+}
+
+/// The error of one quantity over time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// Largest size.
+    pub max: f64,
+    /// Root mean square.
+    pub rms: f64,
+    /// Mean.
+    pub mean: f64,
+    /// Mean absolute deviation from the mean.
+    pub mad: f64,
+    /// Largest size of the quantity itself over that of the ideal mechanism.
+    pub peak_ratio: f64,
+}
+
+impl Deviation {
+    /// Of a list of errors, and of the quantity with and without them.
+    fn of(errors: &[f64], actual: &[f64]) -> Self {
+        let count = errors.len().max(1) as f64;
+        let mean = errors.iter().sum::<f64>() / count;
+        let peak = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |peak: f64, value| peak.max(value.abs()));
+        let ideal = peak(&mut errors.iter().zip(actual).map(|(error, actual)| actual - error));
+        Self {
+            max: peak(&mut errors.iter().copied()),
+            rms: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
+            mean,
+            mad: errors.iter().map(|error| (error - mean).abs()).sum::<f64>() / count,
+            peak_ratio: peak(&mut actual.iter().copied()) / ideal,
+        }
+    }
+}
+
+/// What the slider does at bottom dead centre, stroke by stroke.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DeadCentre {
+    /// [m] Mean position error.
+    pub error: f64,
+    /// [m] Its standard deviation from stroke to stroke.
+    pub spread: f64,
+    /// [m] From the least to the largest.
+    pub range: f64,
+    /// [rad] Mean tilt.
+    pub tilt: f64,
+    /// [rad] Largest tilt.
+    pub most_tilt: f64,
+}
+
+/// The accuracy of one mechanism.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Accuracy {
+    /// [m]
+    pub position: Deviation,
+    /// [m/s]
+    pub velocity: Deviation,
+    /// [m/s²]
+    pub acceleration: Deviation,
+    /// At crank angle 0, where the slider is farthest from the crank.
+    pub dead_centre: DeadCentre,
+    /// [N] Largest force in any joint.
+    pub peak_force: f64,
+}
+
+/// One line of a comparison.
+pub struct Case {
+    /// What is different in it.
+    pub name: String,
+    /// The scene.
+    pub file: SceneFile,
+}
+
+/// The sixteen choices of joints with play, each joint with its own clearance; the scene's rod.
+pub fn sixteen(file: &SceneFile) -> Vec<Case> {
+    (0..16)
+        .map(|choice| {
+            let mut file = file.clone();
+            let joint = &mut file.scene.joint;
+            let models = [&mut joint.a.model, &mut joint.b.model, &mut joint.c.model, &mut joint.t.model];
+            let mut name = String::new();
+            for (number, (model, letter)) in models.into_iter().zip("ABCT".chars()).enumerate() {
+                let play = choice >> number & 1 == 1;
+                *model = if play { JointModel::Clearance } else { JointModel::Ideal };
+                if play {
+                    name.push(letter);
+                }
+            }
+            let name = if name.is_empty() { "none".into() } else { name };
+            Case { name, file }
+        })
+        .collect()
+}
+
+/// The scene with all clearances times each factor.
+pub fn clearances(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
+    let scaled = |factor: &f64| {
+        let mut file = file.clone();
+        let joint = &mut file.scene.joint;
+        for clearance in
+            [&mut joint.a.clearance, &mut joint.b.clearance, &mut joint.c.clearance, &mut joint.t.clearance]
+        {
+            *clearance *= factor;
+        }
+        Case { name: format!("clearance × {factor}"), file }
+    };
+    factors.iter().map(scaled).collect()
+}
+
+/// The scene at its speed times each factor.
+pub fn speeds(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
+    let faster = |factor: &f64| {
+        let mut file = file.clone();
+        file.scene.crank.speed_start *= factor;
+        Case { name: format!("speed × {factor}"), file }
+    };
+    factors.iter().map(faster).collect()
+}
+
+/// A scene with a flexible rod, and the same with a rigid one of its mass; none of a scene whose rod is rigid.
+pub fn rods(file: &SceneFile) -> Vec<Case> {
+    let Some(body) = Rod::new(&file.scene).map(|rod| rod.undeformed()) else { return vec![] };
+    let mut rigid = file.clone();
+    let rod = &mut rigid.scene.rod;
+    (rod.flexible.bending_modes, rod.flexible.axial_modes) = (0, 0);
+    (rod.mass, rod.inertia, rod.com.x, rod.com.y) = (body.mass, body.inertia, body.com.x, body.com.y);
+    vec![Case { name: "rigid rod".into(), file: rigid }, Case { name: "flexible rod".into(), file: file.clone() }]
+}
+
+impl Plan {
+    /// All cases, on all cores; one that fails stops no other.
+    pub fn measure_all(&self, cases: &[Case], tick: impl Fn() + Sync) -> Vec<Result<Accuracy>> {
+        let measured = |case: &Case| {
+            let found = self.measure(&case.file).with_context(|| case.name.clone());
+            tick();
+            found
+        };
+        cases.par_iter().map(measured).collect()
+    }
+
+    /// The accuracy of one scene.
+    ///
+    /// # Errors
+    /// If it cannot run.
+    pub fn measure(&self, file: &SceneFile) -> Result<Accuracy> {
+        file.scene.check()?;
+        let mut machine = Machine::start(file)?;
+        // So that bottom dead centre is one of the points.
+        let start = file.scene.crank.angle_start;
+        let forwards = file.scene.crank.speed_start.signum();
+        let to_bottom = (-start * forwards).rem_euclid(TAU);
+        let first = to_bottom + TAU * self.transient as f64;
+        let (mut errors, mut actual) = ([vec![], vec![], vec![]], [vec![], vec![], vec![]]);
+        let mut strokes: Vec<[f64; 2]> = Vec::new();
+        let mut peak_force: f64 = 0.0;
+        for point in 0..self.turns * POINTS {
+            machine.advance_turned(first + TAU * point as f64 / POINTS as f64)?;
+            let outputs = machine.outputs();
+            let Outputs { accuracy, slider, .. } = &outputs;
+            for (list, value) in errors.iter_mut().zip([accuracy.position, accuracy.velocity, accuracy.acceleration]) {
+                list.push(value);
+            }
+            for (list, value) in actual.iter_mut().zip([slider.x, slider.v, slider.a]) {
+                list.push(value);
+            }
+            if point % POINTS == 0 {
+                strokes.push([accuracy.position, slider.angle]);
+            }
+            peak_force = peak_force.max(largest_force(&outputs));
+        }
+        let deviation = |which: usize| Deviation::of(&errors[which], &actual[which]);
+        Ok(Accuracy {
+            position: deviation(0),
+            velocity: deviation(1),
+            acceleration: deviation(2),
+            dead_centre: DeadCentre::of(&strokes),
+            peak_force,
+        })
+    }
+}
+
+impl DeadCentre {
+    /// Of position errors and tilts, stroke by stroke.
+    fn of(strokes: &[[f64; 2]]) -> Self {
+        let count = strokes.len().max(1) as f64;
+        let [error, tilt] = [0, 1].map(|which| strokes.iter().map(|stroke| stroke[which]).sum::<f64>() / count);
+        let squares: f64 = strokes.iter().map(|stroke| (stroke[0] - error).powi(2)).sum();
+        let (low, high) = strokes
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), stroke| (low.min(stroke[0]), high.max(stroke[0])));
+        Self {
+            error,
+            spread: (squares / (count - 1.0).max(1.0)).sqrt(),
+            range: high - low,
+            tilt,
+            most_tilt: strokes.iter().map(|stroke| wrapped(stroke[1]).abs()).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// [rad] Within half a turn.
+fn wrapped(angle: f64) -> f64 {
+    (angle + PI).rem_euclid(TAU) - PI
+}
+
+fn largest_force(outputs: &Outputs) -> f64 {
+    let forces = [outputs.joint_a.force, outputs.joint_b.force, outputs.joint_c.force, outputs.joint_t.force];
+    forces.into_iter().map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn deviations_are_those_of_the_definition() {
+        let deviation = Deviation::of(&[1.0, -3.0, 2.0, 0.0], &[5.0, -3.0, 2.0, 1.0]);
+        // The ideal ones are 4, 0, 0, 1.
+        let wanted = Deviation { max: 3.0, rms: 3.5f64.sqrt(), mean: 0.0, mad: 1.5, peak_ratio: 1.25 };
+        assert_eq!(deviation, wanted);
+    }
+
+    #[test]
+    fn strokes_scatter_about_their_mean() {
+        let centre = DeadCentre::of(&[[1.0, 0.1], [3.0, -0.3]]);
+        assert_eq!((centre.error, centre.spread, centre.range), (2.0, 2.0f64.sqrt(), 2.0));
+        assert!((centre.tilt + 0.1).abs() < 1e-15 && (centre.most_tilt - 0.3).abs() < 1e-15, "{centre:?}");
+    }
+}

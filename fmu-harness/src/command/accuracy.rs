@@ -1,0 +1,69 @@
+//! `accuracy`: what play does to the slider's motion.
+
+use super::{out_directory, shown};
+use crate::accuracy::{Case, Plan, clearances, rods, sixteen, speeds};
+use crate::report::accuracy as report;
+use crate::scenes::Scenario;
+use anyhow::{Context, Result};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
+use std::path::PathBuf;
+
+/// Factors of clearance and speed.
+const FACTORS: [f64; 5] = [0.25, 0.5, 1.0, 1.5, 2.0];
+
+/// Error of the slider's position, velocity and acceleration against the ideal mechanism at equal crank angle.
+///
+/// Tables: the sixteen choices of joints with play; clearances and speeds from a quarter to twice those of the scene;
+/// and, of a scene with a flexible rod, one with a rigid rod. Each with the error at bottom dead centre (crank angle 0), its spread from stroke to stroke
+/// and the slider's tilt there. Runs in this process, on all cores. Writes accuracy-SCENE.md, .csv and .parquet.
+#[derive(Args)]
+pub struct Accuracy {
+    /// The scene: name of a shipped one, or a .toml file
+    #[arg(long, default_value = "press", value_name = "NAME|FILE")]
+    scene: String,
+    /// Turns that are forgotten
+    #[arg(long, default_value_t = 3, value_name = "TURNS")]
+    transient: usize,
+    /// Turns that are looked at
+    #[arg(long, default_value_t = 20, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    turns: u32,
+    /// Directory of the results [default: target/out]
+    #[arg(short, long, value_name = "DIRECTORY")]
+    output: Option<PathBuf>,
+}
+
+impl Accuracy {
+    /// Runs all cases, reports.
+    pub fn execute(&self) -> Result<()> {
+        let out = self.output.clone().unwrap_or_else(out_directory);
+        fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
+        let Scenario { name, file, .. } = Scenario::find(&self.scene)?;
+        let parts: [(&str, Vec<Case>); 4] = [
+            ("joints with play", sixteen(&file)),
+            ("clearances", clearances(&file, &FACTORS)),
+            ("speed", speeds(&file, &FACTORS)),
+            ("rod", rods(&file)),
+        ];
+        let plan = Plan { transient: self.transient, turns: self.turns as usize };
+        let cases = parts.iter().map(|(_, cases)| cases.len() as u64).sum();
+        let style = ProgressStyle::with_template("{wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4} (eta {eta})")?;
+        let bar = ProgressBar::new(cases).with_style(style);
+        let (mut page, mut all, mut found) = (String::new(), Vec::new(), Vec::new());
+        for (heading, cases) in parts.into_iter().filter(|(_, cases)| !cases.is_empty()) {
+            let measured = plan.measure_all(&cases, || bar.inc(1));
+            let table = report::table(heading, &cases, &measured);
+            bar.suspend(|| println!("{}", table.print()));
+            page += &(table.markdown() + "\n");
+            all.extend(cases);
+            found.extend(measured);
+        }
+        bar.finish_and_clear();
+        let base = out.join(format!("accuracy-{name}"));
+        report::frame(&all, &found).save(&base)?;
+        fs::write(base.with_extension("md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
+        ["md", "csv", "parquet"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
+        Ok(())
+    }
+}

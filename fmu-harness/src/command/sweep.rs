@@ -1,0 +1,76 @@
+//! `sweep`: a study.
+
+use super::{out_directory, shown};
+use crate::package::Stock;
+use crate::report::study as report;
+use crate::scenes::Scenario;
+use crate::sweep::{Journal, Plan, Study, Sweep as Studied, journal};
+use anyhow::{Context, Result};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Runs a study: a scene with many parameter values, on all cores.
+///
+/// Finished runs are kept in sweep-NAME.jsonl and never run again; a study that was killed goes on. A run that fails
+/// stops no other. Results do not depend on the number of workers. Writes sweep-NAME.parquet, .csv and a summary,
+/// sweep-NAME.md: of each quantity mean, deviation, quantiles and a confidence interval of the mean.
+#[derive(Args)]
+pub struct Sweep {
+    /// The study: a .toml file; examples are in fmu-harness/studies/
+    study: PathBuf,
+    /// Threads [default: as many as there are cores]
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    workers: Option<u32>,
+    /// Longest time for one run
+    #[arg(long, default_value_t = 600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    budget: u64,
+    /// Write the table of runs, sweep-NAME-plan.csv, and run nothing
+    #[arg(long)]
+    plan: bool,
+    /// Directory of the results [default: target/out]
+    #[arg(short, long, value_name = "DIRECTORY")]
+    output: Option<PathBuf>,
+}
+
+impl Sweep {
+    /// Runs what is not there yet, reports.
+    pub fn execute(&self) -> Result<()> {
+        let out = self.output.clone().unwrap_or_else(out_directory);
+        fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
+        let study = Study::read(&self.study)?;
+        let plan = Plan::of(&study)?;
+        let base = out.join(format!("sweep-{}", study.name));
+        if self.plan {
+            let file = out.join(format!("sweep-{}-plan.csv", study.name));
+            report::plan(&plan).save_csv(&file)?;
+            println!("{} runs\n{}", plan.len(), shown(&file));
+            return Ok(());
+        }
+        let scenario = Scenario::find(&study.scene())?;
+        let package = Stock::build()?.package(&scenario)?;
+        let fmu = out.join(format!("{}.fmu", scenario.name));
+        package.save(&fmu)?;
+        let digest = plan.digest(&[&study.text, &scenario.text, env!("CARGO_PKG_VERSION")]);
+        let journal = Journal::open(&journal::path(&out, &study.name), &digest)?;
+        let budget = Duration::from_secs(self.budget);
+        let sweep = Studied { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };
+        let style = ProgressStyle::with_template("{msg} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4} (eta {eta})")?;
+        let bar = ProgressBar::new(plan.len() as u64).with_style(style).with_message(study.name.clone());
+        bar.set_position(journal.len() as u64);
+        bar.reset_eta();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.workers.unwrap_or(0) as usize).build()?;
+        pool.install(|| sweep.run(&journal, || bar.inc(1)))?;
+        bar.finish_and_clear();
+        let frame = sweep.frame(&journal)?;
+        frame.save(&base)?;
+        let table = report::summary(&study, &frame);
+        println!("{}{}\n", table.print(), report::failures(&frame));
+        fs::write(base.with_extension("md"), table.markdown())
+            .with_context(|| format!("cannot write {}.md", base.display()))?;
+        ["parquet", "csv", "md"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
+        Ok(())
+    }
+}

@@ -1,0 +1,163 @@
+//! Finished runs, a line each, so that a study that was killed goes on where it was.
+
+use anyhow::{Context, Result, bail};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// A finished run.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Line {
+    /// Its number.
+    pub run: usize,
+    /// What came of it.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Its quantities.
+    Values(Vec<f64>),
+    /// Why it has none.
+    Failed(String),
+}
+
+/// First line of a journal.
+#[derive(Deserialize, Serialize)]
+struct Head {
+    digest: String,
+}
+
+/// The runs of one study that are finished.
+pub struct Journal {
+    file: Mutex<File>,
+    lines: Mutex<BTreeMap<usize, Line>>,
+}
+
+impl Journal {
+    /// Opens the journal of a study with this digest, or begins one. A line that was cut off is dropped.
+    ///
+    /// # Errors
+    /// If there is one of another study, or the file cannot be read or written.
+    pub fn open(path: &Path, digest: &str) -> Result<Self> {
+        let context = || format!("cannot use {}", path.display());
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(error).with_context(context),
+        };
+        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let mut rows = whole.lines();
+        let mut lines = BTreeMap::new();
+        if let Some(head) = rows.next() {
+            match serde_json::from_str::<Head>(head) {
+                Ok(head) if head.digest == digest => {}
+                _ => bail!("{} belongs to another study; give another directory, or remove it", path.display()),
+            }
+            for (number, row) in rows.enumerate() {
+                let line: Line = serde_json::from_str(row)
+                    .with_context(|| format!("{}, line {} is damaged", path.display(), number + 2))?;
+                lines.insert(line.run, line);
+            }
+        }
+        let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(path).with_context(context)?;
+        file.set_len(whole.len() as u64).with_context(context)?;
+        std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).with_context(context)?;
+        if whole.is_empty() {
+            let head = serde_json::to_string(&Head { digest: digest.into() })?;
+            file.write_all(format!("{head}\n").as_bytes()).with_context(context)?;
+        }
+        Ok(Self { file: Mutex::new(file), lines: Mutex::new(lines) })
+    }
+
+    /// Whether a run is finished.
+    pub fn has(&self, run: usize) -> bool {
+        self.locked().contains_key(&run)
+    }
+
+    /// Number of finished runs.
+    pub fn len(&self) -> usize {
+        self.locked().len()
+    }
+
+    /// None is finished.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// All finished runs, by number.
+    pub fn lines(&self) -> BTreeMap<usize, Line> {
+        self.locked().clone()
+    }
+
+    /// Adds a run, in one write.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn add(&self, line: &Line) -> Result<()> {
+        let text = serde_json::to_string(line)? + "\n";
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.write_all(text.as_bytes()).context("cannot write the journal")?;
+        drop(file);
+        self.locked().insert(line.run, line.clone());
+        Ok(())
+    }
+
+    fn locked(&self) -> std::sync::MutexGuard<'_, BTreeMap<usize, Line>> {
+        self.lines.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Where the journal of a study is.
+pub fn path(directory: &Path, study: &str) -> PathBuf {
+    directory.join(format!("sweep-{study}.jsonl"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(run: usize, value: f64) -> Line {
+        Line { run, outcome: Outcome::Values(vec![value]) }
+    }
+
+    #[test]
+    fn what_was_cut_off_is_run_again_and_nothing_else() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let file = path(directory.path(), "own");
+        let journal = Journal::open(&file, "digest").expect("a journal");
+        let values = [0.1 + 0.2, 1e-300, -7.0];
+        for (run, value) in values.into_iter().enumerate() {
+            journal.add(&line(run, value)).expect("a line");
+        }
+        let whole = fs::read(&file).expect("a file");
+        for cut in 1..=whole.len() {
+            fs::write(&file, &whole[..cut]).expect("a file");
+            let journal = Journal::open(&file, "digest").expect("a journal");
+            let lines = whole[..cut].iter().filter(|byte| **byte == b'\n').count().saturating_sub(1);
+            assert_eq!(journal.len(), lines, "{cut}");
+            for (run, value) in values.into_iter().enumerate().skip(lines) {
+                journal.add(&line(run, value)).expect("a line");
+            }
+            assert_eq!(fs::read(&file).expect("a file"), whole, "{cut}");
+            assert!(journal.lines().values().zip(values).all(|(found, value)| *found == line(found.run, value)));
+        }
+    }
+
+    #[test]
+    fn another_study_s_journal_is_left_alone() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let file = path(directory.path(), "own");
+        Journal::open(&file, "one").expect("a journal").add(&line(0, 1.0)).expect("a line");
+        let before = fs::read(&file).expect("a file");
+        let error = Journal::open(&file, "another").err().expect("a refusal");
+        assert!(error.to_string().contains("another study"), "{error}");
+        assert_eq!(fs::read(&file).expect("a file"), before);
+    }
+}

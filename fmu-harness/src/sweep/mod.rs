@@ -1,0 +1,129 @@
+//! Studies: many runs of one scene with other parameters, on all cores, resumable, with the same results for any number
+//! of workers.
+//!
+//! A [`Study`] is read from a file and expanded into a [`Plan`], a table of all runs. Each finished run is one line of a
+//! [`Journal`]; whatever is in it is not run again. The results are put together from the journal.
+
+pub mod journal;
+pub mod plan;
+pub mod quantity;
+pub mod study;
+
+pub use journal::Journal;
+pub use plan::Plan;
+pub use study::Study;
+
+use crate::frame::{Column, Frame};
+use crate::host::{Fmu, Setting};
+use crate::inputs;
+use crate::run::{Ending, Experiment, Look, Until, march};
+use crate::scenes::Scenario;
+use anyhow::{Context, Result, ensure};
+use journal::{Line, Outcome};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::time::Duration;
+
+/// How long a crank may take for its turns, over what it would at the speed of its start.
+const SLOW: f64 = 10.0;
+
+/// A study on its way.
+pub struct Sweep<'a> {
+    /// What is asked for.
+    pub study: &'a Study,
+    /// The scene that it is of.
+    pub scenario: &'a Scenario,
+    /// All its runs.
+    pub plan: &'a Plan,
+    /// The packaged scene.
+    pub fmu: &'a Path,
+    /// Longest time for one run.
+    pub budget: Duration,
+}
+
+impl Sweep<'_> {
+    /// Runs what the journal does not have, and adds it.
+    ///
+    /// # Errors
+    /// If the FMU cannot be opened or the journal not be written; a run that fails is a line of the journal.
+    pub fn run(&self, journal: &Journal, tick: impl Fn() + Sync) -> Result<()> {
+        let open: Vec<usize> = (0..self.plan.len()).filter(|run| !journal.has(*run)).collect();
+        open.into_par_iter().try_for_each_init(
+            || Fmu::open(self.fmu),
+            |fmu, run| {
+                let fmu = fmu.as_ref().map_err(|error| anyhow::anyhow!("{error}"))?;
+                let outcome = match self.one(fmu, run) {
+                    Ok(values) => Outcome::Values(values),
+                    Err(error) => Outcome::Failed(format!("{error:#}")),
+                };
+                journal.add(&Line { run, outcome })?;
+                tick();
+                Ok(())
+            },
+        )
+    }
+
+    /// The quantities of one run.
+    fn one(&self, fmu: &Fmu, run: usize) -> Result<Vec<f64>> {
+        let settings: Vec<Setting> =
+            self.plan.row(run).map(|(name, value)| Setting { name: name.into(), value: value.to_string() }).collect();
+        let own = |name: &str| self.plan.row(run).find(|(own, _)| *own == name).map(|(_, value)| value);
+        let scene = &self.scenario.file.scene;
+        let speed = own("crank.speed_start").unwrap_or(scene.crank.speed_start).abs();
+        let turns = self.study.run.turns;
+        ensure!(speed > 0.0, "crank.speed_start = 0 rad/s: a crank that stands has no turns");
+        let experiment = Experiment {
+            settings,
+            inputs: inputs::of_scene(&self.scenario.file.inputs),
+            start: 0.0,
+            until: Until::Turns { turns, latest: SLOW * turns * TAU / speed },
+            step: self.study.run.step,
+            tolerance: None,
+        };
+        let march = march(fmu, &experiment, Look::Everywhere, self.budget)?;
+        match march.ending {
+            Ending::Reached => {}
+            Ending::Stopped => anyhow::bail!("stopped after {} s", self.budget.as_secs_f64()),
+            Ending::Failed(why) => anyhow::bail!(why),
+        }
+        let trajectory = &march.trajectory;
+        self.study
+            .keep
+            .iter()
+            .map(|(name, quantity)| quantity.of(trajectory, self.study.run.transient).with_context(|| name.clone()))
+            .collect()
+    }
+
+    /// All runs, in their order, with what came of them.
+    ///
+    /// # Errors
+    /// If the journal lacks a run.
+    pub fn frame(&self, journal: &Journal) -> Result<Frame> {
+        let lines = journal.lines();
+        ensure!(lines.len() == self.plan.len(), "{} of {} runs are there", lines.len(), self.plan.len());
+        let mut frame = Frame::default().with("run", Column::Integers((0..self.plan.len() as i64).collect()));
+        for (place, name) in self.plan.names().iter().enumerate() {
+            frame = frame.reals(name.clone(), (0..self.plan.len()).map(|run| self.plan.value(run, place)));
+        }
+        for (place, name) in self.study.keep.keys().enumerate() {
+            let value = |line: &Line| match &line.outcome {
+                Outcome::Values(values) => values[place],
+                Outcome::Failed(_) => f64::NAN,
+            };
+            frame = frame.reals(name.clone(), lines.values().map(value).collect::<Vec<_>>());
+        }
+        let status = |line: &Line| match &line.outcome {
+            Outcome::Values(_) => "ok".to_owned(),
+            Outcome::Failed(why) => why.clone(),
+        };
+        frame = frame.with("status", Column::Texts(lines.values().map(status).collect()));
+        frame.origin = vec![
+            ("study".into(), self.study.text.clone()),
+            ("scene".into(), self.scenario.text.clone()),
+            ("version".into(), env!("CARGO_PKG_VERSION").into()),
+            ("seed".into(), self.study.seed.to_string()),
+        ];
+        Ok(frame)
+    }
+}

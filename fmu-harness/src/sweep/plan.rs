@@ -1,0 +1,166 @@
+//! All runs of a study as a table: every row of its table with every point of its grid and every draw.
+
+use super::study::{Distribution, Number, Study, parameter};
+use anyhow::{Context, Result, ensure};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution as _, Normal, Uniform};
+use sha2::{Digest, Sha256};
+use slidercrank::scene::parameter::{Kind, Parameter};
+use std::path::Path;
+
+/// More runs than this are taken for a mistake.
+const MOST_RUNS: usize = 10_000_000;
+/// Draws after which a truncation counts as empty.
+const TRIES: usize = 10_000;
+
+/// A table of runs: parameters in columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    names: Vec<String>,
+    values: Vec<f64>,
+    runs: usize,
+}
+
+impl Plan {
+    /// The runs of a study.
+    ///
+    /// # Errors
+    /// If a parameter does not exist or cannot take a value, or there are too many runs.
+    pub fn of(study: &Study) -> Result<Self> {
+        let mut blocks = Vec::new();
+        if let Some(file) = &study.table {
+            blocks.push(table(&study.directory.join(file))?);
+        }
+        for (name, values) in &study.grid {
+            let list = values.list(parameter(name)?)?;
+            blocks.push((vec![name.clone()], list.into_iter().map(|value| vec![value]).collect()));
+        }
+        if !study.random.is_empty() {
+            blocks.push(draws(study)?);
+        }
+        let runs = blocks.iter().try_fold(1, |runs: usize, (_, rows)| runs.checked_mul(rows.len()));
+        let runs = runs.filter(|runs| *runs <= MOST_RUNS);
+        let runs = runs.with_context(|| format!("the study has more than {MOST_RUNS} runs"))?;
+        let names: Vec<String> = blocks.iter().flat_map(|(names, _)| names.clone()).collect();
+        for (place, name) in names.iter().enumerate() {
+            ensure!(!names[..place].contains(name), "`{name}` gets its values twice");
+        }
+        let mut values = Vec::with_capacity(runs * names.len());
+        for run in 0..runs {
+            let mut rest = run;
+            let mut row: Vec<&[f64]> = Vec::new();
+            // The last block changes fastest.
+            for (_, rows) in blocks.iter().rev() {
+                row.push(&rows[rest % rows.len()]);
+                rest /= rows.len();
+            }
+            row.iter().rev().for_each(|part| values.extend_from_slice(part));
+        }
+        Ok(Self { names, values, runs })
+    }
+
+    /// Number of runs.
+    pub fn len(&self) -> usize {
+        self.runs
+    }
+
+    /// There are none.
+    pub fn is_empty(&self) -> bool {
+        self.runs == 0
+    }
+
+    /// The parameters.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Value of a parameter in a run.
+    pub fn value(&self, run: usize, place: usize) -> f64 {
+        self.values[run * self.names.len() + place]
+    }
+
+    /// Names and values of a run.
+    pub fn row(&self, run: usize) -> impl Iterator<Item = (&str, f64)> {
+        self.names.iter().enumerate().map(move |(place, name)| (name.as_str(), self.value(run, place)))
+    }
+
+    /// Of names, values and all else that `parts` tell: what a journal belongs to.
+    pub fn digest(&self, parts: &[&str]) -> String {
+        let mut digest = Sha256::new();
+        for text in self.names.iter().map(String::as_str).chain(parts.iter().copied()) {
+            digest.update((text.len() as u64).to_le_bytes());
+            digest.update(text);
+        }
+        self.values.iter().for_each(|value| digest.update(value.to_le_bytes()));
+        digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+/// Parameters and rows of their values.
+type Block = (Vec<String>, Vec<Vec<f64>>);
+
+/// Rows of a CSV file.
+fn table(file: &Path) -> Result<Block> {
+    let context = || format!("{}", file.display());
+    let mut reader = csv::Reader::from_path(file).with_context(context)?;
+    let names: Vec<String> = reader.headers().with_context(context)?.iter().map(String::from).collect();
+    let parameters = names.iter().map(|name| parameter(name)).collect::<Result<Vec<_>>>().with_context(context)?;
+    let mut rows = Vec::new();
+    for (number, record) in reader.records().enumerate() {
+        let record = record.with_context(context)?;
+        let cells = record.iter().zip(&parameters).map(|(cell, parameter)| {
+            let number = cell.trim().parse().map_or_else(|_| Number::Text(cell.trim().into()), Number::Plain);
+            number.value(parameter)
+        });
+        let row = cells.collect::<Result<Vec<f64>>>();
+        rows.push(row.with_context(|| format!("{}, line {}", file.display(), number + 2))?);
+    }
+    ensure!(!rows.is_empty(), "{} has no rows", file.display());
+    Ok((names, rows))
+}
+
+/// Random rows. Each draw has a stream of its own: it does not depend on how many there are.
+fn draws(study: &Study) -> Result<Block> {
+    let names: Vec<String> = study.random.keys().cloned().collect();
+    let row = |draw: usize| {
+        let mut generator = ChaCha8Rng::seed_from_u64(study.seed);
+        generator.set_stream(draw as u64);
+        let values = study.random.iter();
+        values.map(|(name, distribution)| sample(parameter(name)?, distribution, &mut generator)).collect()
+    };
+    Ok((names, (0..study.draws).map(row).collect::<Result<_>>()?))
+}
+
+fn sample(parameter: &Parameter, distribution: &Distribution, generator: &mut ChaCha8Rng) -> Result<f64> {
+    ensure!(matches!(parameter.kind, Kind::Real { .. }), "`{}` is no real number to be drawn", parameter.name);
+    let value = |number: &Number| number.value(parameter);
+    let between = |min: f64, max: f64| {
+        Uniform::new_inclusive(min, max).with_context(|| format!("`{}`: {min} is not below {max}", parameter.name))
+    };
+    match distribution {
+        Distribution::Uniform { min, max } => Ok(between(value(min)?, value(max)?)?.sample(generator)),
+        Distribution::LogUniform { min, max } => {
+            let (min, max) = (value(min)?, value(max)?);
+            ensure!(min > 0.0, "`{}`: a logarithm needs values above 0, not {min}", parameter.name);
+            Ok(between(min.ln(), max.ln())?.sample(generator).exp().clamp(min, max))
+        }
+        Distribution::Normal { mean, deviation, min, max } => {
+            let deviation = match deviation {
+                Number::Plain(deviation) => *deviation,
+                text => text.value(parameter)?,
+            };
+            let normal = Normal::new(value(mean)?, deviation);
+            let normal = normal.with_context(|| format!("`{}`: deviation = {deviation}", parameter.name))?;
+            let [min, max] = [min, max].map(|bound| bound.as_ref().map(value).transpose());
+            let (min, max) = (min?.unwrap_or(f64::NEG_INFINITY), max?.unwrap_or(f64::INFINITY));
+            for _ in 0..TRIES {
+                let drawn = normal.sample(generator);
+                if (min..=max).contains(&drawn) && parameter.admit(drawn).is_ok() {
+                    return Ok(drawn);
+                }
+            }
+            anyhow::bail!("`{}`: {TRIES} draws all fell outside its bounds", parameter.name)
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! One number of a run: an output, reduced over time or over its passages of a crank angle.
+
+use crate::run::ANGLE;
+use crate::trajectory::Trajectory;
+use anyhow::{Result, ensure};
+use serde::Deserialize;
+use std::f64::consts::TAU;
+
+/// What is kept.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Quantity {
+    /// An output, or the length of a vector of two: `joint.C.force` stands for its x and y.
+    pub of: String,
+    /// How many values become one.
+    pub reduce: Reduction,
+    /// [rad] If there, only the passages of this crank angle count, each interpolated between two communication points.
+    pub at: Option<f64>,
+}
+
+/// How many values become one; sums run from the first to the last value.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Reduction {
+    /// The least.
+    Min,
+    /// The greatest.
+    Max,
+    /// The largest size.
+    Peak,
+    /// From the least to the greatest.
+    Range,
+    /// The mean.
+    Mean,
+    /// The root mean square.
+    Rms,
+    /// The standard deviation, of a sample.
+    Deviation,
+    /// The last one.
+    Last,
+}
+
+impl Quantity {
+    /// Its value in a run, without the first `transient` turns.
+    ///
+    /// # Errors
+    /// If there is no such output, nothing to reduce, or the value is no finite number.
+    pub fn of(&self, trajectory: &Trajectory, transient: f64) -> Result<f64> {
+        let values = match trajectory.column(&self.of) {
+            Ok(column) => column.to_vec(),
+            Err(error) => match ["x", "y"].map(|axis| trajectory.column(&format!("{}.{axis}", self.of))) {
+                [Ok(x), Ok(y)] => x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()).collect(),
+                _ => return Err(error),
+            },
+        };
+        let angles = trajectory.column(ANGLE)?;
+        let start = angles.first().copied().unwrap_or_default();
+        let first = angles.iter().position(|angle| (angle - start).abs() >= TAU * transient).unwrap_or(angles.len());
+        let (angles, values) = (&angles[first..], &values[first..]);
+        let value = match self.at {
+            None => self.reduce.of(values),
+            Some(at) => self.reduce.of(&passages(angles, values, at)),
+        };
+        ensure!(value.is_finite(), "{} of {} values is {value}", self.of, values.len());
+        Ok(value)
+    }
+}
+
+/// Values where the angle passes `at`, whichever way.
+fn passages(angles: &[f64], values: &[f64], at: f64) -> Vec<f64> {
+    let turns = |angle: f64| (angle - at) / TAU;
+    let mut found = Vec::new();
+    for i in 1..angles.len() {
+        let (before, after) = (turns(angles[i - 1]), turns(angles[i]));
+        let passed = if after >= before { after.floor() } else { before.floor() };
+        if before.floor() != after.floor() && after != before {
+            let share = (passed - before) / (after - before);
+            found.push(values[i - 1] + share * (values[i] - values[i - 1]));
+        }
+    }
+    found
+}
+
+impl Reduction {
+    /// Of a list; not a number of an empty one.
+    pub fn of(self, values: &[f64]) -> f64 {
+        let count = values.len() as f64;
+        let mean = || values.iter().sum::<f64>() / count;
+        let least = || values.iter().copied().reduce(f64::min).unwrap_or(f64::NAN);
+        let greatest = || values.iter().copied().reduce(f64::max).unwrap_or(f64::NAN);
+        match self {
+            Self::Min => least(),
+            Self::Max => greatest(),
+            Self::Peak => least().abs().max(greatest().abs()),
+            Self::Range => greatest() - least(),
+            Self::Mean => mean(),
+            Self::Rms => (values.iter().map(|value| value * value).sum::<f64>() / count).sqrt(),
+            Self::Deviation => {
+                let mean = mean();
+                (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0)).sqrt()
+            }
+            Self::Last => values.last().copied().unwrap_or(f64::NAN),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trajectory() -> Trajectory {
+        let mut trajectory = Trajectory::new([ANGLE, "v", "f.x", "f.y"].map(String::from));
+        for i in 0..=40_i32 {
+            let turns = f64::from(i) / 10.0;
+            trajectory.push(turns, &[TAU * turns, turns * turns, 3.0 * turns, -4.0 * turns]);
+        }
+        trajectory
+    }
+
+    fn value(of: &str, reduce: Reduction, at: Option<f64>, transient: f64) -> Result<f64> {
+        Quantity { of: of.into(), reduce, at }.of(&trajectory(), transient)
+    }
+
+    #[test]
+    fn values_are_reduced_after_the_transient() {
+        for (reduce, wanted) in [
+            (Reduction::Min, 9.0),
+            (Reduction::Max, 16.0),
+            (Reduction::Range, 7.0),
+            (Reduction::Last, 16.0),
+            (Reduction::Peak, 16.0),
+        ] {
+            assert_eq!(value("v", reduce, None, 3.0).ok(), Some(wanted), "{reduce:?}");
+        }
+        assert_eq!(Reduction::Mean.of(&[1.0, 2.0, 6.0]), 3.0);
+        assert_eq!(Reduction::Deviation.of(&[1.0, 2.0, 6.0]), 7f64.sqrt());
+        assert_eq!(Reduction::Rms.of(&[1.0, -7.0]), 5.0);
+    }
+
+    #[test]
+    fn a_vector_counts_by_its_length() {
+        assert!((value("f", Reduction::Last, None, 0.0).expect("a value") - 20.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn passages_are_interpolated_forwards_and_backwards() {
+        let angles = [0.0, 2.0, 4.0, 6.0, 4.0, 2.0];
+        let values = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        assert_eq!(passages(&angles, &values, 3.0), [1.5, 4.5]);
+        assert_eq!(passages(&angles, &values, 3.0 - TAU).len(), 2);
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        for (of, at, transient, word) in
+            [("w", None, 0.0, "`w`"), ("v", Some(1.0), 3.9, "NaN"), ("v", None, 9.0, "0 values")]
+        {
+            let error = value(of, Reduction::Mean, at, transient).expect_err(of);
+            assert!(error.to_string().contains(word), "{error}");
+        }
+    }
+}

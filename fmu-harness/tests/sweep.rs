@@ -1,0 +1,160 @@
+//! Studies: what is run, once, whatever kills or splits them.
+
+use fmu_harness::package::Stock;
+use fmu_harness::scenes::Scenario;
+use fmu_harness::sweep::journal::path;
+use fmu_harness::sweep::{Journal, Plan, Study, Sweep};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+const STUDY: &str = r#"
+name = "own"
+scene = "wornpin"
+seed = 3
+draws = 2
+
+[run]
+turns = 0.5
+transient = 0.1
+step = 1e-4
+
+[grid]
+"joint.C.clearance" = { from = "20 um", to = "80 um", count = 3, logarithmic = true }
+"joint.C.law" = ["hertz", 3]
+
+[random]
+"joint.C.restitution" = { uniform = { min = 0.5, max = 0.9 } }
+"slider.mass" = { normal = { mean = "140 g", deviation = 0.01, min = "130 g", max = "150 g" } }
+
+[keep]
+peak_force = { of = "joint.C.force", reduce = "peak" }
+position = { of = "accuracy.position", reduce = "rms" }
+"#;
+
+fn write(directory: &Path, text: &str) -> PathBuf {
+    let file = directory.join("study.toml");
+    fs::write(&file, text).expect("a file");
+    file
+}
+
+fn study(text: &str) -> anyhow::Result<(Study, Plan)> {
+    let directory = tempfile::tempdir()?;
+    let study = Study::read(&write(directory.path(), text))?;
+    let plan = Plan::of(&study)?;
+    Ok((study, plan))
+}
+
+#[test]
+fn a_plan_is_the_whole_product_of_grid_and_draws() {
+    let (_, plan) = study(STUDY).expect("a plan");
+    assert_eq!(plan.names(), ["joint.C.clearance", "joint.C.law", "joint.C.restitution", "slider.mass"]);
+    assert_eq!(plan.len(), 3 * 2 * 2);
+    let column = |place: usize| (0..plan.len()).map(|run| plan.value(run, place)).collect::<Vec<_>>();
+    assert_eq!(column(0)[..5], [2e-5, 2e-5, 2e-5, 2e-5, 4e-5].map(|x: f64| (x * 1e9).round() / 1e9));
+    // The same two draws at every point of the grid.
+    let draws = column(2);
+    assert!(draws.chunks(2).all(|pair| pair == &draws[..2]) && draws[0] != draws[1], "{draws:?}");
+    assert!(column(3).iter().all(|mass| (0.13..=0.15).contains(mass)));
+}
+
+#[test]
+fn a_draw_does_not_depend_on_how_many_there_are() {
+    let (_, few) = study(STUDY).expect("a plan");
+    let (_, many) = study(&STUDY.replace("draws = 2", "draws = 50")).expect("a plan");
+    assert_eq!((few.value(0, 2), few.value(1, 3)), (many.value(0, 2), many.value(1, 3)));
+    let (_, other) = study(&STUDY.replace("seed = 3", "seed = 4")).expect("a plan");
+    assert_ne!(few.value(0, 2), other.value(0, 2));
+}
+
+#[test]
+fn what_is_wrong_in_a_study_is_named() {
+    for (from, to, word) in [
+        ("joint.C.law", "joint.C.lore", "joint.C.lore"),
+        ("\"hertz\"", "\"herz\"", "herz"),
+        ("\"20 um\"", "\"20 kg\"", "kg"),
+        ("\"20 um\"", "-1e-6", "1e-9 to 0.1 m"),
+        ("turns = 0.5", "turns = 0", "run.turns"),
+        ("transient = 0.1", "transient = 2", "run.transient"),
+        ("draws = 2", "draws = 0", "draws"),
+        ("reduce = \"rms\"", "reduce = \"middle\"", "middle"),
+        ("min = \"130 g\", max = \"150 g\"", "min = \"500 g\"", "outside"),
+        ("[grid]", "[gird]", "gird"),
+        ("\"slider.mass\"", "\"joint.C.clearance\"", "both"),
+        ("count = 3", "count = 100000000", "10000000"),
+    ] {
+        assert!(STUDY.contains(from), "{from}");
+        let error = study(&STUDY.replace(from, to)).expect_err(word);
+        assert!(format!("{error:#}").contains(word), "{word}: {error:#}");
+    }
+}
+
+#[test]
+fn the_shipped_studies_can_be_planned() {
+    let directory = fmu_harness::scenes::directory().with_file_name("studies");
+    let mut runs = 0;
+    for entry in fs::read_dir(directory).expect("studies") {
+        let study = Study::read(&entry.expect("a file").path()).expect("a study");
+        Scenario::find(&study.scene()).expect("a scene");
+        runs += Plan::of(&study).expect("a plan").len();
+    }
+    assert!(runs >= 200);
+}
+
+#[test]
+fn killed_or_split_a_study_gives_the_same_and_runs_nothing_twice() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let (study, plan) = study(STUDY).expect("a plan");
+    let scenario = Scenario::find("wornpin").expect("a scene");
+    let fmu = directory.path().join("wornpin.fmu");
+    Stock::build().expect("a library").package(&scenario).expect("a package").save(&fmu).expect("a file");
+    let budget = Duration::from_secs(60);
+    let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };
+    let file = path(directory.path(), "own");
+    let run = |workers: usize| {
+        let journal = Journal::open(&file, "digest").expect("a journal");
+        let before = journal.len();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build().expect("threads");
+        pool.install(|| sweep.run(&journal, || {})).expect("a study");
+        (journal.len() - before, sweep.frame(&journal).expect("a table"))
+    };
+    let (all, first) = run(2);
+    assert_eq!((all, first.rows()), (12, 12));
+    let parquet = |name: &str| {
+        let file = directory.path().join(name);
+        first.save_parquet(&file).expect("a file");
+        fs::read(file).expect("a file")
+    };
+    assert_eq!(parquet("one.parquet"), parquet("two.parquet"));
+    // Killed within the sixth line.
+    let text = fs::read_to_string(&file).expect("a journal");
+    let lines: Vec<&str> = text.lines().collect();
+    let cut = lines[..6].join("\n") + "\n" + &lines[6][..10];
+    fs::write(&file, cut).expect("a journal");
+    let (again, second) = run(1);
+    assert_eq!(again, 7);
+    assert_eq!(second, first);
+    assert_eq!(run(1).0, 0);
+}
+
+#[test]
+fn a_run_that_fails_stops_no_other() {
+    let directory = tempfile::tempdir().expect("a directory");
+    // Rigid contacts have no bristles.
+    let text = STUDY.replace("[\"hertz\", 3]", "[\"hertz\"]").replace(
+        "[random]",
+        "\"solver.method\" = [\"verner7\", \"moreau\"]\n\"joint.C.friction.law\" = [\"lugre\"]\n\"joint.C.friction.static_coefficient\" = [0.2]\n[random]",
+    );
+    let (study, plan) = study(&text).expect("a plan");
+    let scenario = Scenario::find("wornpin").expect("a scene");
+    let fmu = directory.path().join("wornpin.fmu");
+    Stock::build().expect("a library").package(&scenario).expect("a package").save(&fmu).expect("a file");
+    let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget: Duration::from_secs(60) };
+    let journal = Journal::open(&path(directory.path(), "own"), "digest").expect("a journal");
+    sweep.run(&journal, || {}).expect("a study");
+    let frame = sweep.frame(&journal).expect("a table");
+    let status = frame.columns().iter().find(|(name, _)| name == "status").map(|(_, column)| column.clone());
+    let Some(fmu_harness::frame::Column::Texts(status)) = status else { unreachable!("a status") };
+    let failed = status.iter().filter(|status| status.contains("moreau")).count();
+    assert_eq!((failed, status.iter().filter(|status| *status == "ok").count()), (6, 6), "{status:?}");
+}
