@@ -27,7 +27,7 @@ pub struct Sweep {
     /// Longest time for one run
     #[arg(long, default_value_t = 600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     budget: u64,
-    /// Write the table of runs, sweep-NAME-plan.csv, and run nothing
+    /// Write the table of runs and how each is done, sweep-NAME-plan.csv and .json, and run nothing
     #[arg(long)]
     plan: bool,
     /// Directory of the results [default: target/out]
@@ -43,17 +43,20 @@ impl Sweep {
         let study = Study::read(&self.study)?;
         let plan = Plan::of(&study)?;
         let base = out.join(format!("sweep-{}", study.name));
+        let scenario = Scenario::find(&study.scene())?;
         if self.plan {
             let file = out.join(format!("sweep-{}-plan.csv", study.name));
             report::plan(&plan).save_csv(&file)?;
-            println!("{} runs\n{}", plan.len(), shown(&file));
+            let recipe = file.with_extension("json");
+            fs::write(&recipe, format!("{:#}\n", Studied::recipe(&study, &scenario, &plan)))
+                .with_context(|| format!("cannot write {}", recipe.display()))?;
+            println!("{} runs\n{}\n{}", plan.len(), shown(&file), shown(&recipe));
             return Ok(());
         }
-        let scenario = Scenario::find(&study.scene())?;
         let package = Stock::build()?.package(&scenario)?;
         let fmu = out.join(format!("{}.fmu", scenario.name));
         package.save(&fmu)?;
-        let digest = plan.digest(&[&study.text, &scenario.text, env!("CARGO_PKG_VERSION")]);
+        let digest = Studied::digest(&study, &scenario, &plan);
         let journal = Journal::open(&journal::path(&out, &study.name), &digest)?;
         let budget = Duration::from_secs(self.budget);
         let sweep = Studied { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };

@@ -21,6 +21,8 @@ use crate::scenes::Scenario;
 use anyhow::{Context, Result, ensure};
 use journal::{Line, Outcome};
 use rayon::prelude::*;
+use serde_json::json;
+use slidercrank::scene::profile::Profile;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;
@@ -95,6 +97,34 @@ impl Sweep<'_> {
             .collect()
     }
 
+    /// All that another engine needs to run the plan as this one does: communication points, inputs over time or crank
+    /// angle, what is kept, and the digest of the journal.
+    pub fn recipe(study: &Study, scenario: &Scenario, plan: &Plan) -> serde_json::Value {
+        let input = |input: &inputs::Input| match &input.profile {
+            Profile::Constant(value) => json!({ "name": input.name, "constant": value }),
+            Profile::Points { against, points } => {
+                json!({ "name": input.name, "against": against.name(), "points": points })
+            }
+        };
+        let inputs: Vec<_> = inputs::of_scene(&scenario.file.inputs).iter().map(input).collect();
+        json!({
+            "name": study.name,
+            "digest": Self::digest(study, scenario, plan),
+            "scene": scenario.name,
+            "run": study.run,
+            "slow": SLOW,
+            "speed": scenario.file.scene.crank.speed_start,
+            "inputs": inputs,
+            "keep": study.keep,
+            "origin": origin(study, scenario).into_iter().collect::<std::collections::BTreeMap<_, _>>(),
+        })
+    }
+
+    /// Which study a journal belongs to.
+    pub fn digest(study: &Study, scenario: &Scenario, plan: &Plan) -> String {
+        plan.digest(&[&study.text, &scenario.text, env!("CARGO_PKG_VERSION")])
+    }
+
     /// All runs, in their order, with what came of them.
     ///
     /// # Errors
@@ -118,12 +148,17 @@ impl Sweep<'_> {
             Outcome::Failed(why) => why.clone(),
         };
         frame = frame.with("status", Column::Texts(lines.values().map(status).collect()));
-        frame.origin = vec![
-            ("study".into(), self.study.text.clone()),
-            ("scene".into(), self.scenario.text.clone()),
-            ("version".into(), env!("CARGO_PKG_VERSION").into()),
-            ("seed".into(), self.study.seed.to_string()),
-        ];
+        frame.origin = origin(self.study, self.scenario);
         Ok(frame)
     }
+}
+
+/// What results were made from.
+fn origin(study: &Study, scenario: &Scenario) -> Vec<(String, String)> {
+    vec![
+        ("study".into(), study.text.clone()),
+        ("scene".into(), scenario.text.clone()),
+        ("version".into(), env!("CARGO_PKG_VERSION").into()),
+        ("seed".into(), study.seed.to_string()),
+    ]
 }

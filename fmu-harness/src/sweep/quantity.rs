@@ -3,11 +3,11 @@
 use crate::run::ANGLE;
 use crate::trajectory::Trajectory;
 use anyhow::{Result, ensure};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// What is kept.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantity {
     /// An output, or the length of a vector of two: `joint.C.force` stands for its x and y.
@@ -19,7 +19,7 @@ pub struct Quantity {
 }
 
 /// How many values become one; sums run from the first to the last value.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reduction {
     /// The least.

@@ -2,7 +2,7 @@
 
 use super::quantity::Quantity;
 use anyhow::{Context, Result, bail, ensure};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::units;
 use std::collections::BTreeMap;
@@ -48,7 +48,7 @@ pub struct Study {
 }
 
 /// How long and how finely.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
     /// Turns of the crank.
