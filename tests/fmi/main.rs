@@ -2,6 +2,7 @@
 #![allow(unsafe_code, reason = "the tests call the C functions")]
 #![allow(clippy::panic, reason = "a test that cannot go on")]
 
+#[path = "../host/mod.rs"]
 mod host;
 
 mod derivatives;
