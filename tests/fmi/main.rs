@@ -6,7 +6,6 @@
 mod host;
 
 mod derivatives;
-mod hostile;
 mod instantiate;
 mod library;
 mod lifecycle;
