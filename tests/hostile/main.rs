@@ -17,6 +17,7 @@
 #[path = "../host/mod.rs"]
 mod host;
 
+mod absurd;
 mod arguments;
 mod instantiate;
 mod invoke;
