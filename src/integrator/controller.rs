@@ -117,8 +117,12 @@ pub fn shrinkage<M: Method>(error: f64) -> f64 {
 
 /// The first state (or rate) that is not a number, or so large that its powers are none.
 pub fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
-    let kept = |y: &f64| y.abs() < GREATEST;
-    y.iter().take(Extent::of(problem).states).position(|y| !kept(y))
+    y.iter().take(Extent::of(problem).states).position(|y| !is_kept(*y))
+}
+
+/// A number, and not so large that its powers are none.
+pub fn is_kept(y: f64) -> bool {
+    y.abs() < GREATEST
 }
 
 /// A first step over which the rates move the state by a hundredth of its scales.

@@ -19,9 +19,13 @@ mod host;
 
 mod absurd;
 mod arguments;
+mod bytes;
+mod forged;
 mod instantiate;
 mod invoke;
+mod mixed;
 mod product;
+mod random;
 mod references;
 mod scenes;
 mod stage;
