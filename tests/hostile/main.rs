@@ -20,6 +20,7 @@ mod host;
 mod absurd;
 mod arguments;
 mod bytes;
+mod extremes;
 mod forged;
 mod instantiate;
 mod invoke;
