@@ -20,14 +20,17 @@ mod host;
 mod absurd;
 mod arguments;
 mod bytes;
+mod crowd;
 mod extremes;
 mod forged;
 mod instantiate;
 mod invoke;
+mod memory;
 mod mixed;
 mod product;
 mod random;
 mod references;
+mod reload;
 mod scenes;
 mod stage;
 
