@@ -35,6 +35,8 @@ pub enum Error {
     FmuState(FmuStateError),
     /// The parameters do not go together.
     Scene(SceneError),
+    /// An output that is NaN or infinite.
+    NoNumber(&'static str, f64),
     /// The mechanism cannot start or go on.
     Simulation(SimulationError),
     /// A fault of ours, with what is known of it.

@@ -1,6 +1,7 @@
 //! What the importer said of the experiment, and where a step leads.
 
 use super::error::TimeError;
+use crate::scene::parameter::{Kind, Parameter};
 use serde::{Deserialize, Serialize};
 
 /// Times and tolerance that the importer defined.
@@ -34,6 +35,20 @@ impl Experiment {
             positive("tolerance", tolerance)?;
         }
         Ok(Self { start, stop, tolerance })
+    }
+
+    /// The same with a tolerance that the solver takes: the nearest.
+    pub fn limited(self) -> Self {
+        let nearest = |tolerance: f64| match Parameter::named("solver.tolerance").map(|parameter| &parameter.kind) {
+            Some(Kind::Real { min, max, .. }) => tolerance.clamp(*min, *max),
+            _ => tolerance,
+        };
+        Self { tolerance: self.tolerance.map(nearest), ..self }
+    }
+
+    /// Whether an importer can have brought it about.
+    pub fn is_sound(&self) -> bool {
+        Self::new(self.tolerance, self.start, self.stop).map(Self::limited) == Ok(*self)
     }
 
     /// [s] Where a step of `size` from the importer's `point` ends, for an instance at `reached`.

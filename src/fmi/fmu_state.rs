@@ -9,7 +9,8 @@ use super::experiment::Experiment;
 use super::inputs::InputLines;
 use super::lifecycle::{Call, State};
 use super::status::Status;
-use crate::scene::{Scene, parameter::DECLARATION};
+use crate::scene::Scene;
+use crate::scene::parameter::{DECLARATION, PARAMETERS, Parameter};
 use crate::simulation::Snapshot;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -74,10 +75,16 @@ impl FmuState {
         if rest.is_empty() && state.makes_sense() { Ok(state) } else { Err(FmuStateError::Content) }
     }
 
-    /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over.
+    /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over, and nothing in
+    /// it is what an importer cannot set. The snapshot is looked at when it is restored.
     fn makes_sense(&self) -> bool {
         let before = matches!(self.state, State::Instantiated | State::InitializationMode);
-        Call::GetFMUstate.allowed(self.state) && before == self.snapshot.is_none()
+        let in_range = |parameter: &Parameter| parameter.admit(parameter.value(&self.scene)).is_ok();
+        Call::GetFMUstate.allowed(self.state)
+            && before == self.snapshot.is_none()
+            && PARAMETERS.iter().all(in_range)
+            && self.experiment.is_sound()
+            && self.inputs.are_finite()
     }
 }
 

@@ -52,6 +52,10 @@ impl Lines {
         Self { values, rates }
     }
 
+    fn are_finite(&self) -> bool {
+        are_finite(&self.values) && are_finite(&self.rates)
+    }
+
     fn same_bits(&self, other: &Self) -> bool {
         let bits = |lines: &Self| {
             let Self { values, rates } = lines;
@@ -59,6 +63,11 @@ impl Lines {
         };
         bits(self) == bits(other)
     }
+}
+
+/// Whether both are numbers.
+pub fn are_finite(inputs: &Inputs) -> bool {
+    inputs.crank_torque.is_finite() && inputs.slider_load.is_finite()
 }
 
 /// Value of one line; a constant stays the same to the bit.
@@ -86,6 +95,18 @@ impl InputLines {
     /// Values at the communication point `time`.
     pub fn values(&self, time: f64) -> Inputs {
         self.at(time).values
+    }
+
+    /// Values at `later`, when nothing is set after the communication point `time`.
+    pub fn values_until(&self, time: f64, later: f64) -> Inputs {
+        self.at(time).shifted(later - time).values
+    }
+
+    /// Whether all of them are numbers, as those that an importer can set are.
+    pub fn are_finite(&self) -> bool {
+        let Self { since, in_force, wanted, rates_set } = self;
+        let lines = [Some(in_force), wanted.as_ref()];
+        since.is_finite() && lines.into_iter().flatten().all(Lines::are_finite) && are_finite(rates_set)
     }
 
     /// Makes a simulation by `start` at `time`, with the inputs wanted there in force.

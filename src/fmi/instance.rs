@@ -20,7 +20,7 @@ use super::resource_location;
 use super::status::Status;
 use crate::model::signals::Outputs;
 use crate::scene::check::SceneError;
-use crate::scene::{Scene, parameter, slot};
+use crate::scene::{Scene, slot};
 use crate::simulation::Simulation;
 use std::ffi::{CStr, CString};
 use std::fmt;
@@ -133,7 +133,7 @@ impl Instance {
     /// `fmi2SetupExperiment`. A tolerance that the solver cannot meet is limited, with a warning.
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Status, Error> {
         let wish = Experiment::new(tolerance, start, stop)?;
-        let granted = Experiment { tolerance: tolerance.map(limited), ..wish };
+        let granted = wish.limited();
         self.experiment = granted;
         if granted == wish {
             return Ok(Status::Ok);
@@ -211,14 +211,6 @@ fn asked_for(scene: &Scene, experiment: &Experiment) -> Result<Scene, SceneError
         scene.solver.tolerance = tolerance;
     }
     Ok(scene)
-}
-
-/// The nearest tolerance that the solver takes.
-fn limited(tolerance: f64) -> f64 {
-    match parameter::Parameter::named("solver.tolerance").map(|parameter| &parameter.kind) {
-        Some(parameter::Kind::Real { min, max, .. }) => tolerance.clamp(*min, *max),
-        _ => tolerance,
-    }
 }
 
 /// A tolerance that was not granted.

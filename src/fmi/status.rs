@@ -43,7 +43,9 @@ impl Error {
             | Self::FmuState(_)
             | Self::Scene(_)
             | Self::Simulation(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => Status::Error,
-            Self::StatusKind(_) | Self::Simulation(SimulationError::Integration { .. }) => Status::Discard,
+            Self::StatusKind(_) | Self::NoNumber(..) | Self::Simulation(SimulationError::Integration { .. }) => {
+                Status::Discard
+            }
             Self::CallOrder(State::Fatal) | Self::Panic(_) => Status::Fatal,
             Self::CallOrder(_) => Status::Error,
         }

@@ -1,5 +1,6 @@
 //! Error norm and step-size control.
 
+use super::error::IntegrationError;
 use super::memory::Front;
 use super::method::Method;
 use super::problem::{Extent, Problem};
@@ -32,10 +33,24 @@ impl Effort {
 
     /// For an advance over `interval` [s].
     pub fn over(self, interval: f64) -> u64 {
-        self.base.saturating_add((interval * self.per_second as f64) as u64)
+        self.base.saturating_add((interval * self.per_second as f64).min(MOST) as u64)
+    }
+
+    /// Refuses an advance from `start` to `target` [s] that takes more even with one evaluation for each step of
+    /// `longest` [s].
+    pub fn check(self, start: f64, target: f64, longest: f64) -> Result<(), IntegrationError> {
+        let evaluations = self.over(target - start);
+        let steps = (target - start) / longest;
+        if steps <= evaluations as f64 {
+            Ok(())
+        } else {
+            Err(IntegrationError::TooMuchWork { time: start, evaluations })
+        }
     }
 }
 
+/// However long an advance is, its length adds no more evaluations than this.
+const MOST: f64 = 1e11;
 const SAFETY: f64 = 0.9; // Hairer, Nørsett, Wanner I, II.4
 /// [s] A first step of a motion without rates.
 const FIRST_STEP: f64 = 1e-4;
@@ -102,8 +117,12 @@ pub fn shrinkage<M: Method>(error: f64) -> f64 {
 
 /// The first state (or rate) that is not a number, or so large that its powers are none.
 pub fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
-    let kept = |y: &f64| y.abs() < GREATEST;
-    y.iter().take(Extent::of(problem).states).position(|y| !kept(y))
+    y.iter().take(Extent::of(problem).states).position(|y| !is_kept(*y))
+}
+
+/// A number, and not so large that its powers are none.
+pub fn is_kept(y: f64) -> bool {
+    y.abs() < GREATEST
 }
 
 /// A first step over which the rates move the state by a hundredth of its scales.

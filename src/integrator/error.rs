@@ -29,11 +29,11 @@ pub enum IntegrationError {
         /// The guard that is lowest.
         guard: usize,
     },
-    /// One advance took more evaluations of the rates than it may.
+    /// One advance takes more evaluations of the rates than it may.
     TooMuchWork {
         /// [s] Time reached.
         time: f64,
-        /// How many were made.
+        /// How many were made, or may be.
         evaluations: u64,
     },
     /// No impulses satisfy the laws of the rigid contacts that are closed.
@@ -77,7 +77,7 @@ impl fmt::Display for IntegrationError {
                 write!(f, "events accumulate; guard {guard} is lowest")
             }
             Self::TooMuchWork { evaluations, .. } => {
-                write!(f, "{evaluations} evaluations did not reach the communication point")
+                write!(f, "{evaluations} evaluations do not reach the communication point")
             }
             Self::Complementarity { contacts, .. } => {
                 write!(f, "no impulses satisfy the laws of {contacts} closed contacts at once")

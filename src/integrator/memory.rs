@@ -1,8 +1,12 @@
 //! What an integrator remembers between steps.
 
+use super::controller::is_kept;
 use super::dense_output::Step;
 use super::problem::Extent;
 use super::statistics::Statistics;
+
+/// No run counts as far as this.
+const MOST: u64 = 1 << 62;
 
 /// One end of a step: a time, a state, its rates under the modes that hold on this side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +45,25 @@ impl<const N: usize, D> Memory<N, D> {
     pub fn last_step(&self, extent: Extent) -> Step<'_, N> {
         let (start, end) = (&self.start, &self.end);
         Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates, extent }
+    }
+
+    /// Whether a run at `time` can have come to this: a last step around it, no longer than any, between states that
+    /// are kept.
+    pub fn is_sound(&self, time: f64, extent: Extent, longest_step: f64) -> bool {
+        let Self { start, end, front, step, crossings, statistics, .. } = self;
+        let kept = |y: &[f64; N]| y.iter().take(extent.states).all(|y| is_kept(*y));
+        let length = end.t - start.t;
+        let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
+        let Statistics { steps, rejected, evaluations, events } = *statistics;
+        let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MOST);
+        [start, end, front].iter().all(|front| kept(&front.y))
+            && end.t == front.t
+            && (start.t..=front.t).contains(&time)
+            && (0.0..=longest_step + rounding).contains(&length)
+            && (length == 0.0 || steps > 0)
+            && *step >= 0.0
+            && *crossings <= events
+            && counted
     }
 
     /// Work done since the start to reach `t` in the last step.

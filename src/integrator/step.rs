@@ -61,6 +61,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
+        let longest = problem.longest_step();
+        let longest = if M::ADAPTIVE { longest } else { self.settings.fixed_step.min(longest) };
+        self.settings.effort.check(self.memory.front.t, t, longest)?;
         self.march(problem, t, |_| false)
     }
 
@@ -220,9 +223,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let mut wanted = if M::ADAPTIVE { self.memory.step } else { self.settings.fixed_step };
-        let mut rejected = false;
         let time = self.memory.start.t;
+        let mut rejected = false;
+        // Forces that are gone may have left a step that no longer moves time.
+        let least = time.next_up() - time;
+        let mut wanted = if M::ADAPTIVE { self.memory.step.max(least) } else { self.settings.fixed_step };
         loop {
             // The step is what time really moves by: nothing drifts from its rounding.
             let h = time + wanted.min(problem.longest_step()) - time;

@@ -158,20 +158,19 @@ impl Simulation {
     /// A simulation of `scene` that goes on where `snapshot` was taken.
     ///
     /// # Errors
-    /// `Snapshot` if it is not one of a scene with these joints and this drive; `Scene` as in
+    /// `Snapshot` if it is not one of a run of a scene with these joints and this drive; `Scene` as in
     /// [`Simulation::start`].
     pub fn restore(scene: &Scene, snapshot: &Snapshot) -> Result<Self, SimulationError> {
         let mut simulation = Self::start(scene, 0.0, Inputs::default())?;
         let mut reader = snapshot::Reader::new(snapshot);
-        let time = reader.real();
-        let loaded = time.is_some() && simulation.motion.load(&mut reader).is_some();
-        match time {
-            Some(time) if loaded && reader.is_at_end() => {
+        let restored = reader.real().filter(|&time| simulation.motion.load(time, &mut reader).is_some());
+        match restored {
+            Some(time) if reader.is_at_end() => {
                 simulation.time = time;
                 Ok(simulation)
             }
             _ => Err(SimulationError::Snapshot(
-                "the saved state is not one of a scene with these joints and this drive".into(),
+                "the saved state is not one of a run of a scene with these joints and this drive".into(),
             )),
         }
     }

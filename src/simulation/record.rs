@@ -1,7 +1,7 @@
 //! A run's memory in a snapshot.
 
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Front, Impulses, Memory, Statistics};
+use crate::integrator::{Extent, Front, Impulses, Memory, Statistics};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::plant::Plant;
@@ -71,8 +71,13 @@ pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N
     snapshot.integers.push(N as u64);
 }
 
-/// Takes back what [`save`] appended: the plant gets its inputs, the integrator's memory is returned.
-pub fn load<const N: usize, D: Discrete>(plant: &mut dyn Plant<N>, reader: &mut Reader<'_>) -> Option<Memory<N, D>> {
+/// Takes back what [`save`] appended of a run at `time` [s]: the plant gets its inputs, the integrator's memory is
+/// returned.
+pub fn load<const N: usize, D: Discrete>(
+    plant: &mut dyn Plant<N>,
+    time: f64,
+    reader: &mut Reader<'_>,
+) -> Option<Memory<N, D>> {
     let [at, torque, load, torque_rate, load_rate] = reader.reals()?;
     let value = Inputs { crank_torque: torque, slider_load: load };
     let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
@@ -90,9 +95,10 @@ pub fn load<const N: usize, D: Discrete>(plant: &mut dyn Plant<N>, reader: &mut 
     }
     plant.set_signal(InputSignal { at, value, rate });
     plant.set_start_time(start_time);
-    Some(Memory { start, end, front, step, last_error, crossings, statistics })
+    let memory = Memory { start, end, front, step, last_error, crossings, statistics };
+    memory.is_sound(time, Extent::of(plant), plant.longest_step()).then_some(memory)
 }
 
 fn take_front<const N: usize, D: Discrete>(reader: &mut Reader<'_>) -> Option<Front<N, D>> {
-    Some(Front { t: reader.real()?, y: reader.reals()?, rates: reader.reals()?, modes: D::load(reader)? })
+    Some(Front { t: reader.real()?, y: reader.reals()?, rates: reader.any_reals()?, modes: D::load(reader)? })
 }

@@ -54,8 +54,8 @@ pub trait Motion: Send {
     fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization;
     /// Appends all that it remembers.
     fn save(&self, snapshot: &mut Snapshot);
-    /// Takes back what `save` appended; `None` if it does not fit.
-    fn load(&mut self, reader: &mut Reader<'_>) -> Option<()>;
+    /// Takes back what `save` appended of a run at `time` [s]; `None` if it does not fit.
+    fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()>;
 }
 
 /// A mechanism of `N` states under the method `M`.
@@ -213,8 +213,8 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         record::save(self.plant.as_ref(), self.integrator.memory(), snapshot);
     }
 
-    fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let memory = record::load(self.plant.as_mut(), reader)?;
+    fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
+        let memory = record::load(self.plant.as_mut(), time, reader)?;
         self.integrator = Integrator::resume(self.plant.as_ref(), self.settings, memory);
         Some(())
     }

@@ -11,7 +11,8 @@ pub struct Snapshot {
     pub integers: Vec<u64>,
 }
 
-/// Takes a snapshot apart in the order in which it was put together.
+/// Takes a snapshot apart in the order in which it was put together. Its numbers may come from anywhere: what no run
+/// can have is `None`, as what is missing is.
 pub struct Reader<'a> {
     reals: std::slice::Iter<'a, f64>,
     integers: std::slice::Iter<'a, u64>,
@@ -23,18 +24,28 @@ impl<'a> Reader<'a> {
         Self { reals: snapshot.reals.iter(), integers: snapshot.integers.iter() }
     }
 
-    /// The next real number.
+    /// The next real number, if it is finite.
     pub fn real(&mut self) -> Option<f64> {
-        self.reals.next().copied()
+        self.any_real().filter(|real| real.is_finite())
     }
 
-    /// The next real numbers.
+    /// The next real numbers, if they are finite.
     pub fn reals<const N: usize>(&mut self) -> Option<[f64; N]> {
+        let list = self.any_reals()?;
+        list.iter().all(|real| real.is_finite()).then_some(list)
+    }
+
+    /// The next real numbers: rates under a load beyond all measure are not finite.
+    pub fn any_reals<const N: usize>(&mut self) -> Option<[f64; N]> {
         let mut list = [0.0; N];
         for place in &mut list {
-            *place = self.real()?;
+            *place = self.any_real()?;
         }
         Some(list)
+    }
+
+    fn any_real(&mut self) -> Option<f64> {
+        self.reals.next().copied()
     }
 
     /// The next integer.

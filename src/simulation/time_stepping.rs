@@ -157,8 +157,8 @@ impl<const N: usize> Motion for TimeStepping<N> {
         record::save(self.plant.as_ref(), self.integrator.memory(), snapshot);
     }
 
-    fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let memory = record::load(self.plant.as_mut(), reader)?;
+    fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
+        let memory = record::load(self.plant.as_mut(), time, reader)?;
         self.integrator = Moreau::resume(self.settings, memory);
         Some(())
     }

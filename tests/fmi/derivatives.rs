@@ -96,33 +96,6 @@ fn the_mechanism_feels_the_slope_between_points() {
 }
 
 #[test]
-fn other_orders_and_other_variables_are_refused_by_name() {
-    let slave = resting();
-    let refused = |words: [&str; 2]| {
-        let text = slave.log.only().text;
-        assert!(words.iter().all(|word| text.contains(word)), "{text}");
-    };
-    for order in [0, 2, -1] {
-        assert_eq!(slave.set_rate("slider.load", order, 1.0), Status::Error);
-        refused(["slider.load", &order.to_string()]);
-        assert_eq!(slave.rate("slider.x", order), Err(Status::Error));
-        refused(["slider.x", &order.to_string()]);
-    }
-    assert_eq!(slave.set_rate("slider.x", 1, 1.0), Status::Error);
-    refused(["slider.x", "input"]);
-    assert_eq!(slave.set_rate("rod.length", 1, 1.0), Status::Error);
-    refused(["rod.length", "input"]);
-    assert_eq!(slave.rate("slider.load", 1), Err(Status::Error));
-    refused(["slider.load", "output"]);
-    assert_eq!(slave.rate("solver.steps", 1), Err(Status::Error));
-    refused(["solver.steps", "real output"]);
-    assert_eq!(slave.sensitivity("rod.length", "slider.load", 1.0), Err(Status::Error));
-    refused(["rod.length", "real output"]);
-    assert_eq!(slave.sensitivity("slider.a", "slider.x", 1.0), Err(Status::Error));
-    refused(["slider.x", "real input"]);
-}
-
-#[test]
 fn derivatives_set_together_are_applied_all_or_none() {
     let slave = resting();
     let references = [vr("crank.torque"), vr("slider.load")];

@@ -5,7 +5,7 @@ use crate::host::guid;
 use crate::host::log::Log;
 use slidercrank::fmi::abi::types::fmi2CallbackFunctions;
 use std::ffi::{CStr, CString};
-use std::ptr::{null, null_mut};
+use std::ptr::null;
 
 /// Instantiates and frees; whether there was an instance.
 fn instantiate(
@@ -50,34 +50,6 @@ fn a_wrong_guid_is_told_with_the_right_one() {
 }
 
 #[test]
-fn name_and_type_are_needed() {
-    let (log, guid) = (Log::default(), guid());
-    assert!(!instantiate(None, 1, Some(&guid), None, &log.callbacks(), 1));
-    assert!(log.only().text.contains("instanceName"));
-    assert!(!instantiate(Some(c""), 1, Some(&guid), None, &log.callbacks(), 1));
-    assert!(log.only().text.contains("instanceName"));
-    for fmu_type in [0, 2, -1, i32::MAX] {
-        assert!(!instantiate(Some(c"x"), fmu_type, Some(&guid), None, &log.callbacks(), 1));
-        assert!(log.only().text.contains("fmuType"));
-    }
-}
-
-#[test]
-fn callbacks_are_needed_but_none_of_their_functions() {
-    let guid = guid();
-    assert!(!instantiate(Some(c"x"), 1, Some(&guid), None, null(), 1));
-    let nothing = fmi2CallbackFunctions {
-        logger: None,
-        allocate_memory: None,
-        free_memory: None,
-        step_finished: None,
-        component_environment: null_mut(),
-    };
-    assert!(instantiate(Some(c"x"), 1, Some(&guid), None, &nothing, 1));
-    assert!(!instantiate(Some(c"x"), 1, Some(c"wrong"), None, &nothing, 1));
-}
-
-#[test]
 fn every_spelling_of_a_file_uri_is_silent_and_others_cost_a_remark() {
     let (log, guid) = (Log::default(), guid());
     let silent = [
@@ -102,19 +74,4 @@ fn every_spelling_of_a_file_uri_is_silent_and_others_cost_a_remark() {
         let line = log.only();
         assert_eq!((line.status, line.category.as_str()), (1, "logStatusWarning"), "{location:?}");
     }
-}
-
-#[test]
-fn ten_thousand_instances_come_and_go() {
-    let (log, guid) = (Log::default(), guid());
-    let resident = || {
-        let status = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
-        status.split(' ').nth(1).and_then(|pages| pages.parse::<usize>().ok()).unwrap_or(0)
-    };
-    let cycle = || assert!(instantiate(Some(c"x"), 1, Some(&guid), None, &log.callbacks(), 1));
-    (0..1000).for_each(|_| cycle());
-    let before = resident();
-    (0..10_000).for_each(|_| cycle());
-    // A leak of one instance a cycle would be some thousand pages; other tests run beside this one.
-    assert!(resident() < before + 4096, "{before} pages before, {} after", resident());
 }

@@ -1,36 +1,9 @@
 //! The shared library as a host loads it.
 
-use crate::host::Slave;
 use crate::host::api::Api;
-use slidercrank::fmi::Status;
+use crate::host::library;
 use slidercrank::fmi::lifecycle::Call;
-use std::path::PathBuf;
 use std::process::Command;
-
-/// The library that cargo built beside this test.
-fn library() -> PathBuf {
-    let test = std::env::current_exe().expect("a path");
-    let name = libloading::library_filename("slidercrank");
-    let beside = test.parent().expect("a folder").join(&name);
-    if beside.exists() { beside } else { test.ancestors().nth(2).expect("a folder").join(name) }
-}
-
-#[test]
-fn a_loaded_library_runs_as_the_linked_one() {
-    // SAFETY: our own library, whose initializers do nothing.
-    let library = unsafe { libloading::Library::new(library()) }.expect("a shared library");
-    let loaded = Slave::of(Api::loaded(&library).expect("all functions"), "loaded", true);
-    assert_eq!(loaded.enter(), Status::Ok);
-    loaded.wear();
-    assert_eq!(loaded.exit(), Status::Ok);
-    let linked = Slave::running();
-    for slave in [&loaded, &linked] {
-        slave.steps(0.0, 1e-4, 20);
-    }
-    assert_eq!(loaded.picture(), linked.picture());
-    drop(loaded);
-    library.close().expect("an unloaded library");
-}
 
 #[test]
 fn the_list_of_calls_is_the_list_of_functions() {

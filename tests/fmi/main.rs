@@ -2,10 +2,10 @@
 #![allow(unsafe_code, reason = "the tests call the C functions")]
 #![allow(clippy::panic, reason = "a test that cannot go on")]
 
+#[path = "../host/mod.rs"]
 mod host;
 
 mod derivatives;
-mod hostile;
 mod instantiate;
 mod library;
 mod lifecycle;

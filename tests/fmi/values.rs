@@ -55,14 +55,6 @@ fn outputs_follow_start_values_in_initialization_mode() {
 }
 
 #[test]
-fn outputs_are_not_there_before_initialization() {
-    let slave = Slave::new();
-    assert_eq!(slave.try_get("slider.x"), Err(Status::Error));
-    let text = slave.log.only().text;
-    assert!(text.contains("slider.x") && text.contains("output"), "{text}");
-}
-
-#[test]
 fn a_start_value_may_be_set_before_the_experiment_and_without_one() {
     let slave = Slave::new();
     assert_eq!(slave.set("crank.speed_start", 10.0), Status::Ok);
@@ -100,20 +92,6 @@ fn looking_at_outputs_does_not_change_the_run() {
         alone_point = alone.steps(alone_point, 1e-4, 1);
     }
     assert_eq!(watched.picture(), alone.picture());
-}
-
-#[test]
-fn parameters_are_fixed_once_initialization_is_over_and_outputs_always() {
-    let slave = Slave::new();
-    assert_eq!(slave.set("slider.x", 1.0), Status::Error);
-    assert!(slave.log.only().text.contains("slider.x (output)"));
-    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
-    assert_eq!(slave.set("rod.length", 0.2), Status::Error);
-    let text = slave.log.only().text;
-    assert!(text.contains("rod.length (fixed parameter)") && text.contains("step complete"), "{text}");
-    assert_eq!(slave.set_integer("joint.A.model", 2), Status::Error);
-    assert_eq!(slave.set_integer("joint.T.contacts", 2), Status::Error);
-    assert_eq!(slave.get("rod.length"), 0.12);
 }
 
 #[test]

@@ -73,6 +73,19 @@ fn work_beyond_its_bound_is_refused_and_can_be_gone_on_with() {
 }
 
 #[test]
+fn a_point_beyond_all_steps_is_told_before_the_first() {
+    let problem = Free { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = 0.0 };
+    let settings = Settings { fixed_step: 1e-9, effort: Effort { base: 1000, per_second: 1_000_000 }, ..SETTINGS };
+    let mut integrator = Integrator::<2, (), Rk4>::start(&problem, settings, 0.0, [0.0, 1.0], ());
+    for far in [1e-3, 1.0, 1e300, f64::MAX] {
+        let error = integrator.advance(&problem, far).expect_err("too many steps");
+        assert!(matches!(error, IntegrationError::TooMuchWork { time: 0.0, .. }), "{far:e}: {error:?}");
+    }
+    assert_eq!(integrator.memory().statistics.steps, 0);
+    assert_eq!(integrator.advance(&problem, 1e-7), Ok(()));
+}
+
+#[test]
 fn a_fixed_step_that_overflows_is_taken_back() {
     // v̇ = v³ from 1: v has no bound before t = ½, and no error estimate tells.
     let problem = Free { accelerations: |_: f64, _: &[f64], v: &[f64], a: &mut [f64]| a[0] = v[0].powi(3) };

@@ -18,6 +18,7 @@ impl fmt::Display for Error {
             Self::NoStatusKind(value) => write!(f, "{value} is not an fmi2StatusKind"),
             Self::FmuState(error) => error.fmt(f),
             Self::Scene(error) => error.fmt(f),
+            Self::NoNumber(name, value) => write!(f, "{name} = {value} is not a finite number"),
             Self::Simulation(error) => error.fmt(f),
             Self::Panic(what) => write!(f, "fault of the FMU: {what}"),
         }

@@ -3,7 +3,7 @@
 use super::super::error::{Error, VariableError};
 use super::super::variables::{Access, Variable};
 use super::Instance;
-use super::values::{finite, variable};
+use super::values::{finite, told, variable};
 use crate::model::signals::{Inputs, Outputs};
 
 /// Order of the derivatives that we know.
@@ -89,10 +89,11 @@ impl Instance {
     }
 }
 
-/// Hands out what the outputs of these references have in `source`.
+/// Hands out what the outputs of these references have in `source`, up to the first that is no number.
 fn fill(references: &[u32], source: &Outputs, values: &mut [f64]) -> Result<(), Error> {
     for (&reference, value) in references.iter().zip(values) {
-        *value = real_output(variable(reference)?)?(source);
+        let variable = variable(reference)?;
+        *value = told(variable, real_output(variable)?(source))?;
     }
     Ok(())
 }

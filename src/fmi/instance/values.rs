@@ -78,6 +78,11 @@ pub(super) fn finite(variable: &Variable, value: f64) -> Result<f64, VariableErr
     if value.is_finite() { Ok(value) } else { Err(VariableError::NotFinite(variable.name, value)) }
 }
 
+/// An output that may be told: loads beyond all measure may leave it without a number.
+pub(super) fn told(variable: &Variable, value: f64) -> Result<f64, Error> {
+    if value.is_finite() { Ok(value) } else { Err(Error::NoNumber(variable.name, value)) }
+}
+
 impl Instance {
     /// `fmi2GetReal`
     pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
@@ -121,14 +126,23 @@ impl Instance {
         }
     }
 
-    /// Reads variables of one type. Every value fits an `f64`: reals, 32-bit integers, Booleans.
+    /// Reads variables of one type, none if one of them is refused. Every value fits an `f64`: reals, 32-bit integers,
+    /// Booleans.
     fn get<T>(&mut self, asked: Type, references: &[u32], values: &mut [T], out: fn(f64) -> T) -> Result<(), Error> {
-        for (&reference, value) in references.iter().zip(values) {
+        let mut outputs = false;
+        for &reference in references {
             let variable = typed(reference, asked)?;
             check(variable, self.state, false)?;
+            outputs |= !matches!(variable.access, Access::Input { .. } | Access::Parameter(_));
+        }
+        if outputs {
+            self.outputs()?;
+        }
+        for (&reference, value) in references.iter().zip(values) {
+            let variable = variable(reference)?;
             *value = out(match &variable.access {
                 Access::Input { get, .. } => get(&self.inputs.values(self.time())),
-                Access::RealOutput(get) => get(self.outputs()?),
+                Access::RealOutput(get) => told(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
                 Access::Parameter(parameter) => parameter.value(&self.scene),

@@ -72,6 +72,8 @@ impl<const N: usize> Moreau<N> {
     where
         P: Unilateral<N, Modes: Default> + ?Sized,
     {
+        let longest = self.settings.fixed_step.min(problem.longest_step());
+        self.settings.effort.check(self.memory.front.t, t, longest)?;
         self.march(problem, t, |_| false)
     }
 

@@ -1,5 +1,7 @@
 //! A small importer: one slave with its log, every call a method.
+#![allow(dead_code, reason = "each test binary needs a part of it")]
 
+#[macro_use]
 pub mod api;
 pub mod log;
 
@@ -10,6 +12,7 @@ use slidercrank::fmi::abi::types::*;
 use slidercrank::fmi::variables::VARIABLES;
 use slidercrank::scene::slot;
 use std::ffi::{CString, c_char};
+use std::path::PathBuf;
 use std::ptr::{null, null_mut};
 
 /// Value reference of a variable.
@@ -21,6 +24,14 @@ pub fn vr(name: &str) -> u32 {
 /// The library's guid.
 pub fn guid() -> CString {
     CString::new(slot::read().expect("a readable slot").1).expect("no zero")
+}
+
+/// The library that cargo built beside this test.
+pub fn library() -> PathBuf {
+    let test = std::env::current_exe().expect("a path");
+    let name = libloading::library_filename("slidercrank");
+    let beside = test.parent().expect("a folder").join(&name);
+    if beside.exists() { beside } else { test.ancestors().nth(2).expect("a folder").join(name) }
 }
 
 /// One instance.

@@ -60,12 +60,11 @@ unsafe extern "C" fn write(
 ) {
     // SAFETY: the environment is the `Log` that `callbacks` was called on.
     let log = unsafe { &*environment.cast::<Log>() };
-    let text = |pointer| {
-        // SAFETY: the slave passes strings.
-        let text = unsafe { CStr::from_ptr(pointer) };
-        text.to_str().expect("UTF-8").to_owned()
-    };
-    let (instance, category, text) = (text(instance), text(category), text(message));
+    // SAFETY: the slave passes strings.
+    let texts = unsafe { [instance, category, message].map(|pointer| CStr::from_ptr(pointer)) };
+    // Its name is what the importer made it.
+    let instance = texts[0].to_string_lossy().into_owned();
+    let [category, text] = [texts[1], texts[2]].map(|text| text.to_str().expect("UTF-8").to_owned());
     assert!(!text.contains(['%', '#', '\n']), "{text}");
     log.0.lock().expect("no panic in the logger").push(Line { instance, status, category, text });
 }

@@ -1,0 +1,112 @@
+//! Saved states as bytes, cut, damaged and of others: refused in one line each, and nothing changed.
+
+use crate::brief;
+use crate::host::Slave;
+use crate::scenes::MECHANISMS;
+use slidercrank::fmi::Status;
+
+/// What the magic and the format's version take, and the digest of the declaration after them.
+const VERSION: std::ops::Range<usize> = 8..12;
+const DIGEST: std::ops::Range<usize> = 12..44;
+
+/// Bytes before the content: magic, version, digest, length.
+pub const HEADER: usize = 48;
+
+/// A run that has begun, and its bytes.
+fn begun(mechanism: usize) -> (Slave, Vec<u8>) {
+    let slave = MECHANISMS[mechanism].running();
+    let point = slave.steps(0.0, 1e-4, 5);
+    assert_eq!(slave.set("slider.load", 3.0), Status::Ok);
+    slave.steps(point, 1e-4, 1);
+    let bytes = slave.bytes_of(slave.save());
+    (slave, bytes)
+}
+
+/// All mechanisms, or the first.
+pub fn some() -> std::ops::Range<usize> {
+    0..if brief() { 1 } else { MECHANISMS.len() }
+}
+
+/// The bytes are refused in one line with these words.
+fn refused(slave: &Slave, bytes: &[u8], words: &str, what: &str) {
+    assert_eq!(slave.deserialize(bytes), Err(Status::Error), "{what}");
+    let line = slave.log.only();
+    assert!(line.text.starts_with("fmi2DeSerializeFMUstate: ") && line.text.contains(words), "{what}: {line:?}");
+}
+
+/// With its checksum mended.
+pub fn resealed(bytes: &[u8], change: impl FnOnce(&mut [u8])) -> Vec<u8> {
+    let (sealed, _) = bytes.split_at(bytes.len() - 4);
+    let mut sealed = sealed.to_vec();
+    change(&mut sealed);
+    let checksum = crc32fast::hash(&sealed).to_le_bytes();
+    [&sealed[..], &checksum].concat()
+}
+
+#[test]
+fn bytes_cut_at_any_length_are_refused() {
+    for mechanism in some() {
+        let (slave, bytes) = begun(mechanism);
+        for length in 0..bytes.len() {
+            let words = if length < VERSION.start { "not a state of this FMU" } else { "instead of" };
+            refused(&slave, &bytes[..length], words, &format!("{length} bytes"));
+        }
+        assert_eq!(slave.bytes_of(slave.save()), bytes);
+    }
+}
+
+#[test]
+fn a_damaged_byte_anywhere_is_refused() {
+    for mechanism in some() {
+        let (slave, bytes) = begun(mechanism);
+        for at in 0..bytes.len() {
+            for pattern in [1 << (at % 8), 0x80, 0xff] {
+                let mut damaged = bytes.clone();
+                damaged[at] ^= pattern;
+                refused(&slave, &damaged, "state", &format!("byte {at} by {pattern:#x}"));
+            }
+        }
+        assert_eq!(slave.bytes_of(slave.save()), bytes);
+    }
+}
+
+#[test]
+fn another_version_and_another_declaration_are_told_from_damage() {
+    let (slave, bytes) = begun(0);
+    for bit in 0..32 {
+        let other = resealed(&bytes, |sealed| sealed[VERSION.start + bit / 8] ^= 1 << (bit % 8));
+        refused(&slave, &other, "format version", &format!("bit {bit}"));
+    }
+    for at in DIGEST {
+        let other = resealed(&bytes, |sealed| sealed[at] ^= 0x10);
+        refused(&slave, &other, "other variables", &format!("byte {at}"));
+    }
+}
+
+#[test]
+fn what_follows_a_state_is_zeros_or_the_state_is_refused() {
+    let (slave, bytes) = begun(0);
+    for spare in [1, 2, 100] {
+        let mut longer = [&bytes[..], &vec![0; spare]].concat();
+        assert!(slave.deserialize(&longer).is_ok());
+        longer[bytes.len() + spare - 1] = 1;
+        refused(&slave, &longer, "instead of", &format!("{spare} bytes more"));
+    }
+    refused(&slave, &[&bytes[..], &bytes[..]].concat(), "instead of", "twice the state");
+}
+
+#[test]
+fn each_kind_of_damage_is_told_in_words_of_its_own() {
+    let (slave, bytes) = begun(0);
+    let told = |change: fn(&mut Vec<u8>), words: &str| {
+        let mut damaged = bytes.clone();
+        change(&mut damaged);
+        refused(&slave, &damaged, words, words);
+    };
+    told(|bytes| bytes[0] = b'X', "not a state of this FMU");
+    told(|bytes| bytes[8] += 1, "version 3; this FMU reads version 2");
+    told(|bytes| bytes[8] = 1, "version 1; this FMU reads version 2");
+    told(|bytes| bytes.truncate(bytes.len() - 1), "instead of");
+    told(|bytes| *bytes.last_mut().expect("bytes") ^= 1, "checksum");
+    told(|bytes| *bytes = resealed(bytes, |sealed| sealed[HEADER] = 99), "contradicts itself");
+}

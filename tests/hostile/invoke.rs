@@ -1,0 +1,99 @@
+//! Any function of the standard with any arguments: the words of a call, made into its types.
+
+use crate::host::api::{Api, C, S};
+use slidercrank::fmi::Status;
+use slidercrank::fmi::abi::types::*;
+use slidercrank::fmi::lifecycle::Call;
+use std::ffi::{c_char, c_void};
+
+/// One argument.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Word {
+    Pointer(*mut c_void),
+    Size(usize),
+    Integer(i32),
+    Real(f64),
+}
+
+/// NULL.
+pub const NULL: Word = Word::Pointer(std::ptr::null_mut());
+
+/// A type that arguments have.
+trait Argument {
+    fn of(word: Word) -> Self;
+}
+
+impl<T> Argument for *const T {
+    fn of(word: Word) -> Self {
+        <*mut T>::of(word)
+    }
+}
+
+impl<T> Argument for *mut T {
+    fn of(word: Word) -> Self {
+        if let Word::Pointer(pointer) = word { pointer.cast() } else { panic!("{word:?} for a pointer") }
+    }
+}
+
+macro_rules! arguments {
+    ($($word:ident($type:ty)),+) => {
+        $(impl Argument for $type {
+            fn of(word: Word) -> Self {
+                if let Word::$word(value) = word { value } else { panic!("{word:?} for {}", stringify!($type)) }
+            }
+        })+
+    };
+}
+
+arguments!(Size(usize), Integer(i32), Real(f64));
+
+/// A type that answers have.
+trait Answer {
+    fn status(self) -> Option<Status>;
+}
+
+impl Answer for Status {
+    fn status(self) -> Option<Status> {
+        Some(self)
+    }
+}
+
+impl Answer for () {
+    fn status(self) -> Option<Status> {
+        None
+    }
+}
+
+impl<T> Answer for *const T {
+    fn status(self) -> Option<Status> {
+        None
+    }
+}
+
+impl<T> Answer for *mut T {
+    fn status(self) -> Option<Status> {
+        None
+    }
+}
+
+macro_rules! invoke {
+    ($($name:ident = $place:path: fn($($argument:ty),*) -> $answer:ty;)+) => {
+        /// Calls a function with these words; its status, if it has one.
+        ///
+        /// # Safety
+        /// As the function's.
+        pub unsafe fn invoke(api: &Api, call: Call, words: &[Word]) -> Option<Status> {
+            #[allow(unused_mut, unused_variables, reason = "two functions have no arguments")]
+            let mut words = words.iter().copied();
+            match call {
+                // SAFETY: the caller's.
+                $(Call::$name => unsafe {
+                    let answer: $answer = (api.$name)($(<$argument>::of(words.next().expect("an argument"))),*);
+                    answer.status()
+                },)+
+            }
+        }
+    };
+}
+
+functions!(invoke);

@@ -1,0 +1,40 @@
+//! Hosts that call the FMU as no sane host would.
+//!
+//! Under valgrind, with a part of every product only (some two minutes):
+//!
+//! ```sh
+//! export SLIDERCRANK_TEST_BRIEF=1
+//! export CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUNNER="valgrind --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=9"
+//! cargo test --test hostile -- --test-threads=1
+//! ```
+//!
+//! With `--tool=helgrind` and the filter `crowd`, what is reported are atomics of the standard library, of the C library
+//! and of [`slidercrank::fmi::abi::component`]: valgrind takes them for plain memory.
+#![allow(unsafe_code, reason = "the tests call the C functions")]
+#![allow(clippy::panic, reason = "a test that cannot go on")]
+
+#[macro_use]
+#[path = "../host/mod.rs"]
+mod host;
+
+mod absurd;
+mod arguments;
+mod bytes;
+mod crowd;
+mod extremes;
+mod forged;
+mod instantiate;
+mod invoke;
+mod memory;
+mod mixed;
+mod product;
+mod random;
+mod references;
+mod reload;
+mod scenes;
+mod stage;
+
+/// Whether a part of every product is enough.
+fn brief() -> bool {
+    std::env::var_os("SLIDERCRANK_TEST_BRIEF").is_some()
+}
