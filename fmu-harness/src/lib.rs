@@ -16,5 +16,6 @@ pub mod realtime;
 pub mod report;
 pub mod run;
 pub mod scenes;
+pub mod ssp;
 pub mod sweep;
 pub mod trajectory;

@@ -1,7 +1,9 @@
 //! The command line: without a command it packages a scene, runs it through the packaged file and reports.
 
 use clap::{Parser, Subcommand};
-use fmu_harness::command::{Accuracy, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run, Sweep};
+use fmu_harness::command::{
+    Accuracy, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run, Ssp, Sweep,
+};
 use std::process::ExitCode;
 
 /// Builds, packages and runs the slider-crank FMU.
@@ -37,6 +39,8 @@ enum Command {
     Precision(Precision),
     /// Times single communication steps
     Realtime(Realtime),
+    /// Writes the press with its controller as an SSP package
+    Ssp(Ssp),
     /// Runs a study: many runs with other parameters
     Sweep(Sweep),
 }
@@ -54,6 +58,7 @@ fn main() -> ExitCode {
         Some(Command::Peers(peers)) => peers.execute(),
         Some(Command::Precision(precision)) => precision.execute(),
         Some(Command::Realtime(realtime)) => realtime.execute(),
+        Some(Command::Ssp(ssp)) => ssp.execute(),
         Some(Command::Sweep(sweep)) => sweep.execute(),
     };
     match done {

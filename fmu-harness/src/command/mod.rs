@@ -9,6 +9,7 @@ mod peers;
 mod precision;
 mod realtime;
 mod run;
+mod ssp;
 mod sweep;
 
 pub use accuracy::Accuracy;
@@ -20,6 +21,7 @@ pub use peers::Peers;
 pub use precision::Precision;
 pub use realtime::Realtime;
 pub use run::Run;
+pub use ssp::Ssp;
 pub use sweep::Sweep;
 
 use crate::package::build::workspace;

@@ -17,6 +17,8 @@ pub struct Description {
     pub experiment: Attributes,
     /// Names of the units.
     pub units: Vec<String>,
+    /// Attributes of BaseUnit, by the unit's name, where there is one.
+    pub bases: HashMap<String, Attributes>,
     /// The simple types, by name.
     pub types: HashMap<String, SimpleType>,
     /// Names of the log categories.

@@ -66,6 +66,9 @@ impl<'a> Parser<'a> {
             ([], "ModelExchange") => self.found.model_exchange = true,
             ([], "DefaultExperiment") => self.found.experiment = attributes,
             (["UnitDefinitions"], "Unit") => self.found.units.extend(attributes.get("name").map(str::to_owned)),
+            (["UnitDefinitions", "Unit"], "BaseUnit") => {
+                self.found.bases.extend(self.found.units.last().map(|unit| (unit.clone(), attributes)));
+            }
             (["LogCategories"], "Category") => {
                 self.found.log_categories.extend(attributes.get("name").map(str::to_owned));
             }

@@ -11,6 +11,7 @@ pub mod plot;
 pub mod precision;
 pub mod price;
 pub mod realtime;
+pub mod ssp;
 pub mod study;
 pub mod summary;
 pub mod table;

@@ -8,8 +8,10 @@
 
 mod packages;
 mod price;
+mod ssp;
 
 use fmu_harness::python::{Missing, environment, sources};
+use std::env::join_paths;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,9 +30,10 @@ fn python() -> &'static Path {
 fn pytest(file: &str) {
     let (python, fmus) = (python(), packages::directory());
     let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hosts");
+    let modules = join_paths([sources(), sources().join("press")]).expect("paths without a separator");
     let mut command = Command::new(python);
     command.args(["-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--tb=short", "-rfE"]).arg(here.join(file));
-    command.current_dir(&here).env("SLIDERCRANK_FMUS", fmus).env("PYTHONPATH", sources()).env_remove("LD_LIBRARY_PATH");
+    command.current_dir(&here).env("SLIDERCRANK_FMUS", fmus).env("PYTHONPATH", modules).env_remove("LD_LIBRARY_PATH");
     let output = command.output().unwrap_or_else(|error| panic!("{} cannot be started: {error}", python.display()));
     let text = String::from_utf8_lossy(&output.stdout);
     let summary = text.lines().last().unwrap_or_default();
@@ -53,7 +56,10 @@ files! {
     derivatives_are_what_they_are_called            "test_derivatives.py"
     the_odd_ways_of_hosts_lead_to_the_same_result   "test_odd_hosts.py"
     two_in_a_container_equal_two_alone              "test_container.py"
-    a_press_keeps_its_speed_in_two_hosts_alike      "test_press_loop.py"
+    a_press_with_its_drive_is_a_valid_package       "test_ssp.py"
+    a_press_with_its_drive_runs_alike_in_two_hosts  "test_ssp_hosts.py"
+    masters_of_the_press_keep_their_books           "test_ssp_masters.py"
+    the_drive_of_the_press_keeps_its_rules          "test_ssp_drive.py"
 }
 
 /// Files that nobody runs would be believed.

@@ -1,10 +1,13 @@
-//! All shipped scenes as FMUs, and a run of one by the harness itself, made once for all tests.
+//! All shipped scenes as FMUs, the press with its companions as an SSP package, and a run of one scene by the harness
+//! itself, made once for all tests.
 
+use crate::python;
 use anyhow::Result;
 use fmu_harness::host::Fmu;
-use fmu_harness::package::{Package, build::workspace};
+use fmu_harness::package::{Package, Stock, build::workspace};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::{Scenario, names};
+use fmu_harness::ssp::{PRESS, package as package_ssp};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -24,6 +27,9 @@ pub fn directory() -> &'static Path {
                 eprintln!("{scene} cannot be packaged: {error:#}");
             }
         }
+        if let Err(error) = couple(&directory) {
+            eprintln!("{PRESS} cannot be packaged with its companions: {error:#}");
+        }
         if let Err(error) = record(&directory) {
             eprintln!("{RUN} cannot be run: {error:#}");
         }
@@ -34,6 +40,11 @@ pub fn directory() -> &'static Path {
 fn package(scene: &str, directory: &Path) -> Result<()> {
     let package = Scenario::find(scene).and_then(|scenario| Package::make(&scenario));
     replace(&directory.join(format!("{scene}.fmu")), |file| package?.save(file))
+}
+
+fn couple(directory: &Path) -> Result<()> {
+    let bytes = package_ssp(&Stock::build()?, python());
+    replace(&directory.join(format!("{PRESS}.ssp")), |file| Ok(fs::write(file, bytes?)?))
 }
 
 fn record(directory: &Path) -> Result<()> {
