@@ -29,6 +29,13 @@ pub enum IntegrationError {
         /// The guard that is lowest.
         guard: usize,
     },
+    /// The motion has come to where its equations have no meaning.
+    DeadEnd {
+        /// [s] Time reached.
+        time: f64,
+        /// The guard that fell.
+        guard: usize,
+    },
     /// One advance took more evaluations of the rates than it may.
     TooMuchWork {
         /// [s] Time reached.
@@ -58,6 +65,7 @@ impl IntegrationError {
             Self::StepUnderflow { time, .. }
             | Self::NotFinite { time, .. }
             | Self::EventsAccumulate { time, .. }
+            | Self::DeadEnd { time, .. }
             | Self::TooMuchWork { time, .. }
             | Self::Complementarity { time, .. } => time,
         }
@@ -75,6 +83,9 @@ impl fmt::Display for IntegrationError {
             }
             Self::EventsAccumulate { guard, .. } => {
                 write!(f, "events accumulate; guard {guard} is lowest")
+            }
+            Self::DeadEnd { guard, .. } => {
+                write!(f, "no motion leads beyond the fall of guard {guard}")
             }
             Self::TooMuchWork { evaluations, .. } => {
                 write!(f, "{evaluations} evaluations did not reach the communication point")
