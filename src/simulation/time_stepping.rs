@@ -100,7 +100,7 @@ impl<const N: usize> Motion for TimeStepping<N> {
         let (y, impulses) = self.integrator.state_at(self.plant.as_ref(), t);
         let mut rates = [0.0; N];
         self.plant.rates_under(&impulses, t, &y, &mut rates);
-        let mut slopes = slopes(t, &y, &rates, |t, y| self.observe(&impulses, t, y));
+        let mut slopes = slopes(self.plant.as_ref(), t, &y, &rates, |t, y| self.observe(&impulses, t, y));
         self.observer.set_known_rates(&self.plant.instant_under(&impulses, t, &y), &mut slopes);
         slopes
     }

@@ -89,10 +89,12 @@ impl Instance {
     }
 }
 
-/// Hands out what the outputs of these references have in `source`.
+/// Hands out what the outputs of these references have in `source`; infinity, which an input that is far too large may
+/// lead to, is refused.
 fn fill(references: &[u32], source: &Outputs, values: &mut [f64]) -> Result<(), Error> {
     for (&reference, value) in references.iter().zip(values) {
-        *value = real_output(variable(reference)?)?(source);
+        let variable = variable(reference)?;
+        *value = finite(variable, real_output(variable)?(source))?;
     }
     Ok(())
 }

@@ -127,8 +127,8 @@ impl Instance {
             let variable = typed(reference, asked)?;
             check(variable, self.state, false)?;
             *value = out(match &variable.access {
-                Access::Input { get, .. } => get(&self.inputs.values(self.time())),
-                Access::RealOutput(get) => get(self.outputs()?),
+                Access::Input { get, .. } => finite(variable, get(&self.inputs.values(self.time())))?,
+                Access::RealOutput(get) => finite(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
                 Access::Parameter(parameter) => parameter.value(&self.scene),
