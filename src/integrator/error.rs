@@ -79,7 +79,7 @@ impl fmt::Display for IntegrationError {
                 write!(f, "a step of {step:.1e} s no longer moves time; component {component} sets the error")
             }
             Self::NotFinite { component, .. } => {
-                write!(f, "the rate of component {component} is not finite")
+                write!(f, "the rate of component {component} is not finite, or too large to go on with")
             }
             Self::EventsAccumulate { guard, .. } => {
                 write!(f, "events accumulate; guard {guard} is lowest")

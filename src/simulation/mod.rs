@@ -1,6 +1,7 @@
 //! Model, state and integrator: a mechanism that moves through time.
 
 mod assemble;
+mod derivatives;
 mod equations;
 mod phase;
 mod record;

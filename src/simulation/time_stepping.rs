@@ -1,10 +1,11 @@
 //! One mechanism with rigid contacts under time stepping.
 
 use super::Size;
+use super::derivatives::{sensitivity, slopes};
 use super::equations::Linearization;
 use super::phase::{Phase, PhaseScales};
 use super::record;
-use super::run::{Motion, filled, linearization, sensitivity, settings, slopes, solver_outputs};
+use super::run::{Motion, filled, linearization, settings, solver_outputs};
 use super::snapshot::{Reader, Snapshot};
 use super::system::{Bare, Equations, write};
 use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau, Settings};
