@@ -1,7 +1,7 @@
 //! The command line: without a command it packages a scene, runs it through the packaged file and reports.
 
 use clap::{Parser, Subcommand};
-use fmu_harness::command::{Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run};
+use fmu_harness::command::{Campaign, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run};
 use std::process::ExitCode;
 
 /// Builds, packages and runs the slider-crank FMU.
@@ -35,6 +35,8 @@ enum Command {
     Precision(Precision),
     /// Times single communication steps
     Realtime(Realtime),
+    /// Puts scenes drawn by lot to the test
+    Campaign(Campaign),
 }
 
 fn main() -> ExitCode {
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         Some(Command::Peers(peers)) => peers.execute(),
         Some(Command::Precision(precision)) => precision.execute(),
         Some(Command::Realtime(realtime)) => realtime.execute(),
+        Some(Command::Campaign(campaign)) => campaign.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,5 +1,6 @@
 //! The subcommands.
 
+mod campaign;
 mod dynamics;
 mod effects;
 mod inspect;
@@ -9,6 +10,7 @@ mod precision;
 mod realtime;
 mod run;
 
+pub use campaign::Campaign;
 pub use dynamics::Dynamics;
 pub use effects::Effects;
 pub use inspect::Inspect;

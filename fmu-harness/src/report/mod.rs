@@ -1,6 +1,7 @@
 //! What a run says, in figures and in numbers.
 
 pub mod bars;
+pub mod campaign;
 pub mod contest;
 pub mod dynamics;
 pub mod figure;
