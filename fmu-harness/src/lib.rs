@@ -1,6 +1,7 @@
 //! Builds, packages, loads and runs FMUs of FMI 2.0 co-simulation.
 
 pub mod accuracy;
+pub mod campaign;
 pub mod command;
 pub mod dynamics;
 pub mod effects;

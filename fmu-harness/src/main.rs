@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 use fmu_harness::command::{
-    Accuracy, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run, Ssp, Sweep,
+    Accuracy, Campaign, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run, Ssp, Sweep,
 };
 use std::process::ExitCode;
 
@@ -39,6 +39,8 @@ enum Command {
     Precision(Precision),
     /// Times single communication steps
     Realtime(Realtime),
+    /// Puts scenes drawn by lot to the test
+    Campaign(Campaign),
     /// Writes the press with its controller as an SSP package
     Ssp(Ssp),
     /// Runs a study: many runs with other parameters
@@ -58,6 +60,7 @@ fn main() -> ExitCode {
         Some(Command::Peers(peers)) => peers.execute(),
         Some(Command::Precision(precision)) => precision.execute(),
         Some(Command::Realtime(realtime)) => realtime.execute(),
+        Some(Command::Campaign(campaign)) => campaign.execute(),
         Some(Command::Ssp(ssp)) => ssp.execute(),
         Some(Command::Sweep(sweep)) => sweep.execute(),
     };

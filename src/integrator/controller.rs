@@ -61,7 +61,7 @@ const MEMORY: f64 = 0.04;
 /// Rates of early stages are of low order: only this many times a tolerable error is suspicious.
 const UNSEEN: f64 = 1e3;
 /// States and rates from here on count as lost.
-const GREATEST: f64 = 1e40;
+const GREATEST: f64 = 1e25;
 /// A state cannot be asked to be more accurate than a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 

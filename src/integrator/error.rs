@@ -29,6 +29,13 @@ pub enum IntegrationError {
         /// The guard that is lowest.
         guard: usize,
     },
+    /// The motion has come to where its equations have no meaning.
+    DeadEnd {
+        /// [s] Time reached.
+        time: f64,
+        /// The guard that fell.
+        guard: usize,
+    },
     /// One advance takes more evaluations of the rates than it may.
     TooMuchWork {
         /// [s] Time reached.
@@ -58,6 +65,7 @@ impl IntegrationError {
             Self::StepUnderflow { time, .. }
             | Self::NotFinite { time, .. }
             | Self::EventsAccumulate { time, .. }
+            | Self::DeadEnd { time, .. }
             | Self::TooMuchWork { time, .. }
             | Self::Complementarity { time, .. } => time,
         }
@@ -71,10 +79,13 @@ impl fmt::Display for IntegrationError {
                 write!(f, "a step of {step:.1e} s no longer moves time; component {component} sets the error")
             }
             Self::NotFinite { component, .. } => {
-                write!(f, "the rate of component {component} is not finite")
+                write!(f, "the rate of component {component} is not finite, or too large to go on with")
             }
             Self::EventsAccumulate { guard, .. } => {
                 write!(f, "events accumulate; guard {guard} is lowest")
+            }
+            Self::DeadEnd { guard, .. } => {
+                write!(f, "no motion leads beyond the fall of guard {guard}")
             }
             Self::TooMuchWork { evaluations, .. } => {
                 write!(f, "{evaluations} evaluations do not reach the communication point")

@@ -51,8 +51,8 @@ fn fall(before: Guard, after: Guard, h: f64, inside: impl Fn(f64) -> Guard) -> O
         };
     }
     let dips = before.rate < 0.0 && after.rate > 0.0;
-    // No cubic with these ends reaches lower than this below them.
-    let depth = 0.25 * h * before.rate.abs().max(after.rate);
+    // No cubic with these ends reaches lower than half of this below them.
+    let depth = 0.5 * h * before.rate.abs().max(after.rate);
     if !dips || before.value.min(after.value) > depth || before.value <= 0.0 {
         return None;
     }

@@ -12,8 +12,16 @@ const LANDED: f64 = 0.1;
 
 impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     /// Handles the guards that are at or below zero and falling where the next step starts.
+    ///
+    /// # Errors
+    /// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if there is no end of them.
     pub(super) fn settle<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P) -> Result<(), IntegrationError> {
         let count = problem.guard_count();
+        let near = LANDED * problem.guard_scale();
+        let ended = |i: &usize| problem.is_dead_end(*i) && self.guards[*i].value <= near && self.guards[*i].rate < 0.0;
+        if let Some(guard) = (0..count).find(ended) {
+            return Err(IntegrationError::DeadEnd { time: self.memory.front.t, guard });
+        }
         for _ in 0..STANDSTILL {
             let Some(guard) = (0..count).find(|&i| has_fallen(&self.guards[i])) else {
                 return Ok(());
@@ -35,7 +43,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         }
     }
 
-    /// Repeats the step up to the event at `share` of it and crosses the event.
+    /// Repeats the step up to the event at `share` of it and crosses the event, if anything lies beyond it.
     pub(super) fn land<P>(&mut self, problem: &P, h: f64, share: f64, guard: usize)
     where
         P: Problem<N, Modes = D> + ?Sized,
@@ -63,7 +71,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             t = better;
         }
-        self.cross_with(problem, guard, close);
+        if !problem.is_dead_end(guard) {
+            self.cross_with(problem, guard, close);
+        }
     }
 
     /// Crosses the event of `guard` at the front, and of all guards that have fallen with it: those

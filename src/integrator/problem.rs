@@ -98,6 +98,12 @@ pub trait Problem<const N: usize> {
     /// Writes all guards. Only positions and modes decide `value`.
     fn guards(&self, modes: &Self::Modes, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]);
 
+    /// No motion leads beyond the fall of this guard, nor goes on from a tenth of the guards' scale before it. Every
+    /// method locates it.
+    fn is_dead_end(&self, _guard: usize) -> bool {
+        false
+    }
+
     /// [unit of the guards] An error of `tolerance` times this in a guard is just tolerable.
     fn guard_scale(&self) -> f64;
 

@@ -207,7 +207,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if problem.guard_count() == 0 {
             return Ok(());
         }
-        if !M::LOCATES {
+        // A state beyond a dead end is none, not even between two communication points.
+        let ends = (0..problem.guard_count()).any(|guard| problem.is_dead_end(guard));
+        if !M::LOCATES && !ends {
             self.notice(problem);
             return Ok(());
         }

@@ -170,6 +170,10 @@ impl<const N: usize> Problem<N> for Audited<N> {
         self.plant.guards(contacts, t, y, guards);
     }
 
+    fn is_dead_end(&self, guard: usize) -> bool {
+        self.plant.is_dead_end(guard)
+    }
+
     fn guard_scale(&self) -> f64 {
         self.plant.guard_scale()
     }

@@ -187,13 +187,22 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
     }
 
     fn guard_count(&self) -> usize {
-        0
+        usize::from(self.ideal.has_change_point())
     }
 
-    fn guards(&self, _: &Contacts, _: f64, _: &[f64; N], _: &mut [Guard; GUARDS]) {}
+    fn guards(&self, _: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
+        if self.ideal.has_change_point() {
+            let (angle, speed) = self.crank(t, y);
+            guards[0] = self.ideal.change_point(Rotation::new(angle), speed, self.ideal.rod, 0.0);
+        }
+    }
+
+    fn is_dead_end(&self, _: usize) -> bool {
+        true
+    }
 
     fn guard_scale(&self) -> f64 {
-        0.0
+        IdealMechanism::CHANGE_POINT_SCALE
     }
 
     fn cross(&self, contacts: &Contacts, _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<Contacts> {

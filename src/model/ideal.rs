@@ -1,8 +1,13 @@
 //! The ideal slider-crank: rod and slider as functions of the crank's angle.
 
 use super::plane::Rotation;
+use crate::integrator::Guard;
 use crate::math::Real;
 use crate::scene::Scene;
+
+/// Least cosine of the rod's angle. A rod that is longer than its crank by less than half a millionth does not pass it:
+/// rounding and the errors of steps would decide on which side of standing across the guide it goes on.
+const LEAST_COSINE: f64 = 1e-3;
 
 /// Lengths of an ideal slider-crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +42,22 @@ impl IdealMechanism {
     pub fn new(scene: &Scene) -> Self {
         Self { crank: scene.crank.length, rod: scene.rod.length, height: scene.guide.offset - scene.slider.centre.y }
     }
+
+    /// The crank can bring the rod across the guide, where the slider may go on either way.
+    pub fn has_change_point(&self) -> bool {
+        self.crank + self.height.abs() > (1.0 - LEAST_COSINE * LEAST_COSINE) * self.rod
+    }
+
+    /// The event at which the rod, then `rod` [m] long and growing at `rate` [m/s], stands across the guide: cos²φ and
+    /// its rate, which are smooth there.
+    pub fn change_point(&self, crank: Rotation, speed: f64, rod: f64, rate: f64) -> Guard {
+        let sin = (self.height - crank.sin * self.crank) / rod;
+        let sin_rate = -(crank.cos * self.crank * speed + sin * rate) / rod;
+        Guard { value: (1.0 - sin) * (1.0 + sin) - LEAST_COSINE * LEAST_COSINE, rate: -2.0 * sin * sin_rate }
+    }
+
+    /// [unit of that event's value] What is just noticeable in it.
+    pub const CHANGE_POINT_SCALE: f64 = LEAST_COSINE * LEAST_COSINE;
 
     /// At the crank's rotation and speed [rad/s]. Not finite where the mechanism cannot be.
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! What goes into the mechanism and what comes out of it, as the FMU's face names it.
 
 use serde::{Deserialize, Serialize};
+use std::cell::Cell;
 
 /// Inputs at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -161,6 +162,16 @@ pub struct SolverOutputs {
 }
 
 impl Outputs {
+    /// Every real output is a number.
+    pub fn is_finite(&self) -> bool {
+        let all = Cell::new(true);
+        self.combined(self, |value, _| {
+            all.set(all.get() && value.is_finite());
+            value
+        });
+        all.get()
+    }
+
     /// `combine` applied to each real output of both; integers and Booleans are left out.
     pub fn combined(&self, other: &Self, combine: impl Fn(f64, f64) -> f64 + Copy) -> Self {
         let pair = |a: [f64; 2], b: [f64; 2]| [combine(a[0], b[0]), combine(a[1], b[1])];

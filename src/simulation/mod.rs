@@ -1,6 +1,7 @@
 //! Model, state and integrator: a mechanism that moves through time.
 
 mod assemble;
+mod derivatives;
 mod equations;
 mod phase;
 mod record;
@@ -70,6 +71,9 @@ impl fmt::Display for SimulationError {
 
 impl std::error::Error for SimulationError {}
 
+/// The only end that a mechanism's equations of motion have.
+const DEAD_END: &str = "the rod stands across the guide, where ideal joints leave open which way the slider goes on";
+
 /// Where a scene starts.
 fn start_pose(scene: &Scene) -> Result<StartPose, SimulationError> {
     StartPose::of(scene).ok_or_else(|| {
@@ -119,6 +123,7 @@ impl Simulation {
     fn failed(&mut self, error: IntegrationError) -> SimulationError {
         self.time = self.time.max(error.time());
         let cause = match error {
+            IntegrationError::DeadEnd { .. } => DEAD_END.to_owned(),
             IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
             _ => error.to_string(),
         };

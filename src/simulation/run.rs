@@ -1,6 +1,7 @@
 //! One mechanism under one method.
 
 use super::Size;
+use super::derivatives::{sensitivity, slopes};
 use super::equations::Linearization;
 use super::phase::{Phase, PhaseScales};
 use super::record;
@@ -68,8 +69,6 @@ pub struct Run<const N: usize, M: Method> {
     approach_scale: f64,
 }
 
-/// [s] Half the interval over which an output's derivative is taken.
-const DIFFERENCE: f64 = 1e-8;
 /// Where the scene sets no bound: seconds of computing for a communication step that leads nowhere, and several times
 /// what any shipped scene needs.
 const EFFORT: Effort = Effort { base: 20_000_000, per_second: 50_000_000 };
@@ -156,7 +155,7 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
         let mut rates = [0.0; N];
         self.plant.rates(&contacts, t, &y, &mut rates);
-        let mut slopes = slopes(t, &y, &rates, |t, y| self.observe(&contacts, t, y));
+        let mut slopes = slopes(self.plant.as_ref(), t, &y, &rates, |t, y| self.observe(&contacts, t, y));
         self.observer.set_known_rates(&self.plant.instant(&contacts, t, &y), &mut slopes);
         slopes
     }
@@ -261,28 +260,6 @@ pub fn linearization<const N: usize>(
         by_state: jacobian.state[..count].iter().map(|row| row[..count].to_vec()).collect(),
         by_time: jacobian.time[..count].to_vec(),
     }
-}
-
-/// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference.
-pub fn slopes<const N: usize>(
-    t: f64,
-    y: &[f64; N],
-    rates: &[f64; N],
-    observe: impl Fn(f64, &[f64; N]) -> Outputs,
-) -> Outputs {
-    let along = |shift: f64| std::array::from_fn(|i| y[i] + shift * rates[i]);
-    let (before, after) = (t - DIFFERENCE, t + DIFFERENCE);
-    let first = observe(before, &along(before - t));
-    let second = observe(after, &along(after - t));
-    second.combined(&first, |second, first| (second - first) / (after - before))
-}
-
-/// Derivative of outputs with respect to the inputs, along `seed`.
-pub fn sensitivity(seed: Inputs, mut observe_under: impl FnMut(Inputs) -> Outputs) -> Outputs {
-    // Outputs are affine in the inputs: any difference is the derivative.
-    let one = observe_under(seed);
-    let other = observe_under(Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
-    one.combined(&other, |one, other| 0.5 * (one - other))
 }
 
 /// A list in an array with room, or as much of it as has room.

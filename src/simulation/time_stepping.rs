@@ -1,10 +1,11 @@
 //! One mechanism with rigid contacts under time stepping.
 
 use super::Size;
+use super::derivatives::{sensitivity, slopes};
 use super::equations::Linearization;
 use super::phase::{Phase, PhaseScales};
 use super::record;
-use super::run::{Motion, filled, linearization, sensitivity, settings, slopes, solver_outputs};
+use super::run::{Motion, filled, linearization, settings, solver_outputs};
 use super::snapshot::{Reader, Snapshot};
 use super::system::{Bare, Equations, write};
 use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau, Settings};
@@ -100,7 +101,7 @@ impl<const N: usize> Motion for TimeStepping<N> {
         let (y, impulses) = self.integrator.state_at(self.plant.as_ref(), t);
         let mut rates = [0.0; N];
         self.plant.rates_under(&impulses, t, &y, &mut rates);
-        let mut slopes = slopes(t, &y, &rates, |t, y| self.observe(&impulses, t, y));
+        let mut slopes = slopes(self.plant.as_ref(), t, &y, &rates, |t, y| self.observe(&impulses, t, y));
         self.observer.set_known_rates(&self.plant.instant_under(&impulses, t, &y), &mut slopes);
         slopes
     }

@@ -1,7 +1,7 @@
 //! When the integrator gives up: the right error, at the right time, with the state intact.
 
 use super::free::Free;
-use slidercrank::integrator::methods::{Dopri5, Rk4, Verner7};
+use slidercrank::integrator::methods::{Dopri5, Rk4, Rk4Unlocated, Verner7};
 use slidercrank::integrator::{
     Crossed, Effort, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Problem, Reset, Settings,
 };
@@ -115,7 +115,12 @@ fn a_fixed_step_into_a_wall_underflows_too() {
 }
 
 /// A fall onto a floor that no event clears: the guard is still below zero after each.
-struct Stuck;
+struct Stuck {
+    /// Nothing lies beyond the floor.
+    ends: bool,
+}
+
+const STUCK: Stuck = Stuck { ends: false };
 
 impl Problem<2> for Stuck {
     type Modes = ();
@@ -145,8 +150,12 @@ impl Problem<2> for Stuck {
         guards[1] = Guard { value: y[0], rate: y[1] };
     }
 
+    fn is_dead_end(&self, guard: usize) -> bool {
+        self.ends && guard == 1
+    }
+
     fn guard_scale(&self) -> f64 {
-        1.0
+        if self.ends { 1e-9 } else { 1.0 }
     }
 
     fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
@@ -156,23 +165,43 @@ impl Problem<2> for Stuck {
 
 #[test]
 fn events_without_end_are_refused_where_they_happen() {
-    let mut integrator = Integrator::<2, (), Verner7>::start(&Stuck, SETTINGS, 0.0, [1.0, 0.0], ());
-    let error = integrator.advance(&Stuck, 3.0).expect_err("the floor is never passed");
+    let mut integrator = Integrator::<2, (), Verner7>::start(&STUCK, SETTINGS, 0.0, [1.0, 0.0], ());
+    let error = integrator.advance(&STUCK, 3.0).expect_err("the floor is never passed");
     assert!(matches!(error, IntegrationError::EventsAccumulate { guard: 1, .. }), "{error:?}");
     assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
     // There, q = 1 − t².
     let t = error.time();
-    let ([q, v], ()) = integrator.state_at(&Stuck, t);
+    let ([q, v], ()) = integrator.state_at(&STUCK, t);
     assert!((q - (1.0 - t * t)).abs() < 1e-13 && (v + 2.0 * t).abs() < 1e-13, "{q}, {v} at {t}");
 }
 
 /// At rest on the floor the guard is not falling yet, and falls in every step at its very start.
 #[test]
 fn events_at_the_start_of_every_step_are_refused_too() {
-    let mut integrator = Integrator::<2, (), Verner7>::start(&Stuck, SETTINGS, 0.0, [0.0, 0.0], ());
-    let error = integrator.advance(&Stuck, 3.0).expect_err("time stands still");
+    let mut integrator = Integrator::<2, (), Verner7>::start(&STUCK, SETTINGS, 0.0, [0.0, 0.0], ());
+    let error = integrator.advance(&STUCK, 3.0).expect_err("time stands still");
     assert_eq!(error, IntegrationError::EventsAccumulate { time: 0.0, guard: 1 });
-    assert_eq!(integrator.state_at(&Stuck, 0.0).0, [0.0, 0.0]);
+    assert_eq!(integrator.state_at(&STUCK, 0.0).0, [0.0, 0.0]);
+}
+
+#[test]
+fn a_motion_goes_up_to_its_dead_end_and_no_further() {
+    let problem = Stuck { ends: true };
+    let mut integrator = Integrator::<2, (), Verner7>::start(&problem, SETTINGS, 0.0, [1.0, 0.0], ());
+    assert_eq!(integrator.advance(&problem, 0.9), Ok(()));
+    for _ in 0..2 {
+        let error = integrator.advance(&problem, 3.0).expect_err("there is no way on");
+        assert!(matches!(error, IntegrationError::DeadEnd { guard: 1, .. }), "{error:?}");
+        assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
+        let ([q, v], ()) = integrator.state_at(&problem, error.time());
+        assert!(q.abs() < 1e-9 && (v + 2.0).abs() < 1e-9, "{q}, {v}");
+    }
+    assert_eq!(integrator.memory().statistics.events, 0, "nothing was crossed");
+    // A method that does not locate events locates this one.
+    let mut coarse = Integrator::<2, (), Rk4Unlocated>::start(&problem, SETTINGS, 0.0, [1.0, 0.0], ());
+    let error = coarse.advance(&problem, 3.0).expect_err("there is no way on");
+    assert!(matches!(error, IntegrationError::DeadEnd { guard: 1, .. }), "{error:?}");
+    assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
 }
 
 #[test]

@@ -64,9 +64,7 @@ fn rates_of_outputs_are_their_differences_between_communication_points() {
                 let lists = outputs.map(|o| reals(&o));
                 for (k, (name, rate)) in reals(&rates).into_iter().enumerate() {
                     let y = [0, 1, 2, 3, 4].map(|i: usize| lists[i][k].1);
-                    if !rate.is_finite() {
-                        continue;
-                    }
+                    assert!(rate.is_finite(), "{} {name} at {t}", letters(play));
                     let (difference, doubt) = derivative(y);
                     // Where the rate is exact, its place and speed are interpolated to 1e-16 m and 1e-11 m/s and
                     // the rounding of differences over 2e-8 s and 2e-6 s stays: measured 5e-8.
@@ -87,6 +85,39 @@ fn rates_of_outputs_are_their_differences_between_communication_points() {
         }
     }
     println!("rates against differences: {:.1e} in {}, {seen} compared", worst.0, worst.1);
+}
+
+#[test]
+fn rates_of_outputs_are_told_at_any_time_of_the_century() {
+    // 1.7e9 s is now, counted from 1970: time moves there by 2.4e-7 s at least.
+    for scene in all_plays().flat_map(|play| drives(&soft(play))) {
+        let rates = |time: f64| {
+            let mut simulation = Simulation::start(&scene, time, inputs(3.0, -20.0)).expect("a closed loop");
+            reals(&simulation.output_rates())
+        };
+        for ((name, wanted), (_, found)) in rates(0.0).into_iter().zip(rates(1.7e9)) {
+            // A difference over 3 us errs by h²/6 of the third derivative: some (500/s)³ of the output.
+            assert!((found - wanted).abs() < 1e-3 * wanted.abs().max(1.0), "{name}: {found}, {wanted}");
+        }
+    }
+}
+
+#[test]
+fn rates_of_outputs_are_numbers_under_any_torque() {
+    for torque in [1e6, 1e9, 1e12, 1e15] {
+        let mut scene = Scene::default();
+        scene.rod.flexible.bending_modes = 2;
+        let mut simulation = start(&scene, inputs(torque, 0.0));
+        // Times that the crank needs for a turn, where the mechanism does not come to an end before.
+        let turn = (1e-2 / torque).sqrt();
+        for i in 1..=40 {
+            if simulation.advance_to(turn * f64::from(i) / 40.0).is_err() {
+                break;
+            }
+            let rates = simulation.output_rates();
+            assert!(simulation.outputs().is_finite() && rates.is_finite(), "{torque:e} N.m: {rates:?}");
+        }
+    }
 }
 
 #[test]

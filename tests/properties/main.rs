@@ -2,6 +2,7 @@
 
 mod audit;
 mod chance;
+mod change_point;
 mod clearance_to_zero;
 mod conservation;
 mod consistency;

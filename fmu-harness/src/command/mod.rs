@@ -1,6 +1,7 @@
 //! The subcommands.
 
 mod accuracy;
+mod campaign;
 mod dynamics;
 mod effects;
 mod inspect;
@@ -13,6 +14,7 @@ mod ssp;
 mod sweep;
 
 pub use accuracy::Accuracy;
+pub use campaign::Campaign;
 pub use dynamics::Dynamics;
 pub use effects::Effects;
 pub use inspect::Inspect;

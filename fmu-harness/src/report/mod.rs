@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod bars;
+pub mod campaign;
 pub mod contest;
 pub mod dynamics;
 pub mod figure;

@@ -141,7 +141,7 @@ impl Instance {
         for (&reference, value) in references.iter().zip(values) {
             let variable = variable(reference)?;
             *value = out(match &variable.access {
-                Access::Input { get, .. } => get(&self.inputs.values(self.time())),
+                Access::Input { get, .. } => told(variable, get(&self.inputs.values(self.time())))?,
                 Access::RealOutput(get) => told(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),

@@ -33,7 +33,7 @@ mod closed;
 use super::controller::Settings;
 use super::error::IntegrationError;
 use super::memory::{Front, Memory};
-use super::problem::Extent;
+use super::problem::{Extent, GUARDS, Guard, Problem};
 use super::statistics::Statistics;
 use super::unilateral::{Impulses, Unilateral};
 use attempt::{Made, attempt};
@@ -123,6 +123,9 @@ impl<const N: usize> Moreau<N> {
                 return Err(IntegrationError::StepUnderflow { time: start.t, step, component: 0 });
             }
             let made = attempt(problem, &start, end - start.t)?;
+            if let Some(guard) = dead_end(problem, end, &made.y) {
+                return Err(IntegrationError::DeadEnd { time: start.t, guard });
+            }
             self.memory.start = start;
             self.commit(end, made);
         }
@@ -191,4 +194,17 @@ impl<const N: usize> Moreau<N> {
         statistics.evaluations += evaluations;
         statistics.events += changes as u64;
     }
+}
+
+/// The dead end that `y` lies beyond. Like impacts, dead ends are not located: a step may pass one.
+fn dead_end<const N: usize, P>(problem: &P, t: f64, y: &[f64; N]) -> Option<usize>
+where
+    P: Problem<N, Modes: Default> + ?Sized,
+{
+    let mut guards = [Guard::default(); GUARDS];
+    if problem.guard_count() == 0 || !problem.is_dead_end(0) {
+        return None;
+    }
+    problem.guards(&P::Modes::default(), t, y, &mut guards);
+    (0..problem.guard_count()).find(|&i| problem.is_dead_end(i) && guards[i].value < 0.0)
 }

@@ -147,15 +147,23 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn guard_count(&self) -> usize {
-        self.clearances.guard_count(self.clear)
+        if self.geometry.topology.is_closed() { 1 } else { self.clearances.guard_count(self.clear) }
     }
 
     fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        self.clearances.guards(self.clear, contacts, &self.pose(t, y), guards);
+        if self.geometry.topology.is_closed() {
+            guards[0] = self.change_point(t, y);
+        } else {
+            self.clearances.guards(self.clear, contacts, &self.pose(t, y), guards);
+        }
+    }
+
+    fn is_dead_end(&self, _: usize) -> bool {
+        self.geometry.topology.is_closed()
     }
 
     fn guard_scale(&self) -> f64 {
-        self.guard_scale
+        if self.geometry.topology.is_closed() { IdealMechanism::CHANGE_POINT_SCALE } else { self.guard_scale }
     }
 
     fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {

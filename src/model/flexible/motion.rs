@@ -6,10 +6,11 @@ use super::alone;
 use super::chain::PLACES;
 use super::configuration::{Configuration, Geometry};
 use super::equations::{Equations, Moving, Places};
+use crate::integrator::Guard;
 use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
 use crate::model::mechanism::{CRANK, ROD, SLIDER};
-use crate::model::plane::Vec2;
+use crate::model::plane::{Rotation, Vec2};
 use crate::model::rod::{Inertia, Shape};
 use crate::model::scalar::{Scalar, Tangent};
 use crate::model::state::{Contacts, FlexibleInstant, Instant, Pose};
@@ -61,6 +62,16 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         let (eta, rate) = self.modal(y);
         let shape = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate);
         self.configuration::<f64, PLACES>(self.geometry.chain.size, t, y, &shape).pose(shape.slope_rate)
+    }
+
+    /// The event at which the rod, closed in a loop of ideal joints, stands across the guide.
+    pub(super) fn change_point(&self, t: f64, y: &[f64; N]) -> Guard {
+        let (eta, rate) = self.modal(y);
+        let chord = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate).chord;
+        let Geometry { layout, rotor, ideal, .. } = &self.geometry;
+        let p = self.extent.positions;
+        let (angle, speed) = layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
+        ideal.change_point(Rotation::new(angle), speed, chord.length, chord.rate)
     }
 
     /// Modal coordinates and their rates.

@@ -1,0 +1,154 @@
+//! Scenes drawn by lot over all that a scene may be.
+//!
+//! Every parameter draws two numbers: which kind of value it takes, and which value of that kind. The smaller the
+//! first, the plainer the kind, so that a scene that shrinks comes to the declared values, parameter by parameter.
+
+use super::usual::usual;
+use proptest::prelude::{Strategy, any, prop_oneof};
+use proptest::strategy::Just;
+use slidercrank::scene::parameter::{Kind, Parameter};
+use slidercrank::scene::profile::{Against, Profile, Profiles};
+use slidercrank::scene::read::SceneFile;
+use slidercrank::scene::run::{End, Run};
+use slidercrank::scene::{FrictionLaw, Method, PARAMETERS, Scene, Surface};
+use std::f64::consts::TAU;
+
+/// The two numbers, each in 0 .. 1.
+type Lot = (f64, f64);
+
+/// Share of the parameters that keep their declared value.
+const DECLARED: f64 = 0.6;
+/// Share of those that take any value of their range, in the wildest scene.
+const ANYWHERE: f64 = 0.06;
+/// Share of those at an end of their range, in the wildest scene.
+const AT_AN_END: f64 = 0.02;
+/// Share of enumerations, numbers of modes and switches that keep their declared value.
+const PLAIN: f64 = 0.35;
+/// [s] A run is never longer, however slow its crank.
+const LONGEST: f64 = 1e3;
+/// Most decades over which a range that begins at 0 is drawn.
+const DECADES: f64 = 14.0;
+/// Fewest and most communication points.
+const POINTS: [f64; 2] = [20.0, 400.0];
+
+/// Scene files of runs of so many turns. Not all of their scenes are legal.
+pub fn scene_files(turns: f64) -> impl Strategy<Value = SceneFile> {
+    let lots = vec![(0.0..1.0, 0.0..1.0); PARAMETERS.len()];
+    let inputs = [profile(100.0), profile(1e4)];
+    (0.0..1.0, lots, inputs, 0.0..1.0, 0.0..1.0).prop_map(move |(wildness, lots, inputs, span, step)| {
+        let mut scene = Scene::default();
+        for (parameter, lot) in PARAMETERS.iter().zip(lots) {
+            let value = value(parameter, &scene, wildness, lot);
+            // A draw that rounding puts outside its range keeps the declared value.
+            let _ = parameter.write(&mut scene, value);
+        }
+        scene.solver.max_evaluations = 0;
+        if scene.solver.method == Method::Moreau {
+            stiffen(&mut scene);
+        }
+        let turning = scene.crank.speed_start.abs();
+        let end = match turns * TAU / turning {
+            time if time < LONGEST => End::Turns(turns),
+            _ => End::Time(logarithmic(1e-3, 1.0, span)),
+        };
+        let mut run = Run { end, step: 1.0 };
+        run.step = run.stop(&scene) / logarithmic(POINTS[0], POINTS[1], step).round();
+        let [crank_torque, slider_load] = inputs.map(|drawn| drawn.profile(run.stop(&scene)));
+        let inputs = Profiles { crank_torque, slider_load };
+        SceneFile { name: "drawn".into(), description: String::new(), scene, run, inputs }
+    })
+}
+
+/// Takes away what rigid contacts know nothing of; hardly a scene for them would be legal otherwise.
+fn stiffen(scene: &mut Scene) {
+    (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (0, 0);
+    scene.energy.audit = false;
+    let joint = &mut scene.joint;
+    joint.t.surface = Surface::Corner;
+    for contact in [&mut joint.a.contact, &mut joint.b.contact, &mut joint.c.contact, &mut joint.t.contact] {
+        if contact.friction.law == FrictionLaw::Lugre {
+            contact.friction.law = FrictionLaw::Stribeck;
+        }
+    }
+}
+
+/// The value that a lot means for a parameter of a scene whose earlier parameters have theirs.
+fn value(parameter: &Parameter, scene: &Scene, wildness: f64, (kind, place): Lot) -> f64 {
+    let wild = wildness * wildness;
+    let at_an_end = 1.0 - AT_AN_END * wild;
+    let anywhere = at_an_end - ANYWHERE * wild;
+    match parameter.kind {
+        Kind::Real { start, .. } if kind < DECLARED => start,
+        Kind::Real { start, .. } if kind < anywhere => usual(parameter.name, start, scene, place),
+        Kind::Real { min, max, .. } if kind < at_an_end => within(min, max, place),
+        Kind::Real { min, max, .. } => [min, max, 0.0_f64.clamp(min, max)][(place * 3.0) as usize],
+        _ if kind < PLAIN => parameter.start(),
+        // Few modes often, many seldom.
+        Kind::Integer { min, max, .. } if kind > DECLARED => {
+            f64::from(min) + (place * place * f64::from(max - min + 1)).floor()
+        }
+        Kind::Integer { start, .. } => f64::from(start),
+        Kind::Boolean { .. } => f64::from(u8::from(place >= 0.5)),
+        Kind::Enumeration { items, .. } => f64::from(items[(place * items.len() as f64) as usize].1),
+    }
+}
+
+/// Anywhere in a range: by its logarithm where it is wide.
+fn within(min: f64, max: f64, place: f64) -> f64 {
+    let tiny = |most: f64| most * 10_f64.powf(-DECADES);
+    if min > 0.0 {
+        return if max > 100.0 * min { logarithmic(min, max, place) } else { min + place * (max - min) };
+    }
+    if min == 0.0 {
+        return if max > 1.0 { logarithmic(tiny(max), max, place) } else { place * max };
+    }
+    let signed = 2.0 * place - 1.0;
+    let most = if signed < 0.0 { -min } else { max };
+    logarithmic(tiny(most), most, signed.abs()).copysign(signed)
+}
+
+/// Between two positive numbers, by the logarithm.
+pub fn logarithmic(low: f64, high: f64, place: f64) -> f64 {
+    (low * (high / low).powf(place)).clamp(low, high)
+}
+
+/// An input as drawn.
+#[derive(Clone, Debug)]
+enum Drawn {
+    Constant(f64),
+    Over(Against, Vec<f64>),
+}
+
+impl Drawn {
+    /// Its points spread evenly over the run, or over the turn.
+    fn profile(self, span: f64) -> Profile {
+        match self {
+            Self::Constant(value) => Profile::Constant(value),
+            Self::Over(against, values) => {
+                let range = if against == Against::Time { span } else { TAU };
+                let count = values.len() as f64;
+                let place = |i: usize| range * (i as f64 + 0.5) / count;
+                Profile::Points {
+                    against,
+                    points: values.iter().enumerate().map(|(i, value)| [place(i), *value]).collect(),
+                }
+            }
+        }
+    }
+}
+
+/// An input of a usual size, seldom of any.
+fn profile(size: f64) -> impl Strategy<Value = Drawn> {
+    let wild = (any::<bool>(), 0.0..1.0).prop_map(|(negative, place)| {
+        let value = logarithmic(1.0, 1e18, place);
+        if negative { -value } else { value }
+    });
+    let value = prop_oneof![30 => (-1.0..1.0).prop_map(move |share| share * size), 1 => wild, 1 => Just(f64::MAX)];
+    let against = prop_oneof![Just(Against::Time), Just(Against::CrankAngle)];
+    let over = (against, proptest::collection::vec((-1.0..1.0).prop_map(move |share| share * size), 2..7));
+    prop_oneof![
+        3 => Just(Drawn::Constant(0.0)),
+        3 => value.prop_map(Drawn::Constant),
+        3 => over.prop_map(|(against, values)| Drawn::Over(against, values)),
+    ]
+}

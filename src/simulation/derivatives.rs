@@ -1,0 +1,51 @@
+//! Derivatives of outputs: in time, and with respect to the inputs.
+
+use crate::integrator::Extent;
+use crate::model::plant::Plant;
+use crate::model::signals::{Inputs, Outputs};
+
+/// [s] Half the longest interval over which an output's derivative is taken.
+const DIFFERENCE: f64 = 1e-8;
+/// [s] Half the shortest.
+const LEAST_DIFFERENCE: f64 = 1e-20;
+/// How often such an interval is shortened until there is an output at both of its ends.
+const SHORTENINGS: usize = 12;
+
+/// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state moves by
+/// more than is noticeable, and time by at least a few of its roundings; near the end of a mechanism's reach, by less.
+pub fn slopes<const N: usize>(
+    plant: &dyn Plant<N>,
+    t: f64,
+    y: &[f64; N],
+    rates: &[f64; N],
+    observe: impl Fn(f64, &[f64; N]) -> Outputs,
+) -> Outputs {
+    let over = |half: f64| {
+        let along = |shift: f64| std::array::from_fn(|i| y[i] + shift * rates[i]);
+        let (before, after) = (t - half, t + half);
+        let first = observe(before, &along(before - t));
+        let second = observe(after, &along(after - t));
+        second.combined(&first, |second, first| (second - first) / (after - before))
+    };
+    let weighed = rates.iter().zip(plant.scales()).take(Extent::of(plant).weighed);
+    let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
+    let least = LEAST_DIFFERENCE.max(4.0 * f64::EPSILON * t.abs());
+    let mut half = (1.0 / fastest).min(DIFFERENCE).max(least);
+    let mut slopes = over(half);
+    for _ in 0..SHORTENINGS {
+        if half == least || slopes.is_finite() {
+            break;
+        }
+        half = (0.1 * half).max(least);
+        slopes = over(half);
+    }
+    slopes
+}
+
+/// Derivative of outputs with respect to the inputs, along `seed`.
+pub fn sensitivity(seed: Inputs, mut observe_under: impl FnMut(Inputs) -> Outputs) -> Outputs {
+    // Outputs are affine in the inputs: any difference is the derivative.
+    let one = observe_under(seed);
+    let other = observe_under(Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
+    one.combined(&other, |one, other| 0.5 * (one - other))
+}

@@ -1,0 +1,16 @@
+//! Hard cases: what must still hold where a mechanism or a host goes to extremes.
+//!
+//! A case is a scene file in `cases/`, whose head tells what makes it hard, and a row of claims in `table.rs`. Scenes that
+//! a campaign has found are kept in `regressions/`.
+#![allow(clippy::panic)]
+
+mod claims;
+mod ends;
+mod law;
+mod regressions;
+mod run;
+mod special;
+mod statistics;
+mod table;
+#[path = "../../fmu-harness/src/campaign/trial.rs"]
+mod trial;
