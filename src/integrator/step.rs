@@ -198,10 +198,16 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let before = self.guards;
         self.commit(problem, self.memory.start.t + h);
         if let Some(component) = controller::lost_state(problem, &self.memory.end.rates) {
-            // Without an error estimate a step may have led anywhere.
             (self.memory.end, self.memory.front) = (self.memory.start, self.memory.start);
             self.memory.statistics.steps -= 1;
             self.guards = before;
+            if M::ADAPTIVE {
+                // Nothing had estimated the error of these rates: a shorter step may end before they are lost.
+                self.memory.statistics.rejected += 1;
+                self.memory.step = controller::shrinkage::<M>(f64::INFINITY) * h;
+                return Ok(());
+            }
+            // Without an error estimate a step may have led anywhere.
             return Err(IntegrationError::NotFinite { time: self.memory.start.t, component });
         }
         if problem.guard_count() == 0 {
