@@ -11,12 +11,14 @@ import threading
 import time
 import zipfile
 from collections.abc import Iterator
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas
 from distributed import Client, Future, KilledWorker, as_completed, get_worker
+from distributed.client import FutureCancelledError
 
 from .journal import Journal, Outcome, path
 from .recipe import Recipe, RunError
@@ -29,7 +31,7 @@ AHEAD = 4
 """Runs that are handed out for each thread of the cluster."""
 REFRESH = 2.0
 """[s] Between two looks at the cluster's size."""
-SHIPMENTS = 5
+SHIPMENTS = 20
 """How often the FMU is shipped again to a cluster that has lost all workers that had it."""
 
 
@@ -91,7 +93,7 @@ class Hand:
 
     def __init__(self, client: Client, planned: Plan, shipment: Shipment, journal: Journal):
         self.client, self.planned, self.shipment, self.journal = client, planned, shipment, journal
-        self.going: dict[str, tuple[int, Future]] = {}
+        self.going: dict[str, tuple[int, Future, Future]] = {}
         self.again: list[int] = []
         self.shipped: Future | None = None
         self.shipments = 0
@@ -105,20 +107,22 @@ class Hand:
         try:
             self._top_up(waiting, finished)
             for future in finished:
-                number, _ = self.going.pop(future.key)
-                outcome = self._taken(future, number, lost)
-                if outcome is not None:
-                    self.journal.add(number, outcome)
+                number, _, shipped = self.going.pop(future.key)
+                try:
+                    outcome = self._taken(future, number, lost)
+                except (FutureCancelledError, CancelledError):
+                    # All workers that had the FMU, or the result, are gone.
+                    self.again.append(number)
+                    self.shipped = None if self.shipped is shipped else self.shipped
+                else:
+                    if outcome is not None:
+                        self.journal.add(number, outcome)
                 self._top_up(waiting, finished)
         finally:
-            self.client.cancel([future for _, future in self.going.values()])
+            self.client.cancel([future for _, future, _ in self.going.values()])
         return lost
 
     def _taken(self, future: Future, number: int, lost: dict[int, Outcome]) -> Outcome | None:
-        if future.cancelled() or future.status == "lost":
-            self.again.append(number)
-            self.shipped = None
-            return None
         error = future.exception()
         if isinstance(error, KilledWorker):
             lost[number] = Outcome(failed=f"its workers died, {error.allowed_failures + 1} in all")
@@ -140,7 +144,7 @@ class Hand:
             row = self.planned.runs.iloc[number]
             settings = {name: float(row[name]) for name in self.planned.runs.columns}
             future = self.client.submit(one, self.shipped, settings, pure=False)
-            self.going[future.key] = (number, future)
+            self.going[future.key] = (number, future, self.shipped)
             finished.add(future)
 
     def _ship(self) -> None:

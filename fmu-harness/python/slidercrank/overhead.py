@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -19,7 +20,7 @@ from . import distributed
 from .study import plan, study
 
 
-def timed(call) -> float:
+def timed(call: Callable[[], object]) -> float:
     """[s] Of the wall."""
     begin = time.perf_counter()
     call()
@@ -38,7 +39,7 @@ def main() -> None:
         sweep = lambda: study(given.study, given.workers, Path(folder) / "sweep")
         costs["sweep"] = timed(sweep), timed(sweep)
         with (
-            LocalCluster(given.workers, threads_per_worker=1, dashboard_address=None) as cluster,
+            LocalCluster(n_workers=given.workers, threads_per_worker=1, dashboard_address=None) as cluster,
             Client(cluster) as client,
         ):
             dask = lambda: distributed.run(given.study, given.fmu, client, Path(folder) / "dask")

@@ -37,7 +37,10 @@ def save(results: pyarrow.Table, file: Path) -> None:
     """Writes the file: whole, or not at all."""
     with NamedTemporaryFile(dir=file.parent, delete=False) as whole:
         try:
-            pyarrow.parquet.write_table(results, whole, compression="snappy", store_schema=False)
+            writer = pyarrow.parquet.ParquetWriter(whole, results.schema, compression="snappy", store_schema=False)
+            with writer:
+                writer.write_table(results)
+                writer.add_key_value_metadata(results.schema.metadata)
             whole.close()
             os.replace(whole.name, file)
         except BaseException:

@@ -7,7 +7,7 @@ import math
 import threading
 import time
 from array import array
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
     fmi2CoSimulation,
 )
+from fmpy.model_description import ModelVariable
 
 from .quantity import ANGLE, Column, QuantityError
 from .recipe import Recipe, RunError
@@ -82,17 +83,17 @@ class Unit:
 class Selection:
     """Outputs of one type, read together."""
 
-    def __init__(self, call, kind, variables):
+    def __init__(self, call: Callable[..., int], kind: type, variables: list[ModelVariable]):
         self.call = call
         self.names = [variable.name for variable in variables]
         self.references = (ctypes.c_uint * len(variables))(*(variable.valueReference for variable in variables))
         self.buffer = (kind * len(variables))()
         self.rows = array("d" if kind is ctypes.c_double else "i")
 
-    def read(self, component) -> None:
+    def read(self, component: int) -> None:
         self.call(component, self.references, len(self.names), self.buffer)
 
-    def record(self, component) -> None:
+    def record(self, component: int) -> None:
         self.read(component)
         self.rows.frombytes(bytes(self.buffer))
 
@@ -114,13 +115,13 @@ class Instance:
         self.callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
         self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self.settings = settings
-        self.component = None
+        self.component: int | None = None
         calls = {
             "Real": (self.slave.fmi2GetReal, ctypes.c_double),
             "Integer": (self.slave.fmi2GetInteger, ctypes.c_int),
             "Boolean": (self.slave.fmi2GetBoolean, ctypes.c_int),
         }
-        groups: dict[str, list] = {kind: [] for kind in calls}
+        groups: dict[str, list[ModelVariable]] = {kind: [] for kind in calls}
         for name in names:
             if name not in unit.outputs:
                 raise RunError(f"this FMU gives no `{name}` to count")
@@ -225,7 +226,7 @@ class Instance:
         else:
             self.slave.fmi2SetInteger(self.component, reference, 1, (ctypes.c_int * 1)(int(value)))
 
-    def _try(self, call: str, function, *arguments) -> None:
+    def _try(self, call: str, function: Callable[..., object], *arguments: object) -> None:
         try:
             function(*arguments)
         except FMICallException as error:
@@ -239,7 +240,7 @@ class Instance:
     def _because(self) -> str:
         return "" if self.said is None else f": {self.said}"
 
-    def _log(self, _environment, _name, _status, _category, message) -> None:
+    def _log(self, _environment: object, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
         self.said = message.decode(errors="replace")
 
 
