@@ -56,7 +56,7 @@ def test_indices_of_a_sum_are_the_shares_of_its_variance(write, tmp_path):
         (REACH + "[grid]\n\"slider.mass\" = [0.1, 0.2]\n", BOUNDS, 8, "grid"),
         (REACH, BOUNDS, 12, "power of two"),
         (REACH, {"crank.length": (0.05, 0.05)}, 8, "not below"),
-        (REACH, {"crank.length": (0.05, 0.3)}, 2, "runs failed"),
+        (BALANCE.replace("[run]", 'table = "design.csv"\n[run]'), {"crank.length": (0.13, 0.3)}, 2, "runs failed"),
     ],
 )
 def test_what_cannot_be_analysed_is_told(write, tmp_path, text, bounds, samples, word):

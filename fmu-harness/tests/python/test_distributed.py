@@ -27,7 +27,7 @@ CLIENT = "import sys\nfrom distributed import Client\nfrom slidercrank import di
 @pytest.fixture(scope="module")
 def client():
     with LocalCluster(n_workers=3, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
-        client.wait_for_workers(3)
+        client.wait_for_workers(3, timeout=30)
         yield client
 
 
@@ -72,7 +72,7 @@ def test_workers_that_are_killed_lose_nothing(write, tmp_path, client, victims):
     killer.start()
     found = distributed.run(file, fmu("wornpin"), client, tmp_path / "dask")
     killer.join()
-    client.wait_for_workers(3)
+    client.wait_for_workers(1, timeout=30)
     assert not set(before) & set(client.run(os.getpid).values())
     assert sorted(finished(journal)) == list(range(40))
     assert bits(found) == bits(study(file, output=tmp_path / "sweep"))

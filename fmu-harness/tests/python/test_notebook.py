@@ -6,7 +6,8 @@ from nbclient import NotebookClient
 from slidercrank.source import home
 
 
-def test_every_cell_runs_and_three_figures_are_drawn(tmp_path):
+def test_every_cell_runs_and_three_figures_are_drawn(tmp_path, monkeypatch):
+    monkeypatch.delenv("MPLBACKEND", raising=False)
     notebook = nbformat.read(home() / "fmu-harness/python/example.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells)
     nbformat.validate(notebook)
