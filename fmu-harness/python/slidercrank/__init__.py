@@ -1,0 +1,12 @@
+"""The slider-crank FMU from Python: scenes, runs, studies.
+
+Nothing here knows mechanics. Packaging and studies are done by the program in the source tree, runs by the
+packaged FMU in FMPy. `slidercrank.distributed` runs a study on a Dask cluster, `slidercrank.sensitivity` and
+`slidercrank.optimise` ask what a study's parameters do, `slidercrank.plots` draws.
+"""
+
+from .simulation import simulate
+from .source import SourceError, package, scenes
+from .study import Plan, plan, study
+
+__all__ = ["Plan", "SourceError", "package", "plan", "scenes", "simulate", "study"]

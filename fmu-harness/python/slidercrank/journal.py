@@ -1,0 +1,88 @@
+"""Finished runs, a line each, in the file that `sweep` keeps: either goes on where the other was stopped."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+
+
+class JournalError(RuntimeError):
+    """Why a journal cannot be used."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a run: its quantities, or why it has none."""
+
+    values: tuple[float, ...] | None = None
+    failed: str | None = None
+
+    def told(self) -> dict[str, object]:
+        return {"failed": self.failed} if self.values is None else {"values": list(self.values)}
+
+
+def path(directory: Path, study: str) -> Path:
+    """Where the journal of a study is."""
+    return directory / f"sweep-{study}.jsonl"
+
+
+class Journal:
+    """The runs of one study that are finished. A line that was cut off is dropped when it is opened."""
+
+    def __init__(self, file: Path, digest: str):
+        self.outcomes: dict[int, Outcome] = {}
+        text = file.read_bytes() if file.exists() else b""
+        whole = text[: text.rfind(b"\n") + 1]
+        for number, row in enumerate(whole.splitlines(), 1):
+            try:
+                line = json.loads(row)
+                if number == 1:
+                    known = line.get("digest")
+                else:
+                    values = line.get("values")
+                    outcome = Outcome(tuple(map(float, values)) if values is not None else None, line.get("failed"))
+                    self.outcomes[int(line["run"])] = outcome
+            except (ValueError, KeyError, TypeError, AttributeError) as error:
+                if number > 1:
+                    raise JournalError(f"{file}, line {number} is damaged") from error
+                known = None
+            if number == 1 and known != digest:
+                raise JournalError(f"{file} belongs to another study; give another directory, or remove it")
+        self._file = os.open(file, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+        os.ftruncate(self._file, len(whole))
+        if not whole:
+            self._write({"digest": digest})
+
+    def __enter__(self) -> Journal:
+        return self
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        os.close(self._file)
+
+    def __len__(self) -> int:
+        return len(self.outcomes)
+
+    def open_runs(self, count: int) -> Iterator[int]:
+        """Numbers below `count` that are not finished."""
+        return (run for run in range(count) if run not in self.outcomes)
+
+    def add(self, run: int, outcome: Outcome) -> None:
+        """Adds a run, in one write."""
+        self._write({"run": run, **outcome.told()})
+        self.outcomes[run] = outcome
+
+    def _write(self, line: dict[str, object]) -> None:
+        text = json.dumps(line, separators=(",", ":"), ensure_ascii=False, allow_nan=False) + "\n"
+        data = text.encode()
+        if os.write(self._file, data) != len(data):
+            raise JournalError("cannot write the journal: no space is left")
+
+
+def values_of(outcome: Outcome, count: int) -> tuple[float, ...]:
+    """The quantities of a run; not numbers if it failed."""
+    return outcome.values if outcome.values is not None else (math.nan,) * count

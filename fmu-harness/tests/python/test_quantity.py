@@ -1,0 +1,49 @@
+"""Reductions by their definitions, and sums in the order of the values."""
+
+import math
+
+import numpy
+import pytest
+
+from slidercrank.quantity import ANGLE, REDUCTIONS, Quantity, QuantityError, passages, total
+
+TURNS = numpy.arange(41) / 10
+COLUMNS = {ANGLE: math.tau * TURNS, "v": TURNS * TURNS, "f.x": 3 * TURNS, "f.y": -4 * TURNS}
+
+
+def value(of, reduce, at=None, transient=0.0):
+    return Quantity(of, reduce, at).value(COLUMNS, transient)
+
+
+def test_values_are_reduced_after_the_transient():
+    for reduce, wanted in [("min", 9.0), ("max", 16.0), ("range", 7.0), ("last", 16.0), ("peak", 16.0)]:
+        assert value("v", reduce, None, 3.0) == wanted
+    reduced = lambda name, *values: REDUCTIONS[name](numpy.array(values))
+    assert reduced("mean", 1.0, 2.0, 6.0) == 3.0
+    assert reduced("deviation", 1.0, 2.0, 6.0) == math.sqrt(7)
+    assert reduced("rms", 1.0, -7.0) == 5.0
+    assert reduced("peak", -3.0, 2.0) == 3.0
+
+
+def test_a_sum_runs_from_the_first_to_the_last():
+    values = numpy.array([1e16, 1.0, 1.0, -1e16] * 40)
+    wanted = 0.0
+    for value in values:
+        wanted += value
+    assert total(values) == wanted != math.fsum(values)
+
+
+def test_a_vector_counts_by_its_length():
+    assert value("f", "last") == pytest.approx(20.0, rel=1e-15)
+
+
+def test_passages_are_interpolated_forwards_and_backwards():
+    angles, values = numpy.array([0.0, 2.0, 4.0, 6.0, 4.0, 2.0]), numpy.arange(6.0)
+    assert passages(angles, values, 3.0).tolist() == [1.5, 4.5]
+    assert len(passages(angles, values, 3.0 - math.tau)) == 2
+
+
+def test_what_is_not_there_is_named():
+    for of, at, transient, word in [("w", None, 0.0, "`w`"), ("v", 1.0, 3.9, "NaN"), ("v", None, 9.0, "0 values")]:
+        with pytest.raises(QuantityError, match=word):
+            value(of, "mean", at, transient)

@@ -1,0 +1,53 @@
+"""Communication points and inputs, by their formulas."""
+
+import math
+
+import pytest
+
+from slidercrank import plan
+from slidercrank.recipe import Input, RunError, wrapped
+
+from conftest import PRESS, WORN_PIN
+
+POINTS = [[1.0, 10.0], [3.0, 30.0], [4.0, 0.0]]
+
+
+def test_over_time_the_ends_hold():
+    own = Input.of({"name": "slider.load", "against": "time", "points": POINTS})
+    assert [own.value(time, 0.0) for time in (0.0, 1.0, 2.0, 3.0, 3.5, 4.0, 9.0)] == [10, 10, 20, 30, 15, 0, 0]
+
+
+@pytest.mark.parametrize("turns", [-2, 0, 5])
+def test_over_the_crank_angle_the_turn_repeats(turns):
+    own = Input.of({"name": "slider.load", "against": "crank.angle", "points": POINTS})
+    middle = (4.0 + math.tau + 1.0) / 2.0
+    for angle, value in [(2.0, 20.0), (3.5, 15.0), (middle, 5.0)]:
+        # Rounding of the wrapped angle, a few ulp of 5 turns, times the steepest slope.
+        assert own.value(0.0, angle + turns * math.tau) == pytest.approx(value, abs=30 * 32 * 2.3e-16)
+
+
+def test_an_angle_just_below_zero_is_a_whole_turn():
+    assert wrapped(-1e-300) == math.tau and wrapped(-0.0) == 0.0 and wrapped(-1.0) == math.tau - 1.0
+
+
+def test_points_are_whole_multiples_of_the_step_and_the_last_one_ends_in_time(write):
+    recipe = plan(write(WORN_PIN)).recipe
+    intervals = list(recipe.intervals(3.5 * recipe.step))
+    assert [now for now, _ in intervals] == [point * recipe.step for point in range(4)]
+    assert [then for _, then in intervals] == [point * recipe.step for point in (1, 2, 3)] + [3.5 * recipe.step]
+    # A sliver of a step is no step.
+    assert len(list(recipe.intervals(4.0000001 * recipe.step))) == 4
+
+
+def test_a_plan_has_the_runs_and_what_they_have_in_common(write):
+    planned = plan(write(PRESS))
+    assert list(planned.runs.columns) == ["crank.speed_start", "joint.T.clearance"]
+    assert planned.runs["joint.T.clearance"].tolist() == [5e-6, 15e-6] * 2
+    recipe = planned.recipe
+    assert (recipe.name, recipe.scene, recipe.turns, recipe.step) == ("tool", "press", 1.1, 1e-4)
+    assert [own.wants_angle for own in recipe.inputs] == [False, True]
+    assert recipe.origin["study"] == PRESS and list(recipe.keep) == ["mean", "tilt", "torque", "way"]
+    # Ten times what the turns take at the speed of the start.
+    assert recipe.latest({"crank.speed_start": -math.tau}) == pytest.approx(11.0)
+    with pytest.raises(RunError, match="no turns"):
+        recipe.latest({"crank.speed_start": 0.0})
