@@ -71,7 +71,7 @@ impl Campaign {
     }
 
     /// The trial of a scene by its number.
-    fn outcome(&self, number: u64) -> Outcome {
+    pub fn outcome(&self, number: u64) -> Outcome {
         let (refused, mut tree) = self.draw(number);
         let file = tree.current();
         let verdict = verdict(&file, number);

@@ -6,9 +6,9 @@
 
 use slidercrank::fmi::variables::{Access, VARIABLES};
 use slidercrank::model::signals::{Inputs, Outputs};
-use slidercrank::scene::Method;
 use slidercrank::scene::read::SceneFile;
-use slidercrank::simulation::{Simulation, SimulationError, Snapshot};
+use slidercrank::scene::{Method, Scene};
+use slidercrank::simulation::{Simulation, SimulationError, Snapshot, System};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How a trial ended.
@@ -39,8 +39,6 @@ const COMPARED: usize = 4;
 const SEEDED: usize = 8;
 /// Largest tolerance at which the balance of energy is held to anything.
 const TIGHT: f64 = 1e-6;
-/// [rad/s] A crank that turns more slowly may be taken for one that stands: the error norm's weight without tolerance.
-const SLOW: f64 = 1e-2;
 /// Most share of the energy turned over that its balance may be off by. Works and losses are not weighed by the error
 /// norm: of a scene with a body of a milligram, whose velocities are told to 1e-5 m/s, this much was measured.
 const BALANCE: f64 = 1e-3;
@@ -98,8 +96,6 @@ struct Trial<'a> {
     residual: f64,
     /// [J] Energy turned over.
     turned_over: f64,
-    /// [J] Energy of a motion that is as slow as just noticeable.
-    noise: f64,
 }
 
 /// A saved state and what the outputs were at the communication points after it.
@@ -114,8 +110,7 @@ impl<'a> Trial<'a> {
     fn run(file: &'a SceneFile, terms: Terms) -> Result<(), Stop> {
         let inputs = inputs(file, 0.0, file.scene.crank.angle_start);
         let simulation = Simulation::start(&file.scene, 0.0, inputs).map_err(Stop::Ended)?;
-        let mut trial =
-            Self { file, simulation, inputs, outputs: Outputs::default(), residual: 0.0, turned_over: 0.0, noise: 0.0 };
+        let mut trial = Self { file, simulation, inputs, outputs: Outputs::default(), residual: 0.0, turned_over: 0.0 };
         trial.look(0)?;
         let points = trial.points();
         let save_at = (terms.saved_at * points as f64) as usize;
@@ -191,10 +186,6 @@ impl<'a> Trial<'a> {
         let stored = energy.kinetic.abs() + energy.gravity.abs() + energy.elastic.abs() + energy.contact.abs();
         let moved = energy.torque_work.abs() + energy.load_work.abs() + energy.dissipated.abs();
         self.turned_over = self.turned_over.max(stored + moved);
-        let speed = self.outputs.crank.speed;
-        if speed != 0.0 {
-            self.noise = self.noise.max(energy.kinetic * (SLOW / speed).powi(2));
-        }
         Ok(())
     }
 
@@ -242,13 +233,24 @@ impl<'a> Trial<'a> {
     fn balance(&self) -> Result<(), Stop> {
         let solver = &self.file.scene.solver;
         let share = if solver.method == Method::Rodas4 { IMPLICIT_BALANCE } else { BALANCE };
-        let bound = share * self.turned_over + self.noise;
-        if solver.method.has("fixed step") || solver.tolerance > TIGHT || self.residual <= bound {
+        let weighed = !solver.method.has("fixed step") && solver.tolerance <= TIGHT;
+        if !weighed || self.residual <= share * self.turned_over + noticeable(&self.file.scene) {
             return Ok(());
         }
         let (residual, turned_over) = (self.residual, self.turned_over);
         Err(self.failed(format!("the balance is off by {residual:e} J of {turned_over:e} J")))
     }
+}
+
+/// [J] Energy of a motion that the error norm just notices, whatever the tolerance: below it, a balance means nothing.
+fn noticeable(scene: &Scene) -> f64 {
+    let Ok(system) = System::start(scene, 0.0, Inputs::default()) else { return 0.0 };
+    let positions = system.size().degrees_of_freedom;
+    let [mut y, mut scales] = [(); 2].map(|()| vec![0.0; system.size().states]);
+    system.write_start(&mut y);
+    system.write_scales(&mut scales);
+    y[positions..2 * positions].copy_from_slice(&scales[positions..2 * positions]);
+    system.outputs(0.0, &y).energy.kinetic
 }
 
 /// Every real output with its name.
