@@ -92,6 +92,21 @@ pub struct Case {
     pub file: SceneFile,
 }
 
+/// Factors of clearance and speed.
+const FACTORS: [f64; 5] = [0.25, 0.5, 1.0, 1.5, 2.0];
+
+/// Everything that a scene is compared with, by what differs.
+pub fn comparisons(file: &SceneFile) -> Vec<(&'static str, Vec<Case>)> {
+    let mut parts = vec![
+        ("joints with play", sixteen(file)),
+        ("clearances", clearances(file, &FACTORS)),
+        ("speed", speeds(file, &FACTORS)),
+        ("rod", rods(file)),
+    ];
+    parts.retain(|(_, cases)| !cases.is_empty());
+    parts
+}
+
 /// The sixteen choices of joints with play, each joint with its own clearance; the scene's rod.
 pub fn sixteen(file: &SceneFile) -> Vec<Case> {
     (0..16)

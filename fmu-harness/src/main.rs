@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 use fmu_harness::command::{
-    Accuracy, Campaign, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Run, Ssp, Sweep,
+    Accuracy, Campaign, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Report, Run, Ssp, Sweep,
 };
 use std::process::ExitCode;
 
@@ -39,6 +39,8 @@ enum Command {
     Precision(Precision),
     /// Times single communication steps
     Realtime(Realtime),
+    /// Makes one page of a scene: moving, with figures that can be zoomed
+    Report(Report),
     /// Puts scenes drawn by lot to the test
     Campaign(Campaign),
     /// Writes the press with its controller as an SSP package
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
         Some(Command::Peers(peers)) => peers.execute(),
         Some(Command::Precision(precision)) => precision.execute(),
         Some(Command::Realtime(realtime)) => realtime.execute(),
+        Some(Command::Report(report)) => report.execute(),
         Some(Command::Campaign(campaign)) => campaign.execute(),
         Some(Command::Ssp(ssp)) => ssp.execute(),
         Some(Command::Sweep(sweep)) => sweep.execute(),

@@ -1,7 +1,7 @@
 //! `accuracy`: what play does to the slider's motion.
 
 use super::{out_directory, shown};
-use crate::accuracy::{Case, Plan, clearances, rods, sixteen, speeds};
+use crate::accuracy::{Plan, comparisons};
 use crate::report::accuracy as report;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
@@ -9,9 +9,6 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::path::PathBuf;
-
-/// Factors of clearance and speed.
-const FACTORS: [f64; 5] = [0.25, 0.5, 1.0, 1.5, 2.0];
 
 /// Error of the slider's position, velocity and acceleration against the ideal mechanism at equal crank angle.
 ///
@@ -40,18 +37,13 @@ impl Accuracy {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let Scenario { name, file, .. } = Scenario::find(&self.scene)?;
-        let parts: [(&str, Vec<Case>); 4] = [
-            ("joints with play", sixteen(&file)),
-            ("clearances", clearances(&file, &FACTORS)),
-            ("speed", speeds(&file, &FACTORS)),
-            ("rod", rods(&file)),
-        ];
+        let parts = comparisons(&file);
         let plan = Plan { transient: self.transient, turns: self.turns as usize };
         let cases = parts.iter().map(|(_, cases)| cases.len() as u64).sum();
         let style = ProgressStyle::with_template("{wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4} (eta {eta})")?;
         let bar = ProgressBar::new(cases).with_style(style);
         let (mut page, mut all, mut found) = (String::new(), Vec::new(), Vec::new());
-        for (heading, cases) in parts.into_iter().filter(|(_, cases)| !cases.is_empty()) {
+        for (heading, cases) in parts {
             let measured = plan.measure_all(&cases, || bar.inc(1));
             let table = report::table(heading, &cases, &measured);
             bar.suspend(|| println!("{}", table.print()));

@@ -25,7 +25,7 @@ const PATIENCE: f64 = 20.0;
 const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
 
 /// Runs a scene, or any FMI 2.0 co-simulation FMU.
-#[derive(Args)]
+#[derive(Args, Default)]
 pub struct Run {
     /// Scene: the name of a shipped one, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
@@ -69,7 +69,7 @@ impl Run {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let subject = self.subject(&out)?;
-        let experiment = self.experiment(&subject)?;
+        let experiment = self.experiment(&subject.fmu, subject.scene.as_ref())?;
         let actual = watched(&subject.fmu, &experiment, &subject.name)?;
         let csv = out.join(format!("{}.csv", subject.name));
         let mut written = vec![csv.clone()];
@@ -78,7 +78,7 @@ impl Run {
             let ideal = with_ideal_joints(&subject.fmu, &experiment)?;
             let pair = Pair { title: &subject.name, actual: &actual, ideal: &ideal };
             written.extend(draw(&pair, &out)?);
-            print!("\n{}\n", summary::mechanism(&pair)?);
+            print!("\n{}\n", summary::mechanism(&pair)?.map(|table| table.print()).join("\n"));
         } else {
             print!("\n{}\n", summary::outputs(subject.fmu.description(), &actual)?);
         }
@@ -104,8 +104,7 @@ impl Run {
     }
 
     /// What was asked for, else what the scene says, else what the FMU suggests.
-    fn experiment(&self, subject: &Subject) -> Result<Experiment> {
-        let Subject { fmu, scene, .. } = subject;
+    fn experiment(&self, fmu: &Fmu, scene: Option<&SceneFile>) -> Result<Experiment> {
         let suggested = |name: &str| fmu.description().experiment.number(name);
         let start = suggested("startTime").unwrap_or(0.0);
         let end = match (self.stop, self.turns, scene) {
@@ -121,7 +120,7 @@ impl Run {
         };
         let (Until::Time(latest) | Until::Turns { latest, .. }) = until;
         ensure!(latest > start, "the end, {latest} s, is not after the start, {start} s");
-        let step = self.step.or(scene.as_ref().map(|scene| scene.run.step)).or_else(|| suggested("stepSize"));
+        let step = self.step.or(scene.map(|scene| scene.run.step)).or_else(|| suggested("stepSize"));
         let step = step.unwrap_or((latest - start) / 1000.0);
         let inputs = match (&self.input, scene) {
             (Some(file), _) => inputs::of_table(&Trajectory::read_csv(file)?)?,
@@ -161,6 +160,13 @@ fn with_ideal_joints(fmu: &Fmu, experiment: &Experiment) -> Result<Recording> {
     let ideal = |joint: &str| Setting { name: format!("joint.{joint}.model"), value: "1".into() };
     experiment.settings.extend(JOINTS.map(ideal));
     watched(fmu, &experiment, "the same with ideal joints").context("with ideal joints")
+}
+
+/// A scene's own run through its packaged file, and the same with every joint ideal.
+pub(super) fn beside_ideal(fmu: &Fmu, scene: &SceneFile, name: &str) -> Result<[Recording; 2]> {
+    let run = Run::default();
+    let experiment = run.experiment(fmu, Some(scene))?;
+    Ok([watched(fmu, &experiment, name)?, with_ideal_joints(fmu, &experiment)?])
 }
 
 /// Runs with a progress bar; log lines of the FMU go above it.

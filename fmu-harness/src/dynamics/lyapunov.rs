@@ -43,9 +43,12 @@ impl Probe {
     /// Measures the exponent of `flow` by `neighbour`, another flow of the same system, wherever that is.
     ///
     /// # Errors
-    /// If a flow cannot go on, or neighbours never agree on their modes.
+    /// If nothing is free, a flow cannot go on, or neighbours never agree on their modes.
     pub fn measure<F: Flow>(&self, flow: &mut F, neighbour: &mut F, mut tick: impl FnMut()) -> Result<Exponent> {
         let start = flow.point();
+        if start.coordinates.is_empty() {
+            bail!("nothing is free to move otherwise, so that the motion has no neighbours");
+        }
         let mut near = start.clone();
         // Alternating signs: no symmetry of the system leaves such a direction as it is.
         let sign = |i: usize| if i % 3 == 1 { -1.0 } else { 1.0 };

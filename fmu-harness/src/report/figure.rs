@@ -8,6 +8,8 @@ use std::f64::consts::TAU;
 
 /// Turns shown: the last ones, when what the start was like is forgotten.
 const TURNS_SHOWN: f64 = 2.0;
+/// The abscissa of what is over time.
+pub const TURNS: &str = "crank turns";
 /// Turns of journal path shown.
 const PATH_TURNS: f64 = 3.0;
 
@@ -31,6 +33,13 @@ pub fn slider_motion(pair: &Pair) -> Result<Sheet> {
             pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into()))
         });
     pair.sheet("slider motion", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))
+}
+
+/// Error of the slider's position against the ideal rigid mechanism at the same crank motion.
+pub fn slider_error(pair: &Pair) -> Result<Sheet> {
+    let error = "accuracy.position";
+    let panel = pair.panel(error, "m", "position error", |recording| Ok(recording.column(error)?.into()))?;
+    pair.sheet("slider's position error", vec![panel], 1, (960, 240))
 }
 
 /// Size of the force in every joint.
@@ -89,7 +98,7 @@ fn path(pair: &Pair, joint: &str) -> Result<Panel> {
     let circle = circle.map(|angle| (clearance * angle.cos() * shown.factor, clearance * angle.sin() * shown.factor));
     let [x, y] = ["x", "y"].map(|axis| pair.actual.column(&format!("joint.{joint}.eccentricity.{axis}")));
     let points = x?.iter().zip(y?).map(|(x, y)| (x * shown.factor, y * shown.factor));
-    let first = first_shown(pair.actual, PATH_TURNS)?;
+    let first = first_of_last(pair.actual, PATH_TURNS)?;
     Ok(Panel {
         x_label: shown.axis(&format!("eccentricity of {joint} along the guide")),
         y_label: shown.axis("across"),
@@ -115,12 +124,12 @@ impl Pair<'_> {
         let peak = ideal.iter().chain(&actual).fold(0.0, |peak: f64, value| peak.max(value.abs()));
         let shown = Shown::of(unit, peak);
         let curve = |role: Role, recording: &Recording, values: Vec<f64>| -> Result<Curve> {
-            let first = first_shown(recording, TURNS_SHOWN)?;
+            let first = first_shown(recording)?;
             let points = turns(recording)?.into_iter().zip(values.iter().map(|value| value * shown.factor));
             Ok(Curve { role, points: points.skip(first).collect(), mark: Mark::Line })
         };
         let curves = vec![curve(Role::Ideal, self.ideal, ideal)?, curve(Role::Actual, self.actual, actual)?];
-        Ok(Panel { x_label: "crank turns".into(), y_label: shown.axis(name), curves, square: false })
+        Ok(Panel { x_label: TURNS.into(), y_label: shown.axis(name), curves, square: false })
     }
 
     /// Panels above one another share the lowest one's abscissa.
@@ -139,14 +148,19 @@ pub fn force(recording: &Recording, joint: &str) -> Result<Vec<f64>> {
 }
 
 /// Turns of the crank since the start, forwards.
-fn turns(recording: &Recording) -> Result<Vec<f64>> {
+pub(super) fn turns(recording: &Recording) -> Result<Vec<f64>> {
     let angle = recording.column(ANGLE)?;
     let first = angle.first().copied().unwrap_or_default();
     Ok(angle.iter().map(|angle| (angle - first).abs() / TAU).collect())
 }
 
+/// Number of the first row that curves over time show.
+pub(super) fn first_shown(recording: &Recording) -> Result<usize> {
+    first_of_last(recording, TURNS_SHOWN)
+}
+
 /// Number of the first row of the last `shown` turns.
-fn first_shown(recording: &Recording, shown: f64) -> Result<usize> {
+fn first_of_last(recording: &Recording, shown: f64) -> Result<usize> {
     let turns = turns(recording)?;
     let last = turns.last().copied().unwrap_or_default();
     // A thousandth of a turn more, so that rounding does not cut off the first row.

@@ -1,4 +1,4 @@
-//! Panels on one sheet, as SVG, and panels of curves. With `bars` and `loglog`, the only file that knows the plotting
+//! Panels on one sheet, as SVG, and panels of curves. With `bars` and `loglog`, the only file that knows the drawing
 //! library.
 
 use super::thinning::thinned;
@@ -9,6 +9,8 @@ use std::ops::Range;
 
 /// Drawing units a pixel: the library rounds to whole units, so that a fine grid keeps curves smooth.
 pub(super) const FINE: u32 = 8;
+/// Curves are thinned to so many points.
+const MOST_POINTS: usize = 4000;
 /// Radius of a dot [drawing unit].
 const DOT: u32 = 9;
 /// Room for numbers and names of the axes [pixel].
@@ -51,16 +53,32 @@ const MEMBERS: [RGBColor; 8] = [
 ];
 
 impl Role {
-    pub(super) fn style(self) -> ShapeStyle {
-        let (color, width) = match self {
-            Self::Actual => (RGBColor(24, 84, 158), 1.1),
-            Self::Ideal => (RGBColor(247, 181, 94), 3.2),
-            Self::Limit => (RGBColor(196, 62, 62), 1.4),
-            Self::Whole => (RGBColor(24, 84, 158), 10.0),
-            Self::Part => (RGBColor(247, 181, 94), 10.0),
-            Self::Member(number) => (MEMBERS[number % MEMBERS.len()], 1.8),
+    /// Red, green, blue.
+    pub(super) fn colour(self) -> [u8; 3] {
+        let RGBColor(red, green, blue) = match self {
+            Self::Actual | Self::Whole => RGBColor(24, 84, 158),
+            Self::Ideal | Self::Part => RGBColor(247, 181, 94),
+            Self::Limit => RGBColor(196, 62, 62),
+            Self::Member(number) => MEMBERS[number % MEMBERS.len()],
         };
-        ShapeStyle { color: color.to_rgba(), filled: false, stroke_width: (width * f64::from(FINE)) as u32 }
+        [red, green, blue]
+    }
+
+    /// [pixel] Of a line.
+    pub(super) fn width(self) -> f64 {
+        match self {
+            Self::Actual => 1.1,
+            Self::Ideal => 3.2,
+            Self::Limit => 1.4,
+            Self::Whole | Self::Part => 10.0,
+            Self::Member(_) => 1.8,
+        }
+    }
+
+    pub(super) fn style(self) -> ShapeStyle {
+        let [red, green, blue] = self.colour();
+        let color = RGBColor(red, green, blue).to_rgba();
+        ShapeStyle { color, filled: false, stroke_width: (self.width() * f64::from(FINE)) as u32 }
     }
 
     /// Of a point: hollow where the colours come round again.
@@ -225,7 +243,8 @@ impl Paint for Panel {
                 chart.draw_series(curve.points.iter().map(dot))?;
                 continue;
             }
-            let points = if curve.mark == Mark::Path { curve.points.clone() } else { thinned(&curve.points) };
+            let points =
+                if curve.mark == Mark::Path { curve.points.clone() } else { thinned(&curve.points, MOST_POINTS) };
             chart.draw_series(LineSeries::new(points, curve.role.style()))?;
         }
         Ok(())

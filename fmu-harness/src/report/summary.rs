@@ -9,7 +9,7 @@ use anyhow::Result;
 use std::f64::consts::TAU;
 
 /// The slider-crank: peaks beside the ideal ones', errors, work and time.
-pub fn mechanism(pair: &Pair) -> Result<String> {
+pub fn mechanism(pair: &Pair) -> Result<[Table; 3]> {
     let actual = pair.actual;
     let mut peaks = Table::default();
     peaks.row(["peak", "this", "ideal", "ratio"]);
@@ -39,7 +39,7 @@ pub fn mechanism(pair: &Pair) -> Result<String> {
         work.row([format!("solver {name}"), grouped(last(&format!("solver.{name}"))?)]);
     }
     cost(&mut work, &actual.cost, actual.trajectory.len());
-    Ok(format!("{}\n{}\n{}", peaks.print(), errors.print(), work.print()))
+    Ok([peaks, errors, work])
 }
 
 fn peak(table: &mut Table, name: &str, unit: &str, columns: [Result<Vec<f64>>; 2]) -> Result<()> {

@@ -1,7 +1,7 @@
 //! Text in columns for the terminal.
 
 /// Lines of cells: the first column flush left, the others flush right.
-#[derive(Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table(Vec<Vec<String>>);
 
 impl Table {
@@ -13,6 +13,11 @@ impl Table {
     /// Adds a line of as many cells as there are.
     pub fn line(&mut self, cells: Vec<String>) {
         self.0.push(cells);
+    }
+
+    /// Its lines, cell by cell.
+    pub fn lines(&self) -> &[Vec<String>] {
+        &self.0
     }
 
     /// The lines, aligned.

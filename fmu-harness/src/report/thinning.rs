@@ -1,11 +1,8 @@
 //! Curves with fewer points that look the same.
 
-/// Curves are thinned to so many points, peaks kept.
-const MOST_POINTS: usize = 4000;
-
-/// At most `MOST_POINTS` points in order: of every bucket the first, the lowest, the highest and the last.
-pub fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= MOST_POINTS {
+/// About `most` points in order, peaks kept: of every bucket the first, the lowest, the highest and the last.
+pub fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
+    if points.len() <= most {
         return points.to_vec();
     }
     let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
@@ -15,7 +12,7 @@ pub fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
         kept.sort_by(|a, b| a.0.total_cmp(&b.0));
         kept
     };
-    points.chunks(points.len().div_ceil(MOST_POINTS / 4)).flat_map(of_bucket).collect()
+    points.chunks(points.len().div_ceil(most / 4)).flat_map(of_bucket).collect()
 }
 
 #[cfg(test)]
@@ -26,8 +23,8 @@ mod tests {
     fn thinning_keeps_ends_peaks_and_order() {
         let mut points: Vec<(f64, f64)> = (0..50_000).map(|i| (f64::from(i), f64::from(i % 7))).collect();
         (points[31_234].1, points[44_321].1) = (1e6, -1e6);
-        let thin = thinned(&points);
-        assert!(thin.len() <= MOST_POINTS + 4 && thin.is_sorted_by(|a, b| a.0 <= b.0));
+        let thin = thinned(&points, 4000);
+        assert!(thin.len() <= 4000 + 4 && thin.is_sorted_by(|a, b| a.0 <= b.0));
         assert!(thin.contains(&points[31_234]) && thin.contains(&points[44_321]));
         assert_eq!((thin.first(), thin.last()), (points.first(), points.last()));
     }

@@ -5,22 +5,31 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
+#[macro_use]
+#[path = "../pytest/mod.rs"]
+mod pytest;
+
 use fmu_harness::package::{Stock, build::workspace};
-use fmu_harness::python::{Missing, environment, sources};
+use fmu_harness::python::sources;
 use fmu_harness::scenes::Scenario;
-use std::io::Write;
+use pytest::Suite;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::OnceLock;
 
-/// The environment's interpreter, made once for all tests.
-fn python() -> &'static Path {
-    static PYTHON: OnceLock<Result<PathBuf, String>> = OnceLock::new();
-    match PYTHON.get_or_init(|| environment("analysis", Missing::Make).map_err(|error| format!("{error:#}"))) {
-        Ok(python) => python,
-        Err(why) => panic!("no Python environment for the tests: {why}"),
-    }
-}
+const PACKAGE: Suite = Suite {
+    environment: "analysis",
+    folder: "python",
+    source: include_str!("main.rs"),
+    variables: || {
+        vec![
+            ("PYTHONPATH", sources().into()),
+            ("SLIDERCRANK_FMUS", packages().into()),
+            ("SLIDERCRANK_HOME", workspace().into()),
+            ("SLIDERCRANK_PROGRAM", env!("CARGO_BIN_EXE_fmu-harness").into()),
+            ("MPLBACKEND", "agg".into()),
+        ]
+    },
+};
 
 /// The scenes that are run, packaged once for all tests.
 fn packages() -> &'static Path {
@@ -37,28 +46,7 @@ fn packages() -> &'static Path {
     })
 }
 
-/// Runs one file of Python tests and fails with its output. What pytest sums up is always shown.
-fn pytest(file: &str) {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python");
-    let mut command = Command::new(python());
-    command.args(["-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--tb=short", "-rfE"]).arg(here.join(file));
-    command.current_dir(&here).env("PYTHONPATH", sources()).env("PYTHONDONTWRITEBYTECODE", "1");
-    command.env("SLIDERCRANK_FMUS", packages()).env("MPLBACKEND", "agg").env_remove("LD_LIBRARY_PATH");
-    command.env("SLIDERCRANK_HOME", workspace()).env("SLIDERCRANK_PROGRAM", env!("CARGO_BIN_EXE_fmu-harness"));
-    let output = command.output().unwrap_or_else(|error| panic!("{} cannot be started: {error}", python().display()));
-    let text = String::from_utf8_lossy(&output.stdout);
-    let summary = text.lines().last().unwrap_or_default();
-    // Not through `print!`, which the test harness swallows when all is well.
-    let _ = writeln!(std::io::stderr(), "{file}: {summary}");
-    assert!(output.status.success(), "{file}\n{text}\n{}", String::from_utf8_lossy(&output.stderr));
-}
-
-/// Each test by its claim, with the file that holds its parts.
-macro_rules! files {
-    ($($claim:ident $file:literal)+) => { $(#[test] fn $claim() { pytest($file); })+ };
-}
-
-files! {
+files! { PACKAGE:
     the_program_is_found_and_called             "test_source.py"
     an_input_is_what_its_formula_says           "test_recipe.py"
     a_quantity_is_what_its_definition_says      "test_quantity.py"
@@ -68,17 +56,4 @@ files! {
     figures_show_what_is_in_the_frame           "test_plots.py"
     the_notebook_runs                           "test_notebook.py"
     the_package_can_be_installed                "test_install.py"
-}
-
-/// Files that nobody runs would be believed.
-#[test]
-fn every_python_test_file_has_its_test_here() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python");
-    let source = include_str!("main.rs");
-    for entry in std::fs::read_dir(here).expect("the folder of this test").flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if name.starts_with("test_") {
-            assert!(source.contains(&format!("\"{name}\"")), "{name} is not run");
-        }
-    }
 }

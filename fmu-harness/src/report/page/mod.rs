@@ -1,0 +1,149 @@
+//! One page that shows a scene: HTML that needs nothing else, with the mechanism moving and figures that can be zoomed.
+//!
+//! Its looks are in `templates/`: `report.html`, `report.css` and the moving mechanism, `report.js`.
+
+pub mod calls;
+pub mod film;
+
+use super::interactive::{Figure, Interactive, figures, library};
+use super::plot::{Role, Sheet};
+use super::table::Table;
+use anyhow::{Context, Result};
+use askama::Template;
+use film::Film;
+
+/// One part of the page. What it lacks is left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// Heading.
+    pub title: String,
+    /// What it shows, paragraph by paragraph.
+    pub text: Vec<String>,
+    /// What the curves' colours mean.
+    pub legend: Vec<Key>,
+    /// Figures side by side.
+    pub figures: Vec<Figure>,
+    /// Tables below them; the first line of each is its head.
+    pub tables: Vec<Table>,
+    /// Why there is nothing.
+    pub missing: Option<String>,
+}
+
+/// A colour and what it means.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// As CSS reads it.
+    pub colour: String,
+    /// What it means.
+    pub name: String,
+}
+
+impl Section {
+    /// A section that is to be filled.
+    pub fn new(title: &str) -> Self {
+        Self { title: title.into(), ..Self::default() }
+    }
+
+    /// A section that says why it is empty.
+    pub fn missing(title: &str, why: impl Into<String>) -> Self {
+        Self { missing: Some(why.into()), ..Self::new(title) }
+    }
+
+    /// With one paragraph more.
+    pub fn saying(mut self, text: impl Into<String>) -> Self {
+        self.text.push(text.into());
+        self
+    }
+
+    /// With the panels of a sheet more, and its legend.
+    pub fn showing<P: Interactive>(mut self, sheet: &Sheet<P>) -> Self {
+        for (role, name) in &sheet.legend {
+            let key = Key::of(*role, name);
+            if !self.legend.contains(&key) {
+                self.legend.push(key);
+            }
+        }
+        self.figures.extend(figures(sheet));
+        self
+    }
+
+    /// With one table more.
+    pub fn telling(mut self, table: Table) -> Self {
+        self.tables.push(table);
+        self
+    }
+
+    /// What a link calls it.
+    pub fn anchor(&self) -> String {
+        self.title.to_lowercase().replace(' ', "-")
+    }
+}
+
+impl Key {
+    fn of(role: Role, name: &str) -> Self {
+        let [red, green, blue] = role.colour();
+        Self { colour: format!("rgb({red},{green},{blue})"), name: name.into() }
+    }
+}
+
+/// The page.
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    title: &'a str,
+    description: &'a str,
+    version: &'a str,
+    film: String,
+    sections: &'a [Section],
+    style: &'a str,
+    library: String,
+    program: &'a str,
+}
+
+/// The page as HTML: a title, a line about it, the moving mechanism and the sections in their order.
+///
+/// # Errors
+/// If a number of the film is none.
+pub fn page(title: &str, description: &str, film: &Film, sections: &[Section]) -> Result<String> {
+    let page = Page {
+        title,
+        description,
+        version: env!("CARGO_PKG_VERSION"),
+        film: harmless(&serde_json::to_string(film).context("the film as JSON")?),
+        sections,
+        style: include_str!("../../../templates/report.css"),
+        library: library(),
+        program: include_str!("../../../templates/report.js"),
+    };
+    page.render().context("the page")
+}
+
+/// JSON that cannot end the script element that it stands in.
+fn harmless(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+impl Figure {
+    /// Its JSON for a script element.
+    fn data(&self) -> String {
+        harmless(&self.json)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_in_the_data_ends_the_script() {
+        let mut table = Table::default();
+        table.row(["</table><script>alert(1)</script>"]);
+        let section = Section::new("a <b>").saying("x < y").telling(table);
+        let figure = Figure { json: "{\"a\":\"</script>\"}".into(), square: false, over_turns: false };
+        let sections = [Section { figures: vec![figure], ..section }];
+        let html = page("t", "d", &Film::default(), &sections).expect("a page");
+        let own = html.split("<body>").nth(1).expect("a body");
+        assert!(own.contains("x &#60; y") && own.contains("{\"a\":\"\\u003c/script>\"}"), "{own}");
+        assert!(!own.contains("alert(1)</script>"), "{own}");
+    }
+}
