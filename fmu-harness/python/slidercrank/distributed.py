@@ -17,6 +17,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas
+from dask.typing import Key
 from distributed import Client, Future, KilledWorker, as_completed, get_worker
 from distributed.client import FutureCancelledError
 
@@ -93,9 +94,9 @@ class Hand:
 
     def __init__(self, client: Client, planned: Plan, shipment: Shipment, journal: Journal):
         self.client, self.planned, self.shipment, self.journal = client, planned, shipment, journal
-        self.going: dict[str, tuple[int, Future, Future]] = {}
+        self.going: dict[Key, tuple[int, Future[Outcome], Future[Shipment]]] = {}
         self.again: list[int] = []
-        self.shipped: Future | None = None
+        self.shipped: Future[Shipment] | None = None
         self.shipments = 0
         self.seen, self.room = -REFRESH, 0
 
@@ -122,7 +123,7 @@ class Hand:
             self.client.cancel([future for _, future, _ in self.going.values()])
         return lost
 
-    def _taken(self, future: Future, number: int, lost: dict[int, Outcome]) -> Outcome | None:
+    def _taken(self, future: Future[Outcome], number: int, lost: dict[int, Outcome]) -> Outcome | None:
         error = future.exception()
         if isinstance(error, KilledWorker):
             lost[number] = Outcome(failed=f"its workers died, {error.allowed_failures + 1} in all")
@@ -139,19 +140,19 @@ class Hand:
             number = self.again.pop() if self.again else next(waiting, None)
             if number is None:
                 return
-            if self.shipped is None:
-                self._ship()
+            shipped = self.shipped or self._ship()
             row = self.planned.runs.iloc[number]
             settings = {name: float(row[name]) for name in self.planned.runs.columns}
-            future = self.client.submit(one, self.shipped, settings, pure=False)
-            self.going[future.key] = (number, future, self.shipped)
+            future = self.client.submit(one, shipped, settings, pure=False)
+            self.going[future.key] = (number, future, shipped)
             finished.add(future)
 
-    def _ship(self) -> None:
+    def _ship(self) -> Future[Shipment]:
         if self.shipments > SHIPMENTS:
             raise StudyError(f"the cluster has lost all its workers {SHIPMENTS} times; finished runs are in the journal")
-        self.shipped = self.client.scatter(self.shipment, broadcast=True, hash=False)
-        self.shipments += 1
+        shipped: Future[Shipment] = self.client.scatter(self.shipment, broadcast=True, hash=False)
+        self.shipped, self.shipments = shipped, self.shipments + 1
+        return shipped
 
 
 def one(shipment: Shipment, settings: dict[str, float]) -> Outcome:
@@ -163,7 +164,7 @@ def one(shipment: Shipment, settings: dict[str, float]) -> Outcome:
         return Outcome(failed=str(error))
 
 
-_units: dict[str, tuple[TemporaryDirectory, Unit]] = {}
+_units: dict[str, tuple[TemporaryDirectory[str], Unit]] = {}
 _unpacking = threading.Lock()
 
 

@@ -8,6 +8,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import pandas
 
@@ -25,7 +26,7 @@ class Plan:
     """What every run has in common."""
 
 
-def read(file: str | Path) -> dict:
+def read(file: str | Path) -> dict[str, Any]:
     """A study file as it stands, unchecked: `plan` and `study` check it."""
     return tomllib.loads(Path(file).read_text(encoding="utf-8"))
 

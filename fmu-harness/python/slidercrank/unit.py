@@ -32,6 +32,8 @@ UNWATCHED = 8
 """Steps between two looks at the clock."""
 MOST_POINTS = 20_000_000
 """More communication points than this end a run."""
+Number = type[ctypes.c_double] | type[ctypes.c_int]
+"""What a variable is in C."""
 
 _loading = threading.Lock()  # FMPy changes the working directory while it loads a library
 
@@ -83,7 +85,7 @@ class Unit:
 class Selection:
     """Outputs of one type, read together."""
 
-    def __init__(self, call: Callable[..., int], kind: type, variables: list[ModelVariable]):
+    def __init__(self, call: Callable[..., int], kind: Number, variables: list[ModelVariable]):
         self.call = call
         self.names = [variable.name for variable in variables]
         self.references = (ctypes.c_uint * len(variables))(*(variable.valueReference for variable in variables))
@@ -116,7 +118,7 @@ class Instance:
         self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self.settings = settings
         self.component: int | None = None
-        calls = {
+        calls: dict[str, tuple[Callable[..., int], Number]] = {
             "Real": (self.slave.fmi2GetReal, ctypes.c_double),
             "Integer": (self.slave.fmi2GetInteger, ctypes.c_int),
             "Boolean": (self.slave.fmi2GetBoolean, ctypes.c_int),

@@ -6,6 +6,7 @@ use fmu_harness::dynamics::section::stroboscope;
 use fmu_harness::dynamics::verdict::Verdict;
 use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
+use slidercrank::scene::FrictionLaw;
 use slidercrank::scene::read::SceneFile;
 use std::f64::consts::TAU;
 
@@ -57,6 +58,39 @@ fn a_machine_goes_on_from_where_it_was_placed() {
     machine.advance(0.021).expect("it runs");
     // The step sequence is another: the same motion up to the tolerance.
     assert!(machine.point().distance(&first) < 1e-2, "{}", machine.point().distance(&first));
+}
+
+/// Between neighbours that differ in LuGre's bristles alone: δż = −σ0·|v|/g(v)·δz, and far above the Stribeck speed g is
+/// the kinetic coefficient. In a small clearance the journal slides at the bearing's radius times the rod's speed.
+#[test]
+fn a_bristle_belongs_to_the_point_and_forgets_at_the_rate_of_its_law() {
+    const SIGMA0: f64 = 1e4;
+    let frictionless = wornpin(0.02e-3);
+    let mut file = frictionless.clone();
+    let friction = &mut file.scene.joint.c.contact.friction;
+    (friction.law, friction.sigma0, friction.sigma1) = (FrictionLaw::Lugre, SIGMA0, 0.0);
+    let (kinetic, radius) = (friction.coefficient, file.scene.joint.c.radius);
+    let [mut machine, mut without] = [&file, &frictionless].map(|file| Machine::start(file).expect("a machine"));
+    let turn = machine.turn();
+    for machine in [&mut machine, &mut without] {
+        machine.advance(2.1 * turn).expect("it runs");
+    }
+    let point = machine.point();
+    assert_eq!((point.modes.iter().filter(|closed| **closed).count(), point.coordinates.len()), (1, 6));
+    assert_eq!(without.point().coordinates.len(), 5, "positions, their rates, one approach speed");
+    let bristle = 4;
+    let rate = SIGMA0 * radius * machine.outputs().rod.speed.abs() / kinetic;
+    let mut near = point.clone();
+    near.coordinates[bristle] += 0.1;
+    let mut neighbour = Machine::start(&file).expect("a machine");
+    let left = [(&mut machine, &point), (&mut neighbour, &near)].map(|(machine, start)| {
+        machine.place(start);
+        assert_eq!(machine.point(), *start);
+        machine.advance(start.time + 1.0 / rate).expect("it runs");
+        machine.point().coordinates[bristle]
+    });
+    let share = (left[1] - left[0]) / 0.1;
+    assert!((share * std::f64::consts::E - 1.0).abs() < 0.05, "{share} after one time constant of {:e} s", 1.0 / rate);
 }
 
 #[test]

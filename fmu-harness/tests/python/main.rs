@@ -56,4 +56,5 @@ files! { PACKAGE:
     figures_show_what_is_in_the_frame           "test_plots.py"
     the_notebook_runs                           "test_notebook.py"
     the_package_can_be_installed                "test_install.py"
+    the_package_is_typed                        "test_types.py"
 }
