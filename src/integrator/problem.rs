@@ -98,6 +98,19 @@ pub trait Problem<const N: usize> {
     /// Writes all guards. Only positions and modes decide `value`.
     fn guards(&self, modes: &Self::Modes, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]);
 
+    /// Both rates and guards, for a problem that has them cheaper together.
+    fn rates_and_guards(
+        &self,
+        modes: &Self::Modes,
+        t: f64,
+        y: &[f64; N],
+        rates: &mut [f64; N],
+        guards: &mut [Guard; GUARDS],
+    ) {
+        self.rates(modes, t, y, rates);
+        self.guards(modes, t, y, guards);
+    }
+
     /// No motion leads beyond the fall of this guard, nor goes on from a tenth of the guards' scale before it. Every
     /// method locates it.
     fn is_dead_end(&self, _guard: usize) -> bool {

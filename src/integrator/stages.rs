@@ -110,7 +110,8 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     }
 }
 
-/// `sum` = `y` + h·Σ weight_j·k_j; a weight of zero costs nothing.
+/// `sum` = `y` + h·Σ weight_j·k_j; a weight of zero costs nothing. The last rates are added last: what they wait for is
+/// theirs alone.
 #[inline(always)]
 fn combine<const N: usize>(
     sum: &mut [f64; N],
@@ -120,13 +121,19 @@ fn combine<const N: usize>(
     k: &[[f64; N]],
     states: usize,
 ) {
+    let last = k.len() - 1;
+    let weight_of_last = h * weights[last];
     for i in 0..states {
         let mut slope = 0.0;
-        for (weight, k) in weights.iter().zip(k) {
+        for (weight, k) in weights.iter().zip(&k[..last]) {
             if *weight != 0.0 {
                 slope += weight * k[i];
             }
         }
-        sum[i] = y[i] + h * slope;
+        let mut change = h * slope;
+        if weights[last] != 0.0 {
+            change += weight_of_last * k[last][i];
+        }
+        sum[i] = y[i] + change;
     }
 }

@@ -268,8 +268,10 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     {
         let modes = self.memory.start.modes;
         let Attempt { y, rates, .. } = &mut self.made;
-        if !M::GIVES_RATES {
-            problem.rates(&modes, t, y, rates);
+        if M::GIVES_RATES {
+            problem.guards(&modes, t, y, &mut self.guards);
+        } else {
+            problem.rates_and_guards(&modes, t, y, rates, &mut self.guards);
             self.memory.statistics.evaluations += 1;
         }
         let end = Front { t, y: *y, rates: *rates, modes };
@@ -278,6 +280,5 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         self.memory.front = end;
         self.memory.crossings = 0;
         self.correction = None;
-        problem.guards(&modes, t, &self.made.y, &mut self.guards);
     }
 }

@@ -197,9 +197,12 @@ impl<const D: usize> Real for Dual<D> {
     fn copysign(self, sign: Self) -> Self {
         if self.value.is_sign_negative() == sign.value.is_sign_negative() { self } else { -self }
     }
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = Real::sin_cos(self.value);
-        (self.chained(sin, cos), self.chained(cos, -sin))
+    fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K] {
+        let values: [(f64, f64); K] = Real::sin_cos(x.map(|x| x.value));
+        std::array::from_fn(|place| {
+            let (x, (sin, cos)) = (x[place], values[place]);
+            (x.chained(sin, cos), x.chained(cos, -sin))
+        })
     }
     fn exp(self) -> Self {
         let value = Real::exp(self.value);

@@ -50,8 +50,8 @@ pub trait Real:
     fn clamp(self, low: f64, high: f64) -> Self;
     /// |x| with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
-    /// (sin x, cos x).
-    fn sin_cos(self) -> (Self, Self);
+    /// (sin x, cos x) of every x.
+    fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K];
     /// e^x.
     fn exp(self) -> Self;
     /// Hyperbolic tangent.
@@ -105,8 +105,8 @@ impl Real for f64 {
         f64::copysign(self, sign)
     }
     #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        sin_cos::sin_cos(self)
+    fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K] {
+        sin_cos::sin_cos(x)
     }
     fn exp(self) -> Self {
         libm::exp(self)

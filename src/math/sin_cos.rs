@@ -1,72 +1,91 @@
-//! Sine and cosine together, without a branch and without a call: two angles of one mechanism are
-//! computed side by side.
+//! Sine and cosine together, without a branch and without a call: from a table of the circle and short series for the
+//! rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
 
-#![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
+use std::f64::consts::{PI, TAU};
 
-/// Greatest angle that the reduction below takes: its multiple of π/2 has 20 bits.
+/// Greatest angle that the reduction below takes: its multiple of [`STEP`] has 27 bits.
 const GREATEST: f64 = 1.6e6;
 
 /// Adding and subtracting it rounds to an integer: 1.5·2⁵².
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// π/2 as a sum: two numbers of 33 bits, whose products with an integer of 20 bits are exact, and the
-/// rest (W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980).
-const HALF_PI: [f64; 3] = [
-    f64::from_bits(0x3FF9_21FB_5440_0000),
-    f64::from_bits(0x3DD0_B461_1A60_0000),
-    f64::from_bits(0x3BA3_198A_2E03_7073),
-];
+/// Entries of the table: the circle's parts.
+const PARTS: usize = 512;
 
-/// Minimax coefficients of (sin r − r)/r³ on |r| ≤ π/4, by powers of r² (Sun Microsystems, fdlibm 5.3).
-const SIN: [f64; 6] = [
-    -1.666_666_666_666_663_243_48e-1,
-    8.333_333_333_322_489_461_24e-3,
-    -1.984_126_982_985_794_931_34e-4,
-    2.755_731_370_707_006_767_89e-6,
-    -2.505_076_025_340_686_341_95e-8,
-    1.589_690_995_211_550_102_21e-10,
-];
+/// 2π/[`PARTS`] as a sum: a number of 26 bits, whose product with an integer of 27 bits is exact, and the rest
+/// (W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980). π/2 is 0x3FF9_21FB_5444_2D18 and
+/// 0x3C91_A626_3314_5C07 more; its 26 bits and what follows them, scaled by powers of two.
+const STEP: [f64; 2] = {
+    const PER_STEP: f64 = 4.0 / PARTS as f64;
+    let high = f64::from_bits(0x3FF9_21FB_5000_0000);
+    let low = (f64::from_bits(0x3FF9_21FB_5444_2D18) - high) + f64::from_bits(0x3C91_A626_3314_5C07);
+    [high * PER_STEP, low * PER_STEP]
+};
 
-/// Minimax coefficients of (cos r − 1 + r²/2)/r⁴, likewise.
-const COS: [f64; 6] = [
-    4.166_666_666_666_660_190_37e-2,
-    -1.388_888_888_887_410_957_49e-3,
-    2.480_158_728_947_672_941_78e-5,
-    -2.755_731_435_139_066_330_35e-7,
-    2.087_572_321_298_174_827_90e-9,
-    -1.135_964_755_778_819_482_65e-11,
-];
+/// (sin, cos) of every multiple of [`STEP`] in the circle.
+static CIRCLE: [(f64, f64); PARTS] = {
+    let mut circle = [(0.0, 0.0); PARTS];
+    let mut part = 0;
+    while part < PARTS {
+        circle[part] = of_part(part);
+        part += 1;
+    }
+    circle
+};
 
-/// (sin x, cos x), within about a rounding of the exact ones.
+/// (sin, cos) of a part of the circle, from within the first eighth of it.
+const fn of_part(part: usize) -> (f64, f64) {
+    let quarter = PARTS / 4;
+    let place = part % quarter;
+    let (sin, cos) = if place <= quarter / 2 {
+        series(place)
+    } else {
+        let (sin, cos) = series(quarter - place);
+        (cos, sin)
+    };
+    match part / quarter {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// Taylor's series from their small ends, of an angle in the first eighth of the circle; rounded once, nearly.
+const fn series(part: usize) -> (f64, f64) {
+    let (x, rest) = (part as f64 * STEP[0], part as f64 * STEP[1]);
+    let (z, mut sin, mut cos) = (x * x, 0.0, 0.0);
+    let mut n = 24;
+    while n > 0 {
+        cos = -z * (1.0 + cos) / (n * (n - 1)) as f64;
+        sin = -z * (1.0 + sin) / (n * (n + 1)) as f64;
+        n -= 2;
+    }
+    (x + (x * sin + (1.0 + cos) * rest), 1.0 + (cos - x * (1.0 + sin) * rest))
+}
+
+/// (sin x, cos x) of every x, within about two roundings of the exact ones.
 #[inline(always)]
-pub fn sin_cos(x: f64) -> (f64, f64) {
+pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
+    if x.iter().all(|x| x.abs() < GREATEST) { x.map(reduced) } else { x.map(one_by_one) }
+}
+
+#[cold]
+fn one_by_one(x: f64) -> (f64, f64) {
     if x.abs() < GREATEST { reduced(x) } else { libm::sincos(x) }
 }
 
 #[inline(always)]
 fn reduced(x: f64) -> (f64, f64) {
-    // x = k·π/2 + r + tail.
-    let shifted = x * std::f64::consts::FRAC_2_PI + ROUNDER;
+    // x = k·STEP + r, |r| ≤ π/PARTS.
+    let shifted = x * (PARTS as f64 / TAU) + ROUNDER;
     let k = shifted - ROUNDER;
-    let quadrant = shifted.to_bits();
-    let left = x - k * HALF_PI[0];
-    let product = k * HALF_PI[1];
-    let near = left - product;
-    let small = k * HALF_PI[2] - ((left - near) - product);
-    let r = near - small;
-    let tail = (near - r) - small;
-
+    let (sin_k, cos_k) = CIRCLE[shifted.to_bits() as usize % PARTS];
+    let r = (x - k * STEP[0]) - k * STEP[1];
+    // sin r and cos r − 1; the first terms left out are below 1e-17.
+    const { assert!((PI / PARTS as f64) < 0.0062) };
     let z = r * r;
-    let zz = z * z;
-    let cube = z * r;
-    let s = SIN[1] + z * (SIN[2] + z * SIN[3]) + z * zz * (SIN[4] + z * SIN[5]);
-    let sin = r - ((z * (0.5 * tail - cube * s) - tail) - cube * SIN[0]);
-    let c = z * (COS[0] + z * (COS[1] + z * COS[2])) + zz * zz * (COS[3] + z * (COS[4] + z * COS[5]));
-    let half = 0.5 * z;
-    let one = 1.0 - half;
-    let cos = one + (((1.0 - one) - half) + (z * c - r * tail));
-
-    let (sin, cos) = if quadrant & 1 == 0 { (sin, cos) } else { (cos, sin) };
-    let sign = |bit: u64| (bit & 2) << 62;
-    (f64::from_bits(sin.to_bits() ^ sign(quadrant)), f64::from_bits(cos.to_bits() ^ sign(quadrant.wrapping_add(1))))
+    let sin_r = r + r * z * (z * (1.0 / 120.0) - 1.0 / 6.0);
+    let less = z * (z * (1.0 / 24.0 - z * (1.0 / 720.0)) - 0.5);
+    (sin_k + (cos_k * sin_r + sin_k * less), cos_k + (cos_k * less - sin_k * sin_r))
 }

@@ -140,11 +140,11 @@ pub fn accelerate<R: Real>(
             if c {
                 q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
             }
-            result.roots.rod = total / chains.mass[ROD] + fall;
+            result.roots.rod = total * chains.per_mass[ROD] + fall;
         }
         if !c && !t {
             q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), loads.pin);
-            result.roots.slider = loads.pin / chains.mass[SLIDER] + fall;
+            result.roots.slider = loads.pin * chains.per_mass[SLIDER] + fall;
         }
         let on_crank_pin = if b { on_rod } else { loads.crank_pin };
         if !a || !speed {
@@ -159,7 +159,7 @@ pub fn accelerate<R: Real>(
             if b && c {
                 q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
             }
-            result.roots.crank = total / chains.mass[CRANK] + fall;
+            result.roots.crank = total * chains.per_mass[CRANK] + fall;
         }
     }
     if rail_rod && !b {
@@ -168,7 +168,7 @@ pub fn accelerate<R: Real>(
         if !a {
             let total = loads.crank_pin + loads.crank;
             q[CRANK] += cross(rotation[CRANK].apply(chains.anchor[CRANK]), total);
-            result.roots.crank = total / chains.mass[CRANK] + fall;
+            result.roots.crank = total * chains.per_mass[CRANK] + fall;
         }
     }
 
@@ -197,7 +197,7 @@ pub fn accelerate<R: Real>(
             q[k] -= first_moment[k].x * gravity;
         }
     }
-    let per_mass = 1.0 / chains.mass[SLIDER];
+    let per_mass = chains.per_mass[SLIDER];
     let mut along = on_rail.x;
     if t {
         for (k, on) in [(CRANK, rail_crank), (ROD, rail_rod)] {
@@ -228,7 +228,8 @@ pub fn accelerate<R: Real>(
     result
 }
 
-/// Angular accelerations from the diagonal `d`, the pairs' elements `m` and the right sides `q`.
+/// Angular accelerations from the diagonal `d`, the pairs' elements `m` and the right sides `q`, which are known last:
+/// what is divided by is inverted while forces are computed.
 #[inline(always)]
 fn solve<R: Real>(topology: Topology, d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R; 3] {
     let Topology { b, c, t, speed, .. } = topology;
@@ -243,13 +244,13 @@ fn solve<R: Real>(topology: Topology, d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R;
         (false, true) => {
             [angle[ROD], angle[SLIDER]] = solve_two([d[ROD], d[SLIDER]], m[1], [q[ROD], q[SLIDER]]);
         }
-        (false, false) => angle[ROD] = q[ROD] / d[ROD],
+        (false, false) => angle[ROD] = q[ROD] * d[ROD].recip(),
     }
     if !b && !speed {
-        angle[CRANK] = q[CRANK] / d[CRANK];
+        angle[CRANK] = q[CRANK] * d[CRANK].recip();
     }
     if !c && !t {
-        angle[SLIDER] = q[SLIDER] / d[SLIDER];
+        angle[SLIDER] = q[SLIDER] * d[SLIDER].recip();
     }
     angle
 }

@@ -102,8 +102,8 @@ pub struct ChainInertia {
     /// [m] From the chain's centre of mass to its first joint centre, per angle: where a floating
     /// chain is to be found from its coordinates. Zero in the others.
     pub anchor: [Vec2; 3],
-    /// [kg] Mass of the chain that holds each body.
-    pub mass: [f64; 3],
+    /// [1/kg] Inverse mass of the chain that holds each body.
+    pub per_mass: [f64; 3],
 }
 
 /// The three bodies.
@@ -159,19 +159,21 @@ impl ChainInertia {
                 arms[SLIDER][CRANK] = arms[ROD][CRANK];
             }
         }
+        let mut mass = [0.0; 3];
         for i in 0..3 {
             for j in (0..3).filter(|&j| first[j] == first[i]) {
-                sum.mass[i] += bodies[j].mass;
+                mass[i] += bodies[j].mass;
                 sum.moment[i] += bodies[j].mass * arms[j][i];
             }
         }
+        sum.per_mass = mass.map(f64::recip);
         let floats = |k: usize| match first[k] {
             CRANK => !a,
             ROD => true,
             _ => !t,
         };
         for k in (0..3).filter(|&k| floats(k)) {
-            let centre = sum.moment[k] / sum.mass[k];
+            let centre = sum.moment[k] / mass[k];
             sum.anchor[k] = -centre;
             sum.moment[k] = zero;
             for i in (0..3).filter(|&i| first[i] == first[k]) {

@@ -102,6 +102,20 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         self.linkage.clearances.guards(Self::ARRANGEMENT.clear, contacts, &self.pose(t, y), guards);
     }
 
+    fn rates_and_guards(
+        &self,
+        contacts: &Contacts,
+        t: f64,
+        y: &[f64; N],
+        rates: &mut [f64; N],
+        guards: &mut [Guard; GUARDS],
+    ) {
+        let pose = self.pose(t, y);
+        let loads = self.linkage.loads(Self::ARRANGEMENT, contacts, t, &y[2 * Self::P..], &pose);
+        self.linkage.rates_under(Self::ARRANGEMENT, &pose, &loads, y, rates);
+        self.linkage.clearances.guards(Self::ARRANGEMENT.clear, contacts, &pose, guards);
+    }
+
     fn guard_scale(&self) -> f64 {
         self.guard_scale
     }

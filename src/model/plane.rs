@@ -37,6 +37,12 @@ impl<R: Real> Rotation<R> {
         Self { cos, sin }
     }
 
+    /// By each of `angles` [rad].
+    #[inline(always)]
+    pub fn all<const K: usize>(angles: [R; K]) -> [Self; K] {
+        R::sin_cos(angles).map(|(sin, cos)| Self { cos, sin })
+    }
+
     /// A vector of body axes in inertial axes.
     #[inline(always)]
     pub fn apply<S: Copy>(self, v: Vec2<S>) -> Vec2<R>

@@ -95,7 +95,12 @@ pub struct FlexibleInstant<R = f64> {
 /// Turning from angles and rates; the slider on an ideal guide does not turn.
 #[inline(always)]
 pub fn turning<R: Real>(angle: [R; 3], speed: [R; 3], slider_turns: bool) -> Turning<R> {
-    let [crank, rod, slider] = angle;
-    let slider = if slider_turns { Rotation::new(slider) } else { Rotation::NONE };
-    Turning { angle, speed, rotation: [Rotation::new(crank), Rotation::new(rod), slider] }
+    let [crank, rod, _] = angle;
+    let rotation = if slider_turns {
+        Rotation::all(angle)
+    } else {
+        let [crank, rod] = Rotation::all([crank, rod]);
+        [crank, rod, Rotation::NONE]
+    };
+    Turning { angle, speed, rotation }
 }

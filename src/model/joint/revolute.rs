@@ -40,10 +40,14 @@ pub struct Load<R = f64> {
     pub bristle_rate: R,
 }
 
+/// The force on the journal's body [N] at per_approach, e, ė, ω_journal, ω_bearing and the bristles' deflection. Only
+/// friction adds to the load. All that the motion waits for goes in and out by registers.
+type LoadKernel<R> = fn(&Revolute, f64, Vec2<R>, Vec2<R>, R, R, R, &mut Load<R>) -> Vec2<R>;
+
 /// What is compiled for each combination of laws.
 #[derive(Clone, Copy, Debug)]
 pub struct ByLaws<R> {
-    load: fn(&Revolute, f64, &Play<R>, R) -> Load<R>,
+    load: LoadKernel<R>,
     account: fn(&Revolute, f64, &Play<R>, R) -> Account<R>,
 }
 
@@ -73,34 +77,35 @@ impl KernelFamily for Family {
     }
 }
 
+#[expect(clippy::too_many_arguments, reason = "as many as there are registers for")]
 fn load<R: Real, E: Elastic, D: Damped, F: Friction>(
     joint: &Revolute,
     per_approach: f64,
-    play: &Play<R>,
+    eccentricity: Vec2<R>,
+    rate: Vec2<R>,
+    journal_speed: R,
+    bearing_speed: R,
     z: R,
-) -> Load<R> {
-    let epsilon = play.eccentricity.norm();
+    load: &mut Load<R>,
+) -> Vec2<R> {
+    let epsilon = eccentricity.norm();
     let depth = epsilon - joint.clearance;
     if depth <= 0.0 && !(F::BRISTLES && epsilon > 0.0) {
-        return Load::default();
+        return Vec2::ZERO;
     }
-    let n = play.eccentricity / epsilon;
+    let play = Play { eccentricity, rate, journal_speed, bearing_speed };
+    let n = eccentricity / epsilon;
     let t = perp(n);
-    let rate = play.rate.dot(n);
-    let to_contact = -epsilon + joint.radius;
-    let sliding = || joint.sliding(play, epsilon, t);
+    let sliding = || joint.sliding(&play, epsilon, t);
     let Forces { normal, tangential, bristle_rate } =
-        force::<R, E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding);
-    if F::PRESENT {
-        Load {
-            force: -normal * n - tangential * t,
-            journal_couple: -to_contact * tangential,
-            bearing_couple: tangential * joint.radius,
-            bristle_rate,
-        }
-    } else {
-        Load { force: -normal * n, ..Load::default() }
+        force::<R, E, D, F>(&joint.contact, per_approach, depth, rate.dot(n), z, sliding);
+    if !F::PRESENT {
+        return -normal * n;
     }
+    load.journal_couple = (epsilon - joint.radius) * tangential;
+    load.bearing_couple = tangential * joint.radius;
+    load.bristle_rate = bristle_rate;
+    -normal * n - tangential * t
 }
 
 fn account<R: Real, E: Elastic, D: Damped, F: Friction>(
@@ -174,7 +179,10 @@ impl Revolute {
     /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
     pub fn load<R: Scalar>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Load<R> {
-        (R::kernel(&self.kernels).load)(self, mode.per_approach, play, z)
+        let Play { eccentricity, rate, journal_speed, bearing_speed } = *play;
+        let (kernel, mut load) = (R::kernel(&self.kernels).load, Load::default());
+        load.force = kernel(self, mode.per_approach, eccentricity, rate, journal_speed, bearing_speed, z, &mut load);
+        load
     }
 }
 
