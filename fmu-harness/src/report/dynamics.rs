@@ -147,7 +147,7 @@ pub fn sentence(portrait: &Portrait) -> String {
     let (evidence, exponent) = (&portrait.evidence, &portrait.exponent);
     let [value, error] = [exponent.value, exponent.error].map(|number| three_digits(number * portrait.turn));
     format!(
-        "{}; exponent {value} ± {error} a turn; repeats after {} turns to {} of a clearance",
+        "{}; exponent {value} ± {error} a turn; best repetition after {} turns, within {} clearances",
         evidence.verdict,
         evidence.repeats_after,
         significant(evidence.misses_by)
