@@ -1,6 +1,6 @@
 //! Vectors and rotations of the plane.
 
-use crate::math::{self, Real};
+use crate::math::Real;
 use std::ops::Mul;
 
 pub use crate::math::Vec2;
@@ -33,8 +33,8 @@ impl<R: Real> Rotation<R> {
     /// By `angle` [rad].
     #[inline(always)]
     pub fn new(angle: R) -> Self {
-        let (sin, cos) = math::sin_cos(angle);
-        Self { cos, sin }
+        let [own] = Self::all([angle]);
+        own
     }
 
     /// By each of `angles` [rad].
