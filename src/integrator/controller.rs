@@ -106,13 +106,17 @@ pub fn growth<M: Method>(error: f64, last_error: f64) -> f64 {
     factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
 }
 
-/// By how much the step is shorter after a rejected one.
-pub fn shrinkage<M: Method>(error: f64) -> f64 {
-    if error.is_finite() {
-        (SAFETY * math::rough_power(error, -1.0 / M::ERROR_POWER)).clamp(LEAST_FACTOR, SAFETY)
-    } else {
-        0.1
-    }
+/// By how much the step is shorter after a rejected one whose `error` falls with this `power` of the step.
+pub fn shrinkage(error: f64, power: f64) -> f64 {
+    if error.is_finite() { (SAFETY * math::rough_power(error, -1.0 / power)).clamp(LEAST_FACTOR, SAFETY) } else { 0.1 }
+}
+
+/// The power of the step with which the error falls, at most the method's, as two attempts from the same state tell by
+/// their steps [s] and errors: low where a force sets in (K. Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533, on
+/// consecutive rejections).
+pub fn error_power<M: Method>([longer, shorter]: [(f64, f64); 2]) -> f64 {
+    let power = math::ln(longer.1 / shorter.1) / math::ln(longer.0 / shorter.0);
+    if power.is_nan() { M::ERROR_POWER } else { power.clamp(1.0, M::ERROR_POWER) }
 }
 
 /// The first state (or rate) that is not a number, or so large that its powers are none.

@@ -7,6 +7,8 @@ use super::step::{Integrator, STANDSTILL};
 
 /// Most times that a landing is repeated to bring the guard closer to zero.
 const LANDINGS: usize = 3;
+/// Share of an impact's duration for the first step into it.
+const ONSET: f64 = 0.03;
 /// A guard this share of a tolerable error away from zero has been landed on.
 const LANDED: f64 = 0.1;
 
@@ -97,8 +99,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let front = &mut self.memory.front;
         let reset = problem.cross(&front.modes, front.t, &mut front.y, crossed);
         front.modes = reset.modes;
-        if let Some(step) = reset.step {
-            self.memory.step = self.memory.step.min(step);
+        if let Some(duration) = reset.impact {
+            front.impact_end = front.impact_end.max(front.t + duration.min(problem.longest_step()));
+            self.memory.step = self.memory.step.min(ONSET * duration);
         }
         self.refresh(problem);
     }

@@ -19,6 +19,8 @@ pub struct Front<const N: usize, D> {
     pub rates: [f64; N],
     /// Discrete state.
     pub modes: D,
+    /// [s] When the last impact is over.
+    pub impact_end: f64,
 }
 
 /// All that an integrator remembers: as plain numbers, a saved state.
@@ -52,11 +54,12 @@ impl<const N: usize, D> Memory<N, D> {
     pub fn is_sound(&self, time: f64, extent: Extent, longest_step: f64) -> bool {
         let Self { start, end, front, step, crossings, statistics, .. } = self;
         let kept = |y: &[f64; N]| y.iter().take(extent.states).all(|y| is_kept(*y));
-        let length = end.t - start.t;
         let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
+        let impacts_end = |front: &Front<N, D>| front.impact_end - front.t <= longest_step + rounding;
+        let length = end.t - start.t;
         let Statistics { steps, rejected, evaluations, events } = *statistics;
         let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MOST);
-        [start, end, front].iter().all(|front| kept(&front.y))
+        [start, end, front].iter().all(|front| kept(&front.y) && impacts_end(front))
             && end.t == front.t
             && (start.t..=front.t).contains(&time)
             && (0.0..=longest_step + rounding).contains(&length)

@@ -20,8 +20,34 @@ pub type Crossed = [bool; GUARDS];
 pub struct Reset<D> {
     /// The modes from now on.
     pub modes: D,
-    /// [s] The longest sensible first step from here, where the event knows one.
-    pub step: Option<f64>,
+    /// [s] How long the impact lasts that begins here, where one does.
+    pub impact: Option<f64>,
+}
+
+/// Most kinks that a problem may have.
+const KINKS: usize = 64;
+
+/// Functions whose zeros are kinks of the rates: there a rate goes on with another slope.
+#[derive(Clone, Copy, Debug)]
+pub struct Kinks {
+    values: [f64; KINKS],
+    count: usize,
+}
+
+impl Kinks {
+    /// None yet.
+    pub const NONE: Self = Self { values: [0.0; KINKS], count: 0 };
+
+    /// Adds one function by its value.
+    pub fn push(&mut self, value: f64) {
+        self.values[self.count] = value;
+        self.count += 1;
+    }
+
+    /// Their values, in the order in which they came.
+    pub fn values(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
 }
 
 /// From this `N` on, the arrays of a problem are room for states and [`Problem::extent`] tells how
@@ -110,6 +136,10 @@ pub trait Problem<const N: usize> {
         self.rates(modes, t, y, rates);
         self.guards(modes, t, y, guards);
     }
+
+    /// Adds the functions whose zeros are kinks of the rates; their number and order depend on the modes alone. They
+    /// only tell where a step may end with advantage: one that is left out costs steps, not accuracy.
+    fn kinks(&self, _modes: &Self::Modes, _t: f64, _y: &[f64; N], _kinks: &mut Kinks) {}
 
     /// No motion leads beyond the fall of this guard, nor goes on from a tenth of the guards' scale before it. Every
     /// method locates it.

@@ -29,7 +29,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let mut front = Front { t, y, rates: [0.0; N], modes };
+        let mut front = Front { t, y, rates: [0.0; N], modes, impact_end: t };
         problem.rates(&modes, t, &y, &mut front.rates);
         let statistics = Statistics { evaluations: 1, ..Statistics::default() };
         let step = controller::first_step(problem, &front);
@@ -204,7 +204,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             if M::ADAPTIVE {
                 // Nothing had estimated the error of these rates: a shorter step may end before they are lost.
                 self.memory.statistics.rejected += 1;
-                self.memory.step = controller::shrinkage::<M>(f64::INFINITY) * h;
+                self.memory.step = controller::shrinkage(f64::INFINITY, M::ERROR_POWER) * h;
                 return Ok(());
             }
             // Without an error estimate a step may have led anywhere.
@@ -226,47 +226,12 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         Ok(())
     }
 
-    /// Attempts until the error is tolerable, and tells how long that step is.
-    fn accepted<P>(&mut self, problem: &P) -> Result<f64, IntegrationError>
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let time = self.memory.start.t;
-        let mut rejected = false;
-        // Forces that are gone may have left a step that no longer moves time.
-        let least = time.next_up() - time;
-        let mut wanted = if M::ADAPTIVE { self.memory.step.max(least) } else { self.settings.fixed_step };
-        loop {
-            // The step is what time really moves by: nothing drifts from its rounding.
-            let h = time + wanted.min(problem.longest_step()) - time;
-            if h <= 0.0 {
-                self.attempt(problem, wanted);
-                let component = controller::worst_component(&self.made, problem);
-                return Err(IntegrationError::StepUnderflow { time, step: wanted, component });
-            }
-            self.attempt(problem, h);
-            let error = match controller::lost_state(problem, &self.made.y) {
-                None => controller::norm::<N, M, P>(&self.made, &self.memory.start.y, problem, self.settings.tolerance),
-                Some(_) => f64::INFINITY,
-            };
-            if error <= 1.0 {
-                let growth = controller::growth::<M>(error, self.memory.last_error);
-                self.memory.step = h * if rejected { growth.min(1.0) } else { growth };
-                self.memory.last_error = error.max(1e-4);
-                return Ok(h);
-            }
-            rejected = true;
-            self.memory.statistics.rejected += 1;
-            wanted = wanted.min(h) * controller::shrinkage::<M>(error);
-        }
-    }
-
     /// Makes the attempt the step that ends at `t`.
     pub(super) fn commit<P>(&mut self, problem: &P, t: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let modes = self.memory.start.modes;
+        let Front { modes, impact_end, .. } = self.memory.start;
         let Attempt { y, rates, .. } = &mut self.made;
         if M::GIVES_RATES {
             problem.guards(&modes, t, y, &mut self.guards);
@@ -274,7 +239,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             problem.rates_and_guards(&modes, t, y, rates, &mut self.guards);
             self.memory.statistics.evaluations += 1;
         }
-        let end = Front { t, y: *y, rates: *rates, modes };
+        let end = Front { t, y: *y, rates: *rates, modes, impact_end };
         self.memory.statistics.steps += 1;
         self.memory.end = end;
         self.memory.front = end;

@@ -29,6 +29,11 @@ pub fn exp<R: Real>(x: R) -> R {
     R::exp(x)
 }
 
+/// Natural logarithm of x.
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
 /// Natural logarithm of 1 + x.
 pub fn ln_1p(x: f64) -> f64 {
     libm::log1p(x)

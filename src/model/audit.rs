@@ -20,7 +20,7 @@ use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, Reset, Unilateral};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, Reset, Unilateral};
 use crate::math::Real;
 use crate::scene::Scene;
 
@@ -172,6 +172,10 @@ impl<const N: usize> Problem<N> for Audited<N> {
 
     fn is_dead_end(&self, guard: usize) -> bool {
         self.plant.is_dead_end(guard)
+    }
+
+    fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
+        self.plant.kinks(contacts, t, y, kinks);
     }
 
     fn guard_scale(&self) -> f64 {

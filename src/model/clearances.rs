@@ -11,11 +11,8 @@ use super::mechanism::{CRANK, ROD, SLIDER, bodies};
 use super::rigid;
 use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
-use crate::integrator::{ContactLaw, Crossed, GUARDS, Guard, Reset};
+use crate::integrator::{ContactLaw, Crossed, GUARDS, Guard, Kinks, Reset};
 use crate::scene::Scene;
-
-/// Share of a contact's duration for the first step into it.
-const FIRST_SHARE: f64 = 0.03;
 
 /// The joints of a scene as contacts.
 #[derive(Clone, Debug)]
@@ -148,6 +145,18 @@ impl Clearances {
         }
     }
 
+    /// Adds the kinks of the closed contacts' forces.
+    pub fn kinks(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, kinks: &mut Kinks) {
+        for (joint, revolute) in self.revolute.iter().enumerate() {
+            if clear[joint] && contacts[joint].closed {
+                revolute.kinks(&contacts[joint], &pose.play(joint), kinks);
+            }
+        }
+        if clear[3] {
+            self.guide.kinks(&contacts[3..], &pose.slider(), kinks);
+        }
+    }
+
     /// The contacts after the `crossed` ones have closed or opened; `bristles` of those that open are
     /// straight again.
     pub fn cross(
@@ -159,7 +168,7 @@ impl Clearances {
         bristles: &mut [f64],
     ) -> Reset<Contacts> {
         let penetrations = self.penetrations(clear, pose);
-        let mut reset = Reset { modes: *contacts, step: None };
+        let mut reset = Reset { modes: *contacts, impact: None };
         let crossed = self.guide.contacts_of(&by_joint(clear, crossed));
         for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if mode.closed {
@@ -172,8 +181,7 @@ impl Clearances {
             let contact = self.contact(index);
             *mode = ContactMode::closing(penetrations[index].1, contact.speed_floor);
             let time = contact.contact_time(self.lighter_mass(index), mode.approach);
-            let step = FIRST_SHARE * time;
-            reset.step = Some(reset.step.map_or(step, |shorter: f64| shorter.min(step)));
+            reset.impact = Some(reset.impact.map_or(time, |shorter: f64| shorter.min(time)));
         }
         reset
     }

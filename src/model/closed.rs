@@ -206,7 +206,7 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
     }
 
     fn cross(&self, contacts: &Contacts, _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<Contacts> {
-        Reset { modes: *contacts, step: None }
+        Reset { modes: *contacts, impact: None }
     }
 }
 

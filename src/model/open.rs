@@ -16,7 +16,7 @@ use super::scalar::Tangent;
 use super::scales;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Impulses, Jacobian, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Impulses, Jacobian, Kinks, Problem, ROOM, Reset};
 use crate::scene::Scene;
 
 /// An open mechanism with its constants and its inputs.
@@ -114,6 +114,10 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         let loads = self.linkage.loads(Self::ARRANGEMENT, contacts, t, &y[2 * Self::P..], &pose);
         self.linkage.rates_under(Self::ARRANGEMENT, &pose, &loads, y, rates);
         self.linkage.clearances.guards(Self::ARRANGEMENT.clear, contacts, &pose, guards);
+    }
+
+    fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
+        self.linkage.clearances.kinks(Self::ARRANGEMENT.clear, contacts, &self.pose(t, y), kinks);
     }
 
     fn guard_scale(&self) -> f64 {

@@ -61,8 +61,8 @@ pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N
     let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
     snapshot.reals.extend(inputs);
     snapshot.reals.extend([plant.start_time(), *step, *last_error]);
-    for Front { t, y, rates, modes } in [start, end, front] {
-        snapshot.reals.push(*t);
+    for Front { t, y, rates, modes, impact_end } in [start, end, front] {
+        snapshot.reals.extend([*t, *impact_end]);
         snapshot.reals.extend(y.iter().chain(rates));
         modes.save(snapshot);
     }
@@ -100,5 +100,6 @@ pub fn load<const N: usize, D: Discrete>(
 }
 
 fn take_front<const N: usize, D: Discrete>(reader: &mut Reader<'_>) -> Option<Front<N, D>> {
-    Some(Front { t: reader.real()?, y: reader.reals()?, rates: reader.any_reals()?, modes: D::load(reader)? })
+    let [t, impact_end] = reader.reals()?;
+    Some(Front { t, y: reader.reals()?, rates: reader.any_reals()?, modes: D::load(reader)?, impact_end })
 }

@@ -150,7 +150,7 @@ impl<const N: usize> Motion for TimeStepping<N> {
 
     fn equations(self: Box<Self>) -> Box<dyn Equations> {
         let Front { t, y, rates, .. } = self.integrator.memory().front;
-        let start = Front { t, y, rates, modes: self.plant.start_contacts(t, &y) };
+        let start = Front { t, y, rates, modes: self.plant.start_contacts(t, &y), impact_end: t };
         Box::new(Bare::new(self.plant, self.observer, start))
     }
 

@@ -80,7 +80,7 @@ where
 
     fn cross(&self, modes: &Crossed, t: f64, y: &mut [f64; 2], crossed: &Crossed) -> Reset<Crossed> {
         self.log.borrow_mut().push((t, *crossed, *y));
-        Reset { modes: std::array::from_fn(|i| modes[i] != crossed[i]), step: None }
+        Reset { modes: std::array::from_fn(|i| modes[i] != crossed[i]), impact: None }
     }
 }
 

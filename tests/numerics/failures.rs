@@ -159,7 +159,7 @@ impl Problem<2> for Stuck {
     }
 
     fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), step: None }
+        Reset { modes: (), impact: None }
     }
 }
 

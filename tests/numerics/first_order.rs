@@ -54,7 +54,7 @@ impl Problem<N> for Following {
     }
 
     fn cross(&self, (): &(), _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), step: None }
+        Reset { modes: (), impact: None }
     }
 }
 
@@ -155,7 +155,7 @@ fn inside_a_step_a_polynomial_of_degree_five_is_exact() {
         }
 
         fn cross(&self, (): &(), _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<()> {
-            Reset { modes: (), step: None }
+            Reset { modes: (), impact: None }
         }
     }
 

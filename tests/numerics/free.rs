@@ -44,7 +44,7 @@ impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Problem<N> for Free
     }
 
     fn cross(&self, (): &(), _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), step: None }
+        Reset { modes: (), impact: None }
     }
 }
 

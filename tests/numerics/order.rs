@@ -14,7 +14,7 @@ fn step<M: Explicit>(t: f64, y: &[f64; 4], h: f64) -> Attempt<4> {
     let mut rates = [0.0; 4];
     problem.rates(&(), t, y, &mut rates);
     let mut made = Attempt::NONE;
-    made.explicitly::<M, _>(&problem, &Front { t, y: *y, rates, modes: () }, h);
+    made.explicitly::<M, _>(&problem, &Front { t, y: *y, rates, modes: (), impact_end: 0.0 }, h);
     made
 }
 

@@ -23,7 +23,7 @@ fn error<M: Explicit>(n: i32) -> f64 {
     let mut rates = [0.0; 2];
     problem.rates(&(), t, &[q, v], &mut rates);
     let mut made = Attempt::NONE;
-    made.explicitly::<M, _>(&problem, &Front { t, y: [q, v], rates, modes: () }, h);
+    made.explicitly::<M, _>(&problem, &Front { t, y: [q, v], rates, modes: (), impact_end: 0.0 }, h);
     let [q, v, _] = monomial(n, t + h);
     (made.y[0] - q).abs().max((made.y[1] - v).abs())
 }
@@ -55,7 +55,7 @@ fn each_method_is_exact_on_polynomials_up_to_its_order() {
 fn a_motion_at_constant_acceleration_has_no_error_estimate() {
     fn silent<M: Explicit>() {
         let problem = Free { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = -9.81 };
-        let start = Front { t: 0.0, y: [1.0, 2.0], rates: [2.0, -9.81], modes: () };
+        let start = Front { t: 0.0, y: [1.0, 2.0], rates: [2.0, -9.81], modes: (), impact_end: 0.0 };
         let mut made = Attempt::NONE;
         made.explicitly::<M, _>(&problem, &start, 0.5);
         let sum: f64 = M::TABLEAU.error.iter().map(|weight| weight.abs()).sum();

@@ -50,7 +50,7 @@ impl Problem<2> for Ball {
     }
 
     fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), step: None }
+        Reset { modes: (), impact: None }
     }
 }
 

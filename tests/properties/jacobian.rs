@@ -34,9 +34,16 @@ fn judge(name: &str, place: (usize, usize), exact: f64, difference: Derivative, 
     }
 }
 
-/// Compares all columns at the state where the next step starts.
+/// [s] Steps end and start at kinks of the rates, where differences tell nothing: so far on the kinks are passed.
+const ONWARD: f64 = 2e-6;
+
+/// Compares all columns close to the state where the next step starts.
 fn compare(name: &str, simulation: &Simulation, tally: &mut Tally) {
-    let (t, y) = simulation.front();
+    let (t, mut y) = simulation.front();
+    let rates = simulation.rates_at(t, &y);
+    for (y, rate) in y.iter_mut().zip(rates) {
+        *y += ONWARD * rate;
+    }
     let Linearization { rates, by_state, by_time, positions, .. } = simulation.linearization_at(t, &y);
     assert_eq!(rates, simulation.rates_at(t, &y));
     // Rates are sums of products; penetrations, differences of places that are themselves rounded.

@@ -69,7 +69,7 @@ impl Problem<2> for Ball {
     fn cross(&self, _: &(), t: f64, y: &mut [f64; 2], _: &Crossed) -> Reset<()> {
         let [height, speed] = self.table(t);
         *y = [height, (1.0 + E) * speed - E * y[1]];
-        Reset { modes: (), step: None }
+        Reset { modes: (), impact: None }
     }
 }
 

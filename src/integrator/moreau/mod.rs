@@ -48,7 +48,7 @@ impl<const N: usize> Moreau<N> {
     /// Starts from the state `y` at `t`.
     pub fn start(settings: Settings, t: f64, y: [f64; N]) -> Self {
         // Rates are of no use to it.
-        let front = Front { t, y, rates: [0.0; N], modes: Impulses::none(t, y) };
+        let front = Front { t, y, rates: [0.0; N], modes: Impulses::none(t, y), impact_end: t };
         let statistics = Statistics::default();
         let (start, step) = (front, settings.fixed_step);
         Self::resume(settings, Memory { start, end: front, front, step, last_error: 0.0, crossings: 0, statistics })
@@ -185,7 +185,7 @@ impl<const N: usize> Moreau<N> {
         let Made { y, impulses, evaluations } = made;
         let before = self.memory.start.modes.closed;
         let changes = impulses.closed.iter().zip(before).filter(|(now, before)| **now != *before).count();
-        let end = Front { t, y, rates: [0.0; N], modes: impulses };
+        let end = Front { t, y, rates: [0.0; N], modes: impulses, impact_end: t };
         self.memory.end = end;
         self.memory.front = end;
         self.memory.crossings = changes as u64;

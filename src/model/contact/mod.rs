@@ -10,6 +10,7 @@ mod elastic;
 pub use elastic::{Elastic, HertzThreeHalves, Linear, Liu, Power};
 
 use super::friction::{Friction, FrictionParameters, Rubbing};
+use crate::integrator::Kinks;
 use crate::math::{self, Real};
 
 /// Numbers of one contact, ready for the inner loop.
@@ -146,6 +147,22 @@ pub fn account<R: Real, E: Elastic, D: Damped, F: Friction>(
 }
 
 impl ContactParameters {
+    /// Adds the kinks of the force in the closed contact of memory `mode`, whose penetration grows at `rate` [m/s] and
+    /// whose surfaces slide at `sliding` [m/s]: where s reaches its limit, where the force is cut off at 0, where the
+    /// friction law has corners.
+    pub fn kinks(&self, mode: &ContactMode, rate: f64, sliding: f64, kinks: &mut Kinks) {
+        if self.damping > 0.0 {
+            kinks.push(rate + mode.approach / self.damping);
+            if self.ratio_limit.is_finite() {
+                kinks.push(rate - mode.approach * self.ratio_limit);
+            }
+        }
+        for corner in self.friction.corners.into_iter().flatten() {
+            kinks.push(sliding - corner);
+            kinks.push(sliding + corner);
+        }
+    }
+
     /// [s] How long a free impact of `mass` [kg] at `speed` [m/s] lasts: 2.94·δ_max/v, with δ_max
     /// from ½·m·v² = K·δ^(p+1)/(p + 1) (Hertz; exact for p = 3/2).
     pub fn contact_time(&self, mass: f64, speed: f64) -> f64 {

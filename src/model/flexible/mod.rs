@@ -25,7 +25,7 @@ use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset, Unilateral};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, Unilateral};
 use crate::math::Real;
 use crate::scene::Scene;
 use chain::{Chain, PLACES};
@@ -160,6 +160,10 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
 
     fn is_dead_end(&self, _: usize) -> bool {
         self.geometry.topology.is_closed()
+    }
+
+    fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
+        self.clearances.kinks(self.clear, contacts, &self.pose(t, y), kinks);
     }
 
     fn guard_scale(&self) -> f64 {

@@ -15,6 +15,8 @@ pub struct FrictionParameters {
     pub static_: f64,
     /// [m/s] v0.
     pub v0: f64,
+    /// [m/s] Sliding speeds at which the law has corners: v0 and v1 of the ramp.
+    pub corners: [Option<f64>; 2],
     /// [s/m] 1/(v1 − v0) of the ramp, 1/v1 of the hyperbolic tangent.
     pub per_width: f64,
     /// [s/m] 1/v_s.
@@ -115,14 +117,17 @@ impl Friction for Lugre {
 impl FrictionParameters {
     /// From the scene's.
     pub fn new(friction: &scene::Friction) -> Self {
-        let width = match friction.law {
-            scene::FrictionLaw::Ambrosio => friction.v1 - friction.v0,
-            _ => friction.v1,
+        let (width, corners) = match friction.law {
+            scene::FrictionLaw::Ambrosio => {
+                (friction.v1 - friction.v0, [Some(friction.v0).filter(|&v0| v0 > 0.0), Some(friction.v1)])
+            }
+            _ => (friction.v1, [None; 2]),
         };
         Self {
             kinetic: friction.coefficient,
             static_: friction.static_coefficient,
             v0: friction.v0,
+            corners,
             per_width: 1.0 / width,
             per_stribeck: 1.0 / friction.v_stribeck,
             sigma0: friction.sigma0,

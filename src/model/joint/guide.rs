@@ -8,7 +8,7 @@
 use super::corners::{Corners, Mark, Touch};
 use super::foundation::{self, Faces};
 use super::{Kernel, KernelFamily, Kernels, choose, compliance, parameters, with_damping};
-use crate::integrator::{Crossed, Guard};
+use crate::integrator::{Crossed, Guard, Kinks};
 use crate::math::Real;
 use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, Linear, force};
 use crate::model::friction::Friction;
@@ -78,6 +78,7 @@ pub struct Guide {
 #[derive(Clone, Copy, Debug)]
 struct OfSurface {
     contact_of_corner: [usize; CORNERS],
+    touch: fn(&Guide, usize, &SliderPose) -> Touch,
     approaches: fn(&Guide, &SliderPose) -> [(f64, f64); CORNERS],
     guards: fn(&Guide, &[ContactMode], &SliderPose) -> [Guard; CORNERS],
 }
@@ -99,7 +100,12 @@ pub struct ByLaws<R> {
 
 impl OfSurface {
     fn new<S: Surface>() -> Self {
-        Self { contact_of_corner: S::CONTACT_OF_CORNER, approaches: approaches::<S>, guards: S::guards }
+        Self {
+            contact_of_corner: S::CONTACT_OF_CORNER,
+            touch: S::touch::<f64>,
+            approaches: approaches::<S>,
+            guards: S::guards,
+        }
     }
 }
 
@@ -209,6 +215,14 @@ impl Guide {
     /// The events at which the contacts change.
     pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
         (self.surface.guards)(self, modes, pose)
+    }
+
+    /// Adds the kinks of the closed contacts' forces.
+    pub fn kinks(&self, modes: &[ContactMode], pose: &SliderPose, kinks: &mut Kinks) {
+        for (k, mode) in modes.iter().enumerate().filter(|(_, mode)| mode.closed) {
+            let Touch { rate, sliding, .. } = (self.surface.touch)(self, k, pose);
+            self.contact.kinks(mode, rate, sliding, kinks);
+        }
     }
 
     /// Which of the joints' and the guide's contacts change when these guards have fallen.

@@ -5,7 +5,7 @@
 //! is v_t = ė·t + (R_b − ε)·ω_journal − R_b·ω_bearing: force times this speed is the power lost.
 
 use super::{Kernel, KernelFamily, Kernels, choose, compliance, parameters};
-use crate::integrator::Guard;
+use crate::integrator::{Guard, Kinks};
 use crate::math::Real;
 use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, force};
 use crate::model::friction::Friction;
@@ -163,6 +163,13 @@ impl Revolute {
     #[inline(always)]
     pub fn guard(&self, mode: &ContactMode, play: &Play) -> Guard {
         guard(mode, self.penetration(play), self.penetration_rate(play))
+    }
+
+    /// Adds the kinks of the closed contact's force.
+    pub fn kinks(&self, mode: &ContactMode, play: &Play, kinks: &mut Kinks) {
+        let epsilon = play.eccentricity.norm().max(f64::MIN_POSITIVE);
+        let n = play.eccentricity / epsilon;
+        self.contact.kinks(mode, play.rate.dot(n), self.sliding(play, epsilon, perp(n)), kinks);
     }
 
     /// [m/s] v_t at the contact point, ε from the bearing's centre along the normal of tangent `t`.

@@ -1,0 +1,87 @@
+//! Where in a step that failed the rates have a kink.
+//!
+//! Past a kink the stages of a step follow another branch of the rates than those before it. The error estimate notices
+//! and the step fails, but it does not tell where: to halve steps towards a kink takes ten attempts. The functions that
+//! have their zeros there tell: one attempt then ends at the kink, and the next begins behind it.
+//!
+//! Nothing but the length of a step follows from this. The rates keep their branches to themselves.
+
+use super::memory::Front;
+use super::problem::{GUARDS, Guard, Kinks, Problem};
+
+/// [share of the step] How far the start is followed along its rates to see how the functions change.
+const AHEAD: f64 = 1e-6;
+/// [share of the step] Where a shorter step may end: a kink before that is where this one starts, and one after that
+/// hardly weighs in its error.
+const WITHIN: std::ops::Range<f64> = 1e-5..0.96;
+/// A kink far from the start is located on a curve that is bent by what follows it: the step ends before it, and the
+/// next one sees it from near.
+const FAR: f64 = 0.1;
+const SHORT_OF: f64 = 0.95;
+/// A near kink, or an event, is passed by this factor of its share: a step that ends just before it gains nothing.
+const PAST_KINK: f64 = 1.01;
+const PAST_EVENT: f64 = 1.001;
+
+/// The share of an attempted step of `h` from `start` to `end` at which a shorter one should end: at the first kink in
+/// it, or the first event.
+pub fn first<const N: usize, P: Problem<N> + ?Sized>(
+    problem: &P,
+    start: &Front<N, P::Modes>,
+    h: f64,
+    end: &[f64; N],
+) -> Option<f64> {
+    let Front { t, y, rates, modes, .. } = start;
+    let soon: [f64; N] = std::array::from_fn(|i| y[i] + AHEAD * h * rates[i]);
+    let [before, ahead, after] = [(0.0, y), (AHEAD, &soon), (1.0, end)].map(|(share, y)| {
+        let mut kinks = Kinks::NONE;
+        problem.kinks(modes, t + share * h, y, &mut kinks);
+        kinks
+    });
+    let slopes = before.values().iter().zip(ahead.values()).map(|(now, soon)| (soon - now) / AHEAD);
+    let kinks = before.values().iter().zip(slopes).zip(after.values());
+    let kinks = kinks.filter_map(|((&value, slope), &end)| {
+        let share = crossing(value, slope, end)?;
+        Some(share * if share > FAR { SHORT_OF } else { PAST_KINK })
+    });
+    let [before, after] = [(0.0, y), (1.0, end)].map(|(share, y)| {
+        let mut guards = [Guard::default(); GUARDS];
+        problem.guards(modes, t + share * h, y, &mut guards);
+        guards
+    });
+    let falls = before.iter().zip(&after).take(problem.guard_count()).filter(|(guard, _)| guard.value > 0.0);
+    let falls = falls.filter_map(|(before, after)| {
+        let share = crossing(before.value, before.rate * h, after.value)?;
+        Some(share * PAST_EVENT)
+    });
+    kinks.chain(falls).filter(|share| WITHIN.contains(share)).min_by(f64::total_cmp)
+}
+
+/// The share at which the parabola from `value` with `slope` to `end` is zero, if its ends differ in sign.
+fn crossing(value: f64, slope: f64, end: f64) -> Option<f64> {
+    if value * end >= 0.0 {
+        return None;
+    }
+    let bend = end - value - slope;
+    // The larger root in magnitude, and the other from their product.
+    let root = (slope * slope - 4.0 * bend * value).sqrt();
+    let q = -0.5 * (slope + root.copysign(slope));
+    [q / bend, value / q].into_iter().find(|share| (0.0..=1.0).contains(share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::crossing;
+
+    #[test]
+    fn a_parabola_that_changes_sign_is_zero_once_between() {
+        for (root, other, scale) in [(0.3, 2.0, 1.0), (0.3, -5.0, 4.0), (1e-6, 1e9, -2.0), (0.999, -0.001, 7.0)] {
+            let f = |s: f64| scale * (s - root) * (s - other);
+            let slope = -scale * (root + other);
+            let found = crossing(f(0.0), slope, f(1.0)).expect("a change of sign");
+            assert!((found - root).abs() <= 1e-6 * root, "{root} and {other}: {found}");
+        }
+        assert_eq!(crossing(1.0, -1.5, -0.5), Some(2.0 / 3.0), "a straight line");
+        assert_eq!(crossing(1.0, -8.0, 1.0), None, "twice zero in between is not looked for");
+        assert_eq!(crossing(0.0, 1.0, 1.0), None);
+    }
+}

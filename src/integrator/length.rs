@@ -1,0 +1,65 @@
+//! How long a step is: as its error and its kinks allow.
+
+use super::controller;
+use super::error::IntegrationError;
+use super::kink;
+use super::method::Method;
+use super::problem::Problem;
+use super::step::Integrator;
+
+/// The flight after an impact, and every impact after that, make its errors larger than those of a contact that stays:
+/// only this share of the tolerance is for them.
+const IMPACT_SHARE: f64 = 0.1;
+/// Most times that one step is cut short at a kink.
+const CUTS: usize = 6;
+
+impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
+    /// Attempts until the error is tolerable, and tells how long that step is. One that fails because a kink lies in it
+    /// ends at the kink, and the next is as long as this one should have been.
+    pub(super) fn accepted<P>(&mut self, problem: &P) -> Result<f64, IntegrationError>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let time = self.memory.start.t;
+        let share = if time < self.memory.start.impact_end { IMPACT_SHARE } else { 1.0 };
+        let tolerance = share * self.settings.tolerance;
+        let (mut first, mut cuts, mut cut) = (None, 0, false);
+        let mut failed = None;
+        // Forces that are gone may have left a step that no longer moves time.
+        let least = time.next_up() - time;
+        let mut wanted = if M::ADAPTIVE { self.memory.step.max(least) } else { self.settings.fixed_step };
+        loop {
+            // The step is what time really moves by: nothing drifts from its rounding.
+            let h = time + wanted.min(problem.longest_step()) - time;
+            if h <= 0.0 {
+                self.attempt(problem, wanted);
+                let component = controller::worst_component(&self.made, problem);
+                return Err(IntegrationError::StepUnderflow { time, step: wanted, component });
+            }
+            self.attempt(problem, h);
+            let error = match controller::lost_state(problem, &self.made.y) {
+                None => controller::norm::<N, M, P>(&self.made, &self.memory.start.y, problem, tolerance),
+                Some(_) => f64::INFINITY,
+            };
+            if error <= 1.0 {
+                let growth = controller::growth::<M>(error, self.memory.last_error);
+                self.memory.step = match first {
+                    Some(first) if cut => first,
+                    Some(_) => h * growth.min(1.0),
+                    None => h * growth,
+                };
+                self.memory.last_error = error.max(1e-4);
+                return Ok(h);
+            }
+            first.get_or_insert(h);
+            self.memory.statistics.rejected += 1;
+            let look = error.is_finite() && cuts < CUTS;
+            let kink = if look { kink::first(problem, &self.memory.start, h, &self.made.y) } else { None };
+            cut = kink.is_some();
+            cuts += usize::from(cut);
+            let power = failed.map_or(M::ERROR_POWER, |before| controller::error_power::<M>([before, (h, error)]));
+            failed = Some((h, error));
+            wanted = wanted.min(h) * kink.unwrap_or_else(|| controller::shrinkage(error, power));
+        }
+    }
+}
