@@ -7,6 +7,7 @@ mod events;
 mod failures;
 mod first_order;
 mod free;
+mod kinks;
 mod order;
 mod polynomials;
 mod step_control;

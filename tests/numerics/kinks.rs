@@ -1,0 +1,92 @@
+//! Steps that end at kinks of the rates: sliding that turns round, against its closed form.
+
+use slidercrank::integrator::methods::{Dop853, Dopri5, Verner7};
+use slidercrank::integrator::{
+    Crossed, Effort, GUARDS, Guard, Integrator, Jacobian, Kinks, Method, Problem, Reset, Settings, Statistics,
+};
+
+/// Of the speeds over which friction turns round.
+const WIDTH: f64 = 1e-2;
+const PUSH: f64 = 2.0;
+const FRICTION: f64 = 1.0;
+const END: f64 = 1.0;
+
+/// A body on a table, pushed: v̇ = PUSH − FRICTION·clamp(v/WIDTH, −1, 1).
+struct Sliding {
+    /// The integrator is told where the corners are.
+    tells: bool,
+}
+
+impl Problem<2> for Sliding {
+    type Modes = ();
+
+    fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
+        *rates = [y[1], PUSH - FRICTION * (y[1] / WIDTH).clamp(-1.0, 1.0)];
+    }
+
+    fn jacobian(&self, (): &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
+        jacobian.state = [[f64::NAN; 2]; 2]; // no explicit method asks
+    }
+
+    fn scales(&self) -> &[f64; 2] {
+        &[1.0, 1.0]
+    }
+
+    fn longest_step(&self) -> f64 {
+        0.1
+    }
+
+    fn guard_count(&self) -> usize {
+        0
+    }
+
+    fn guards(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [Guard; GUARDS]) {}
+
+    fn kinks(&self, (): &(), _: f64, y: &[f64; 2], kinks: &mut Kinks) {
+        if self.tells {
+            kinks.push(y[1] - WIDTH);
+            kinks.push(y[1] + WIDTH);
+        }
+    }
+
+    fn guard_scale(&self) -> f64 {
+        1.0
+    }
+
+    fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
+        Reset { modes: (), impact: None }
+    }
+}
+
+/// Speed at the end of a slide that starts at −1: at PUSH + FRICTION up to −WIDTH, on
+/// v = w·(2 − 3·e^(−t/w)) for w·ln 3 up to WIDTH, and at PUSH − FRICTION from there.
+fn exact() -> f64 {
+    WIDTH + END - (1.0 - WIDTH) / 3.0 - WIDTH * 3f64.ln()
+}
+
+/// Error of the speed at the end, and the work.
+fn slide<M: Method>(tells: bool, tolerance: f64) -> (f64, Statistics) {
+    let problem = Sliding { tells };
+    let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
+    let mut integrator = Integrator::<2, (), M>::start(&problem, settings, 0.0, [0.0, -1.0], ());
+    integrator.advance(&problem, END).expect("a motion without trouble");
+    let (y, ()) = integrator.state_at(&problem, END);
+    ((y[1] - exact()).abs(), integrator.memory().statistics)
+}
+
+#[test]
+fn a_step_that_fails_ends_at_the_kink_that_it_fails_by() {
+    /// With a method.
+    fn compare<M: Method>() {
+        for tolerance in [1e-8, 1e-9, 1e-10] {
+            let [(blind, searched), (error, told)] = [false, true].map(|tells| slide::<M>(tells, tolerance));
+            println!("{} at {tolerance:e}: {blind:.1e} in {searched:?}, told {error:.1e} in {told:?}", M::NAME);
+            assert!(error <= 10.0 * tolerance, "{}: {error:e} at {tolerance:e}", M::NAME);
+            let work = told.evaluations as f64 / searched.evaluations as f64;
+            assert!(work < 0.9, "{} at {tolerance:e}: {told:?} against {searched:?}", M::NAME);
+        }
+    }
+    compare::<Dopri5>();
+    compare::<Verner7>();
+    compare::<Dop853>();
+}
