@@ -19,8 +19,10 @@ const CLEARANCE: f64 = 0.5e-3;
 const ANGLE: f64 = 0.01;
 /// [1/s] Slowest motion that is still weighed as motion.
 const SLOWEST: f64 = 1.0;
-/// [rad] Most that a prescribed or started crank turns within a step.
+/// [rad] Most that a prescribed or started crank turns within a step, so that no touch is missed.
 const TURN: f64 = 0.1;
+/// [rad] The same without clearance, where only the dead ends of a short rod may be met.
+const TURN_WITHOUT_PLAY: f64 = 0.2;
 /// [s] Longest step of all.
 const LONGEST: f64 = 0.02;
 
@@ -58,10 +60,11 @@ impl Scale {
             }
         }
         let turning = scene.crank.speed_start.abs().max(SLOWEST);
-        let longest_step = (TURN / turning).min(LONGEST);
+        let within = |turn: f64| (turn / turning).min(LONGEST);
         if clearance == f64::INFINITY {
             let swing = (scene.gravity.abs() / scene.crank.length).sqrt();
             let frequency = turning.max(swing);
+            let longest_step = within(TURN_WITHOUT_PLAY);
             return Self { length: ANGLE, angle: [ANGLE; 3], deflection: LENGTH, frequency, longest_step };
         }
         let length = LENGTH * math::powf(clearance / CLEARANCE, 1.0 / 3.0);
@@ -79,6 +82,7 @@ impl Scale {
         // A soft contact does not make the crank's own motion more precious.
         let frequency = frequency.max(10.0 * turning);
         let reach = [scene.crank.length, scene.rod.length, 0.5 * scene.slider.length];
+        let longest_step = within(TURN);
         Self { length, angle: reach.map(|reach| length / reach), deflection: length, frequency, longest_step }
     }
 }
