@@ -22,38 +22,43 @@ const SHORT_OF: f64 = 0.95;
 const PAST_KINK: f64 = 1.01;
 const PAST_EVENT: f64 = 1.001;
 
-/// The share of an attempted step of `h` from `start` to `end` at which a shorter one should end: at the first kink in
-/// it, or the first event.
+/// The share of an attempted step of `h` from `start`, where the guards are `guards`, to `end` at which a shorter one
+/// should end: at the first kink in it, or the first event.
 pub fn first<const N: usize, P: Problem<N> + ?Sized>(
     problem: &P,
     start: &Front<N, P::Modes>,
+    guards: &[Guard; GUARDS],
     h: f64,
     end: &[f64; N],
 ) -> Option<f64> {
     let Front { t, y, rates, modes, .. } = start;
-    let soon: [f64; N] = std::array::from_fn(|i| y[i] + AHEAD * h * rates[i]);
-    let [before, ahead, after] = [(0.0, y), (AHEAD, &soon), (1.0, end)].map(|(share, y)| {
-        let mut kinks = Kinks::NONE;
-        problem.kinks(modes, t + share * h, y, &mut kinks);
-        kinks
-    });
-    let slopes = before.values().iter().zip(ahead.values()).map(|(now, soon)| (soon - now) / AHEAD);
-    let kinks = before.values().iter().zip(slopes).zip(after.values());
-    let kinks = kinks.filter_map(|((&value, slope), &end)| {
-        let share = crossing(value, slope, end)?;
-        Some(share * if share > FAR { SHORT_OF } else { PAST_KINK })
-    });
-    let [before, after] = [(0.0, y), (1.0, end)].map(|(share, y)| {
-        let mut guards = [Guard::default(); GUARDS];
-        problem.guards(modes, t + share * h, y, &mut guards);
-        guards
-    });
-    let falls = before.iter().zip(&after).take(problem.guard_count()).filter(|(guard, _)| guard.value > 0.0);
-    let falls = falls.filter_map(|(before, after)| {
-        let share = crossing(before.value, before.rate * h, after.value)?;
-        Some(share * PAST_EVENT)
-    });
-    kinks.chain(falls).filter(|share| WITHIN.contains(share)).min_by(f64::total_cmp)
+    let (mut before, mut after) = (Kinks::NONE, Kinks::NONE);
+    problem.kinks(modes, *t, y, &mut before);
+    problem.kinks(modes, t + h, end, &mut after);
+    let mut fallen = [Guard::default(); GUARDS];
+    problem.guards(modes, t + h, end, &mut fallen);
+    let mut ends = f64::INFINITY;
+    let mut end_at = |share: f64| {
+        if WITHIN.contains(&share) {
+            ends = ends.min(share);
+        }
+    };
+    for (now, then) in guards.iter().zip(&fallen).take(problem.guard_count()).filter(|(guard, _)| guard.value > 0.0) {
+        if let Some(share) = crossing(now.value, now.rate * h, then.value) {
+            end_at(share * PAST_EVENT);
+        }
+    }
+    if before.values().iter().zip(after.values()).any(|(now, then)| now * then < 0.0) {
+        let soon: [f64; N] = std::array::from_fn(|i| y[i] + AHEAD * h * rates[i]);
+        let mut ahead = Kinks::NONE;
+        problem.kinks(modes, t + AHEAD * h, &soon, &mut ahead);
+        for ((now, soon), then) in before.values().iter().zip(ahead.values()).zip(after.values()) {
+            if let Some(share) = crossing(*now, (soon - now) / AHEAD, *then) {
+                end_at(share * if share > FAR { SHORT_OF } else { PAST_KINK });
+            }
+        }
+    }
+    ends.is_finite().then_some(ends)
 }
 
 /// The share at which the parabola from `value` with `slope` to `end` is zero, if its ends differ in sign.

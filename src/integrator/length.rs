@@ -54,7 +54,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             first.get_or_insert(h);
             self.memory.statistics.rejected += 1;
             let look = error.is_finite() && cuts < CUTS;
-            let kink = if look { kink::first(problem, &self.memory.start, h, &self.made.y) } else { None };
+            let kink =
+                if look { kink::first(problem, &self.memory.start, &self.guards, h, &self.made.y) } else { None };
             cut = kink.is_some();
             cuts += usize::from(cut);
             let power = failed.map_or(M::ERROR_POWER, |before| controller::error_power::<M>([before, (h, error)]));

@@ -25,7 +25,7 @@ pub struct Reset<D> {
 }
 
 /// Most kinks that a problem may have.
-const KINKS: usize = 64;
+const KINKS: usize = 42;
 
 /// Functions whose zeros are kinks of the rates: there a rate goes on with another slope.
 #[derive(Clone, Copy, Debug)]
