@@ -12,6 +12,8 @@ use super::step::Integrator;
 const IMPACT_SHARE: f64 = 0.1;
 /// Most times that one step is cut short at a kink.
 const CUTS: usize = 6;
+/// [roundings of time] No kink makes a step shorter than this.
+const SHORTEST_CUT: f64 = 1e3;
 
 impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     /// Attempts until the error is tolerable, and tells how long that step is. One that fails because a kink lies in it
@@ -56,6 +58,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             let look = error.is_finite() && cuts < CUTS;
             let kink =
                 if look { kink::first(problem, &self.memory.start, &self.guards, h, &self.made.y) } else { None };
+            // A kink that close is where the step starts.
+            let kink = kink.filter(|share| share * h > SHORTEST_CUT * least);
             cut = kink.is_some();
             cuts += usize::from(cut);
             let power = failed.map_or(M::ERROR_POWER, |before| controller::error_power::<M>([before, (h, error)]));
