@@ -4,11 +4,13 @@
 //! by IEEE 754 everywhere and stay `f64::sqrt`.
 
 mod dual;
+mod each;
 mod real;
 mod sin_cos;
 mod vec2;
 
 pub use dual::Dual;
+pub(crate) use each::each;
 pub use real::Real;
 pub use vec2::Vec2;
 

@@ -27,6 +27,8 @@ pub trait Real:
     + Div<Output = Self>
     + Div<f64, Output = Self>
 {
+    /// It carries no derivatives; loops that are short may then be written out.
+    const PLAIN: bool = false;
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -65,6 +67,7 @@ pub trait Real:
 }
 
 impl Real for f64 {
+    const PLAIN: bool = true;
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
 

@@ -67,7 +67,15 @@ const fn series(part: usize) -> (f64, f64) {
 /// (sin x, cos x) of every x, within about two roundings of the exact ones.
 #[inline(always)]
 pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
-    if x.iter().all(|x| x.abs() < GREATEST) { x.map(reduced) } else { x.map(one_by_one) }
+    let mut found = [(0.0, 0.0); K];
+    if x.iter().all(|x| x.abs() < GREATEST) {
+        for (found, &x) in found.iter_mut().zip(&x) {
+            *found = reduced(x);
+        }
+    } else {
+        found = x.map(one_by_one);
+    }
+    found
 }
 
 #[cold]

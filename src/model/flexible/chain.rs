@@ -5,13 +5,13 @@
 
 use crate::math::Real;
 use crate::model::coordinates::Layout;
-use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
+use crate::model::mechanism::Topology;
 
 /// Most places in x: two of a root, three angles, L.
 pub const PLACES: usize = 6;
 
 /// Where the coordinates of the rod's chain stand in x: its root, if it has one, and angles. L comes after them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chain {
     /// How many there are.
     pub size: usize,
@@ -21,33 +21,75 @@ pub struct Chain {
     pub angle: [Option<usize>; 3],
 }
 
-impl Chain {
+/// Which joints a mechanism has, and where its coordinates stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Which joints are ideal and whether the crank's angle is prescribed.
+    pub topology: Topology,
+    /// Places of the coordinates among the positions.
+    pub layout: Layout,
+    /// Which of them are in x.
+    pub chain: Chain,
+    /// Which of A, B, C and T have clearance.
+    pub clear: [bool; 4],
+    /// Number of coordinates that are not modal.
+    pub rigid: usize,
+}
+
+impl Frame {
     /// Of a topology.
-    pub fn new(topology: Topology, layout: &Layout) -> Self {
-        let mut chain = Self::default();
+    pub const fn new(topology: Topology) -> Self {
+        let Topology { a, b, c, t, speed } = topology;
+        let layout = Layout::new(topology);
+        let rigid = if topology.is_closed() { !speed as usize } else { topology.freedoms() };
+        Self { topology, layout, chain: Chain::new(topology, &layout), clear: [!a, !b, !c, !t], rigid }
+    }
+
+    /// How many coordinates x has.
+    pub const fn places(self) -> usize {
+        self.chain.size + 1
+    }
+}
+
+impl Chain {
+    const NONE: Self = Self { size: 0, positions: [0; PLACES], angle: [None; 3] };
+
+    /// Of a topology.
+    pub const fn new(topology: Topology, layout: &Layout) -> Self {
         let Topology { b, c, t, .. } = topology;
-        let mut next = 0;
-        let roots =
-            [(topology.crank_floats(), 2, b), (topology.rod_floats(), 2, true), (topology.slider_floats(), 2, false)];
-        let on_rail = (t && !topology.is_closed(), 1, c);
-        for (there, count, connected) in roots.into_iter().chain([on_rail]) {
-            for _ in 0..if there { count } else { 0 } {
+        let (mut chain, mut next) = (Self::NONE, 0);
+        let rail = (t && !topology.is_closed(), 1, c);
+        let roots = [
+            (topology.crank_floats(), 2, b),
+            (topology.rod_floats(), 2, true),
+            (topology.slider_floats(), 2, false),
+            rail,
+        ];
+        let mut k = 0;
+        while k < roots.len() {
+            let (there, count, connected) = roots[k];
+            let end = if there { next + count } else { next };
+            while next < end {
                 if connected {
                     chain.append(next);
                 }
                 next += 1;
             }
+            k += 1;
         }
-        for (body, connected) in [(CRANK, b), (ROD, true), (SLIDER, c)] {
-            if let (Some(position), true) = (layout.angle(body), connected) {
+        let connected = [b, true, c];
+        let mut body = 0;
+        while body < connected.len() {
+            if let (Some(position), true) = (layout.angle(body), connected[body]) {
                 chain.angle[body] = Some(chain.size);
                 chain.append(position);
             }
+            body += 1;
         }
         chain
     }
 
-    fn append(&mut self, position: usize) {
+    const fn append(&mut self, position: usize) {
         self.positions[self.size] = position;
         self.size += 1;
     }
@@ -98,7 +140,7 @@ mod tests {
     #[test]
     fn a_chain_has_what_ideal_joints_connect() {
         assert_eq!(chain(false, true, true, false).size, 5);
-        assert_eq!(chain(true, true, true, true), Chain { size: 1, angle: [Some(0), None, None], ..Chain::default() });
+        assert_eq!(chain(true, true, true, true), Chain { size: 1, angle: [Some(0), None, None], ..Chain::NONE });
         // On the guide hang rod and crank: x, and their angles.
         assert_eq!(
             chain(false, true, true, true),

@@ -4,16 +4,17 @@
 //! Modes move joint centres through one number only, the chord's length L. Places are therefore given
 //! over the coordinates x = (rigid coordinates, L): a = J·ẍ + bias, where L̈ = ∂L/∂η·η̈ + bias.
 
-use super::chain::Chain;
-use crate::math::{self, Real};
-use crate::model::coordinates::Layout;
+use super::chain::Frame;
+use super::sparse::Sparse;
+use crate::math::{self, Real, each};
 use crate::model::drive::Rotor;
 use crate::model::ideal::IdealMechanism;
 use crate::model::kinematics::{JointCentres, Turning};
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2, perp};
 use crate::model::rod::{Chord, Rod, Shape};
-use crate::model::state::Pose;
+use crate::model::state::{Pose, turning};
+use std::ops::Range;
 
 /// A joint centre.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +26,7 @@ pub struct Centre<R, const P: usize> {
     /// [m/s²] Acceleration at q̈ = 0.
     pub bias: Vec2<R>,
     /// ∂/∂x.
-    pub slope: [Vec2<R>; P],
+    pub slope: [Vec2<Sparse<R>>; P],
 }
 
 /// The angle of a body.
@@ -40,7 +41,7 @@ pub struct Heading<R, const P: usize> {
     /// [rad/s²] Acceleration at q̈ = 0.
     pub bias: R,
     /// ∂θ/∂x.
-    pub slope: [R; P],
+    pub slope: [Sparse<R>; P],
 }
 
 /// All of them at one instant.
@@ -63,12 +64,8 @@ pub struct Configuration<R, const P: usize> {
 /// What places need to be known.
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    /// Which joints are ideal.
-    pub topology: Topology,
-    /// Where the coordinates stand.
-    pub layout: Layout,
-    /// Which of them are in x.
-    pub chain: Chain,
+    /// Which joints are ideal, and where the coordinates stand.
+    pub frame: Frame,
     /// Lengths, and the height of the pin on an ideal guide.
     pub ideal: IdealMechanism,
     /// The prescribed rotation.
@@ -78,7 +75,7 @@ pub struct Geometry {
 }
 
 impl<R: Real, const P: usize> Centre<R, P> {
-    const FIXED: Self = Self { place: Vec2::ZERO, velocity: Vec2::ZERO, bias: Vec2::ZERO, slope: [Vec2::ZERO; P] };
+    const FIXED: Self = Self { place: Vec2::ZERO, velocity: Vec2::ZERO, bias: Vec2::ZERO, slope: [Vec2::NONE; P] };
 
     /// A point that is not in the rod's chain.
     #[inline(always)]
@@ -90,8 +87,8 @@ impl<R: Real, const P: usize> Centre<R, P> {
     #[inline(always)]
     fn root(place: Vec2<R>, velocity: Vec2<R>) -> Self {
         let mut centre = Self::alone(place, velocity);
-        centre.slope[0].x = R::ONE;
-        centre.slope[1].y = R::ONE;
+        centre.slope[0].x = Sparse::ONE;
+        centre.slope[1].y = Sparse::ONE;
         centre
     }
 
@@ -100,11 +97,15 @@ impl<R: Real, const P: usize> Centre<R, P> {
     pub fn along(&self, heading: &Heading<R, P>, side: f64, arm: Vec2<R>) -> Self {
         let arm = arm * side;
         let across = perp(arm);
+        let mut slope = self.slope;
+        each!(R::PLAIN, k < P => {
+            slope[k] += heading.slope[k].times(across);
+        });
         Self {
             place: self.place + arm,
             velocity: self.velocity + heading.speed * across,
             bias: self.bias + heading.bias * across - heading.speed * heading.speed * arm,
-            slope: std::array::from_fn(|k| self.slope[k] + heading.slope[k] * across),
+            slope,
         }
     }
 
@@ -115,7 +116,7 @@ impl<R: Real, const P: usize> Centre<R, P> {
         let mut end = self.along(rod, 1.0, chord.length * axis);
         end.velocity += chord.rate * axis;
         end.bias += chord.bias * axis + chord.rate * 2.0 * rod.speed * perp(axis);
-        end.slope[place] += axis;
+        end.slope[place] += Sparse::ONE.times(axis);
         end
     }
 
@@ -127,76 +128,79 @@ impl<R: Real, const P: usize> Centre<R, P> {
 
     /// [m/s²] At the accelerations `forced` of x, the bias of L apart.
     pub fn acceleration(&self, forced: &[R; P]) -> Vec2<R> {
-        self.slope.iter().zip(forced).fold(self.bias, |sum, (slope, a)| sum + *a * *slope)
+        self.slope
+            .iter()
+            .zip(forced)
+            .fold(self.bias, |sum, (slope, a)| sum + Vec2::new(slope.x.value(), slope.y.value()) * *a)
     }
 }
 
 impl<R: Real, const P: usize> Heading<R, P> {
-    /// Of a slider on an ideal guide.
-    const NONE: Self =
-        Self { rotation: Rotation::NONE, angle: R::ZERO, speed: R::ZERO, bias: R::ZERO, slope: [R::ZERO; P] };
-
+    /// Of a body.
     #[inline(always)]
-    fn new(angle: R, speed: R, coordinate: Option<usize>) -> Self {
-        let mut slope = [R::ZERO; P];
+    fn new(turning: &Turning<R>, body: usize, coordinate: Option<usize>) -> Self {
+        let mut slope = [Sparse::Zero; P];
         if let Some(k) = coordinate {
-            slope[k] = R::ONE;
+            slope[k] = Sparse::ONE;
         }
-        Self { rotation: Rotation::new(angle), angle, speed, bias: R::ZERO, slope }
+        let Turning { rotation, angle, speed } = turning;
+        Self { rotation: rotation[body], angle: angle[body], speed: speed[body], bias: R::ZERO, slope }
     }
 
     /// [rad/s²] At the accelerations `forced` of x, the bias of L apart.
     pub fn acceleration(&self, forced: &[R; P]) -> R {
-        self.bias + self.slope.iter().zip(forced).fold(R::ZERO, |sum, (slope, a)| sum + *slope * *a)
+        self.bias + self.slope.iter().zip(forced).fold(R::ZERO, |sum, (slope, a)| sum + slope.value() * *a)
     }
 }
 
 impl Geometry {
-    /// Number of coordinates that are not modal.
-    pub fn rigid(&self) -> usize {
-        if self.topology.is_closed() { usize::from(!self.topology.speed) } else { self.topology.freedoms() }
-    }
-
     /// Where the modal coordinates stand.
-    pub fn modes(&self) -> std::ops::Range<usize> {
-        let rigid = self.rigid();
-        rigid..rigid + self.rod.modes()
+    #[inline(always)]
+    pub fn modes(&self, frame: Frame) -> Range<usize> {
+        frame.rigid..frame.rigid + self.rod.modes()
     }
 
     /// Accelerations of x at `forced` of the coordinates, the bias of L apart.
     pub fn accelerations<R: Real, const P: usize, const K: usize, const F: usize>(
         &self,
+        frame: Frame,
         shape: &Shape<R, K, F>,
         forced: &[R],
     ) -> [R; P] {
-        let mut all = self.chain.gather(forced);
-        for (slope, a) in shape.chord_slope.iter().zip(&forced[self.modes()]) {
-            all[self.chain.size] += *slope * *a;
+        let mut all = frame.chain.gather(forced);
+        for (slope, a) in shape.chord_slope.iter().zip(&forced[self.modes(frame)]) {
+            all[frame.chain.size] += *slope * *a;
         }
         all
     }
 
-    /// The configuration of `positions` and `rates` at `t`; L stands at `place` in x.
+    /// The configuration of `positions` and `rates` at `t`.
     #[inline(always)]
     pub fn configuration<R: Real, const P: usize>(
         &self,
+        frame: Frame,
         t: R,
         positions: &[R],
         rates: &[R],
         chord: &Chord<R>,
-        place: usize,
     ) -> Configuration<R, P> {
-        let Self { topology, layout, chain, rotor, .. } = self;
-        let Topology { a, b, c, t: guided, speed } = *topology;
+        let (rotor, Frame { topology, layout, chain, .. }) = (&self.rotor, frame);
+        let (place, Topology { a, b, c, t: guided, speed }) = (chain.size, topology);
         let closed = topology.is_closed();
-        let angle = |k: usize| {
-            let position = layout.angle(k);
-            let of = |list: &[R]| position.map_or(R::ZERO, |i| list[i]);
-            Heading::new(of(positions), of(rates), chain.angle[k])
-        };
-        let crank = if speed { Heading::new(rotor.at(t), R::constant(rotor.speed), None) } else { angle(CRANK) };
-        let slider = if guided { Heading::NONE } else { angle(SLIDER) };
-        let rod = if closed { self.closing_rod(&crank, chord, place) } else { angle(ROD) };
+        let (mut angles, mut speeds) = ([R::ZERO; 3], [R::ZERO; 3]);
+        for k in [CRANK, ROD, SLIDER] {
+            if let Some(position) = layout.angle(k) {
+                (angles[k], speeds[k]) = (positions[position], rates[position]);
+            }
+        }
+        if speed {
+            (angles[CRANK], speeds[CRANK]) = (rotor.at(t), R::constant(rotor.speed));
+        }
+        let turning = turning(angles, speeds, !guided);
+        let crank = Heading::new(&turning, CRANK, chain.angle[CRANK]);
+        let slider = Heading::new(&turning, SLIDER, chain.angle[SLIDER]);
+        let rod =
+            if closed { self.closing_rod(&crank, chord, place) } else { Heading::new(&turning, ROD, chain.angle[ROD]) };
         let (mut roots, moving) = (layout.roots(positions), layout.roots(rates));
         let throw = crank.rotation.axis(self.ideal.crank);
         if guided {
@@ -206,7 +210,7 @@ impl Geometry {
         let (crank_centre, crank_pin, big_end, small_end, pin);
         if c && guided && !closed {
             let mut on_rail = Centre::alone(roots.slider, moving.slider);
-            on_rail.slope[0].x = R::ONE;
+            on_rail.slope[0].x = Sparse::ONE;
             pin = on_rail;
             small_end = on_rail;
             big_end = pin.across_rod(&rod, chord, place, -1.0);
@@ -234,6 +238,7 @@ impl Geometry {
     }
 
     /// The rod's angle where all joints are ideal: r·sin θ1 + L·sin θ2 = height, differentiated twice.
+    #[inline(always)]
     fn closing_rod<R: Real, const P: usize>(
         &self,
         crank: &Heading<R, P>,
@@ -251,14 +256,18 @@ impl Geometry {
             - rate * 2.0 * cos * speed
             - sin * stretching)
             * per_reach;
-        let mut slope = crank.slope.map(|slope| -throw * slope * per_reach);
-        slope[place] -= sin * per_reach;
+        let mut slope = crank.slope;
+        each!(R::PLAIN, k < P => {
+            slope[k] = slope[k].map(|slope| -throw * slope * per_reach);
+        });
+        slope[place] = Sparse::Is(-(sin * per_reach));
         Heading { rotation: Rotation { cos, sin }, angle: math::atan2(sin, cos), speed, bias, slope }
     }
 }
 
 impl<R: Real, const P: usize> Configuration<R, P> {
     /// Places and velocities without their slopes.
+    #[inline(always)]
     pub fn pose(&self, slope_rate: [R; 2]) -> Pose<R> {
         let [crank, rod, slider] = &self.heading;
         let turning = Turning {
@@ -275,6 +284,7 @@ impl<R: Real, const P: usize> Configuration<R, P> {
     }
 
     /// One vector of every joint centre.
+    #[inline(always)]
     pub fn each(&self, of: impl Fn(&Centre<R, P>) -> Vec2<R>) -> JointCentres<R> {
         JointCentres {
             crank: of(&self.crank),

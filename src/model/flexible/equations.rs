@@ -4,9 +4,9 @@
 #![allow(clippy::needless_range_loop)] // triangles are read by their indices
 
 use super::configuration::{Centre, Configuration, Heading};
-use crate::math::Real;
+use super::sparse::Sparse;
+use crate::math::{Real, each};
 use crate::model::dynamics::Loads;
-use crate::model::joint::{Kernel, Kernels};
 use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Vec2, cross, perp};
 use crate::model::reactions::Demand;
@@ -15,45 +15,53 @@ use std::ops::Range;
 
 /// Mass matrix (lower triangle) and right side over x, the configuration's coordinates.
 pub struct Places<R, const P: usize> {
-    /// How many: the rigid coordinates and the chord's length.
-    size: usize,
-    matrix: [[R; P]; P],
-    right: [R; P],
+    matrix: [[Sparse<R>; P]; P],
+    right: [Sparse<R>; P],
 }
 
 impl<R: Real, const P: usize> Places<R, P> {
-    /// Of so many coordinates, with nothing in them.
-    #[inline(always)]
-    pub fn new(size: usize) -> Self {
-        Self { size, matrix: [[R::ZERO; P]; P], right: [R::ZERO; P] }
-    }
+    /// With nothing in them.
+    pub const NONE: Self = Self { matrix: [[Sparse::Zero; P]; P], right: [Sparse::Zero; P] };
 
     /// Adds `force` [N] at a joint centre.
     #[inline(always)]
     fn push(&mut self, centre: &Centre<R, P>, force: Vec2<R>) {
-        for (right, slope) in self.right[..self.size].iter_mut().zip(&centre.slope) {
-            *right += slope.dot(force);
-        }
+        each!(R::PLAIN, k < P => {
+            self.right[k] += centre.slope[k].with(force);
+        });
     }
 
     /// Adds `couple` [N·m] on a body.
     #[inline(always)]
     fn twist(&mut self, heading: &Heading<R, P>, couple: R) {
-        for (right, slope) in self.right[..self.size].iter_mut().zip(&heading.slope) {
-            *right += *slope * couple;
-        }
+        each!(R::PLAIN, k < P => {
+            self.right[k] += heading.slope[k] * couple;
+        });
+    }
+
+    /// Adds what momentum `push` and moment of momentum `twist` of ẋ_i give with every ẋ_j of a point and an angle.
+    #[inline(always)]
+    fn add_row(
+        &mut self,
+        i: usize,
+        push: Vec2<Sparse<R>>,
+        twist: Sparse<R>,
+        centre: &Centre<R, P>,
+        heading: &Heading<R, P>,
+    ) {
+        each!(R::PLAIN, j < i + 1 => {
+            self.matrix[i][j] += push.with(centre.slope[j]) + twist * heading.slope[j];
+        });
     }
 
     /// Adds a rigid body whose reference point is `centre`.
     #[inline(always)]
     fn add_body(&mut self, body: &Body, heading: &Heading<R, P>, centre: &Centre<R, P>, gravity: f64) {
         let com = centre.carried(heading, body.com);
-        for i in 0..self.size {
-            let (push, twist) = (com.slope[i] * body.mass, heading.slope[i] * body.inertia);
-            for j in 0..=i {
-                self.matrix[i][j] += push.dot(com.slope[j]) + twist * heading.slope[j];
-            }
-        }
+        each!(R::PLAIN, i < P => {
+            let (push, twist) = (com.slope[i].scaled(body.mass), heading.slope[i].map(|turn| turn * body.inertia));
+            self.add_row(i, push, twist, &com, heading);
+        });
         self.push(&com, (com.bias + Vec2::new(0.0, gravity)) * -body.mass);
         self.twist(heading, heading.bias * -body.inertia);
     }
@@ -83,19 +91,20 @@ impl<R: Real, const P: usize> Places<R, P> {
     }
 }
 
-/// Mass matrix (lower triangle) and right side over the coordinates of the rod's chain and its modes.
+/// Mass matrix (upper triangle) and right side over the coordinates of the rod's chain and its modes.
 pub struct Equations<R, const S: usize> {
-    size: usize,
-    matrix: [[R; S]; S],
-    right: [R; S],
+    pub(super) size: usize,
+    pub(super) matrix: [[R; S]; S],
+    pub(super) right: [R; S],
 }
 
 impl<R: Real, const S: usize> Equations<R, S> {
-    /// Adds the rod to the other bodies' equations: its inertia and, at its ends and on its modes, its
-    /// loads.
+    /// Adds the rod to the other bodies' equations: its inertia and, at its ends and on its modes, its loads. So many
+    /// coordinates stand before L.
     #[inline(always)]
     pub fn new<const P: usize, const K: usize, const F: usize>(
         mut places: Places<R, P>,
+        rigid: usize,
         rod: &Moving<'_, R, P, K, F>,
         loads: &Loads<R>,
         gravity: f64,
@@ -104,18 +113,15 @@ impl<R: Real, const S: usize> Equations<R, S> {
         let Moving { rod: beam, shape, inertia, configuration, modes } = rod;
         let Configuration { heading, big_end, small_end, .. } = configuration;
         let heading = &heading[ROD];
-        let (rigid, n) = (places.size - 1, modes.len());
+        let n = modes.len().min(K);
         let first = heading.rotation.apply(inertia.first);
         let lever = perp(first);
         let m = beam.mass();
-        for i in 0..=rigid {
+        each!(R::PLAIN, i < P => {
             let (slope, turn) = (big_end.slope[i], heading.slope[i]);
-            let push = slope * m + turn * lever;
-            let twist = lever.dot(slope) + inertia.about_origin * turn;
-            for j in 0..=i {
-                places.matrix[i][j] += push.dot(big_end.slope[j]) + twist * heading.slope[j];
-            }
-        }
+            let twist = slope.with(lever) + turn * inertia.about_origin;
+            places.add_row(i, slope.scaled(m) + turn.times(lever), twist, big_end, heading);
+        });
         // Right side: loads less what the biases ask for.
         let bias = big_end.bias + Vec2::new(0.0, gravity);
         let asked = bias * m + heading.bias * lever + heading.rotation.apply(inertia.force);
@@ -125,110 +131,32 @@ impl<R: Real, const S: usize> Equations<R, S> {
         places.twist(heading, loads.end_couple[0] + loads.end_couple[1] - couple);
 
         let mut all = Self { size: rigid + n, matrix: [[R::ZERO; S]; S], right: [R::ZERO; S] };
-        for i in 0..rigid {
-            all.matrix[i][..=i].copy_from_slice(&places.matrix[i][..=i]);
-        }
-        all.right[..rigid].copy_from_slice(&places.right[..rigid]);
+        each!(R::PLAIN, i < rigid => {
+            each!(R::PLAIN, j < i + 1 => {
+                all.matrix[j][i] = places.matrix[i][j].value();
+            });
+            all.right[i] = places.right[i].value();
+        });
         // A mode turns and shifts the rod's mass in its frame, and moves the frame through the chord.
         let of_chord = &places.matrix[rigid];
-        let mut by_chord = [R::ZERO; K];
-        for a in 0..n {
+        let mut by_chord = [Sparse::Zero; K];
+        each!(const { R::PLAIN && K <= 4 }, a < n => {
             let (slope, turning) = (heading.rotation.apply(inertia.first_slope[a]), inertia.turning[a]);
-            let with = |i: usize| slope.dot(big_end.slope[i]) + turning * heading.slope[i];
+            let with = |i: usize| big_end.slope[i].with(slope) + heading.slope[i] * turning;
             let chord = shape.chord_slope[a];
-            let row = &mut all.matrix[rigid + a];
-            for i in 0..rigid {
-                row[i] = chord * of_chord[i] + with(i);
-            }
+            each!(R::PLAIN, i < rigid => {
+                all.matrix[i][rigid + a] = (with(i) + of_chord[i] * chord).value();
+            });
             by_chord[a] = with(rigid);
-            for b in 0..=a {
+            each!(const { R::PLAIN && K <= 4 }, b < a + 1 => {
                 let other = shape.chord_slope[b];
-                row[rigid + b] =
-                    inertia.modal[a][b] + chord * other * of_chord[rigid] + chord * by_chord[b] + other * by_chord[a];
-            }
-            all.right[rigid + a] = chord * places.right[rigid] + modal_force[a]
-                - slope.dot(bias)
-                - turning * heading.bias
-                - inertia.modal_force[a];
-        }
+                let shifted = of_chord[rigid] * (chord * other) + by_chord[b] * chord + by_chord[a] * other;
+                all.matrix[rigid + b][rigid + a] = shifted.added_to(inertia.modal[a][b]);
+            });
+            let force = modal_force[a] - slope.dot(bias) - turning * heading.bias - inertia.modal_force[a];
+            all.right[rigid + a] = (places.right[rigid] * chord).added_to(force);
+        });
         all
-    }
-
-    /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite.
-    #[inline(always)]
-    pub fn solve(mut self, solver: Solver<R, S>) -> [R; S] {
-        solver(&mut self);
-        self.right
-    }
-
-    /// For any number of coordinates.
-    fn solve_any(&mut self) {
-        self.solve_in_place(self.size);
-    }
-
-    /// For `SIZE` of them.
-    fn solve_sized<const SIZE: usize>(&mut self) {
-        self.solve_in_place(SIZE);
-    }
-
-    #[inline(always)]
-    fn solve_in_place(&mut self, size: usize) {
-        let Self { matrix, right: x, .. } = self;
-        let mut per = [R::ZERO; S];
-        for j in 0..size {
-            let (above, below) = matrix.split_at_mut(j);
-            let row = &mut below[0];
-            // Row j of L·D, in place.
-            for k in 1..j {
-                let mut element = row[k];
-                for m in 0..k {
-                    element -= row[m] * above[k][m];
-                }
-                row[k] = element;
-            }
-            let (mut pivot, mut right) = (row[j], x[j]);
-            for k in 0..j {
-                let l = row[k] * per[k];
-                pivot -= l * row[k];
-                right -= l * x[k];
-                row[k] = l;
-            }
-            (per[j], x[j]) = (pivot.recip(), right);
-        }
-        for i in (0..size).rev() {
-            let mut solved = x[i] * per[i];
-            for k in i + 1..size {
-                solved -= matrix[k][i] * x[k];
-            }
-            x[i] = solved;
-        }
-    }
-}
-
-/// Puts the solution in place of the right side.
-pub type Solver<R, const S: usize> = fn(&mut Equations<R, S>);
-
-/// Solvers as a kernel.
-#[derive(Clone, Copy, Debug)]
-pub struct Solvers<const S: usize>;
-
-impl<const S: usize> Kernel for Solvers<S> {
-    type Of<R: Real> = Solver<R, S>;
-}
-
-impl<const S: usize> Solvers<S> {
-    /// Those for `size` coordinates, compiled for that many where they are few.
-    pub fn of(size: usize) -> Kernels<Self> {
-        /// Chooses among the listed sizes.
-        macro_rules! compiled {
-            ($($size:literal)*) => {
-                match size {
-                    $($size if $size <= S => Equations::solve_sized::<$size>,)*
-                    _ => Equations::solve_any,
-                }
-            };
-        }
-        Kernels { value: compiled!(1 2 3 4 5 6 7 8 9 10), tangent: Equations::solve_any }
     }
 }
 

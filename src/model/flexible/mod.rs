@@ -9,11 +9,12 @@ mod chain;
 mod configuration;
 mod equations;
 mod motion;
+mod solver;
+mod sparse;
 
 use super::bristles::bristled_contacts;
 use super::clearances::Clearances;
 use super::contact::Account;
-use super::coordinates::Layout;
 use super::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers};
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
@@ -28,10 +29,10 @@ use super::state::{CONTACTS, Contacts, Instant, Pose};
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, Unilateral};
 use crate::math::Real;
 use crate::scene::Scene;
-use chain::{Chain, PLACES};
+use chain::{Frame, PLACES};
 use configuration::Geometry;
-use equations::Solvers;
 use motion::Functions;
+use solver::Solvers;
 
 /// A mechanism with a flexible rod, in arrays with room for `N` states, `S` equations to solve together, `K` modes and
 /// `F` functions of the rod.
@@ -43,7 +44,6 @@ pub struct Flexible<const N: usize, const S: usize, const K: usize, const F: usi
     solvers: Kernels<Solvers<S>>,
     bodies: Bodies,
     gravity: f64,
-    clear: [bool; 4],
     clearances: Clearances,
     rotary_dampers: Vec<RotaryDamper>,
     guide_damping: Option<f64>,
@@ -61,9 +61,7 @@ pub const fn most_equations(modes: usize) -> usize {
 
 /// Number of states of the scene's mechanism with its rod.
 pub fn state_count(scene: &Scene, rod: &Rod) -> usize {
-    let topology = Topology::of(scene);
-    let rigid = if topology.is_closed() { usize::from(!topology.speed) } else { topology.freedoms() };
-    2 * (rigid + rod.modes()) + bristled_contacts(scene).len()
+    2 * (Frame::new(Topology::of(scene)).rigid + rod.modes()) + bristled_contacts(scene).len()
 }
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
@@ -71,24 +69,17 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
     pub fn assemble(scene: &Scene, time: f64, rod: Rod) -> Self {
         const { assert!(N >= ROOM && S == most_equations(K) && F == most_functions(K)) };
         let topology = Topology::of(scene);
-        let layout = Layout::new(topology);
-        let geometry = Geometry {
-            topology,
-            chain: Chain::new(topology, &layout),
-            layout,
-            ideal: IdealMechanism::new(scene),
-            rotor: Rotor::new(scene, time),
-            rod,
-        };
+        let frame = Frame::new(topology);
+        let geometry = Geometry { frame, ideal: IdealMechanism::new(scene), rotor: Rotor::new(scene, time), rod };
         let clearances = Clearances::new(scene);
-        let (rigid, modal) = (geometry.rigid(), geometry.modes());
+        let (rigid, modal) = (frame.rigid, geometry.modes(frame));
         let positions = modal.end;
         let states = 2 * positions + clearances.bristles.len();
         let scale = Scale::of(scene);
         let mut scales = [0.0; N];
         let (of_positions, of_rates) = scales[..2 * positions].split_at_mut(positions);
         of_positions[..rigid].fill(scale.length);
-        geometry.layout.set_angles(&scale.angle, of_positions);
+        frame.layout.set_angles(&scale.angle, of_positions);
         for (rate, position) in of_rates.iter_mut().zip(of_positions.iter()) {
             *rate = position * scale.frequency;
         }
@@ -99,9 +90,8 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         for (scale, (_, deflection)) in scales[2 * positions..].iter_mut().zip(bristled_contacts(scene)) {
             *scale = deflection;
         }
-        let Topology { a, b, c, t, .. } = topology;
-        let solved = geometry.chain.size + geometry.rod.modes();
-        let (modes, functions) = (Modes::new(&geometry.rod), Self::functions(geometry.chain.size));
+        let solved = frame.chain.size + geometry.rod.modes();
+        let (modes, functions) = (Modes::new(&geometry.rod), Self::functions(topology));
         Self {
             geometry,
             modes,
@@ -109,7 +99,6 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
             solvers: Solvers::of(solved),
             bodies: bodies(scene),
             gravity: scene.gravity,
-            clear: [!a, !b, !c, !t],
             clearances,
             rotary_dampers: rotary_dampers(scene),
             guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
@@ -147,33 +136,48 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn guard_count(&self) -> usize {
-        if self.geometry.topology.is_closed() { 1 } else { self.clearances.guard_count(self.clear) }
-    }
-
-    fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        if self.geometry.topology.is_closed() {
-            guards[0] = self.change_point(t, y);
+        if self.geometry.frame.topology.is_closed() {
+            1
         } else {
-            self.clearances.guards(self.clear, contacts, &self.pose(t, y), guards);
+            self.clearances.guard_count(self.geometry.frame.clear)
         }
     }
 
+    fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
+        if self.geometry.frame.topology.is_closed() {
+            guards[0] = self.change_point(t, y);
+        } else {
+            self.clearances.guards(self.geometry.frame.clear, contacts, &self.pose(t, y), guards);
+        }
+    }
+
+    fn rates_and_guards(
+        &self,
+        contacts: &Contacts,
+        t: f64,
+        y: &[f64; N],
+        rates: &mut [f64; N],
+        guards: &mut [Guard; GUARDS],
+    ) {
+        (self.functions.ends)(self, contacts, t, y, rates, guards);
+    }
+
     fn is_dead_end(&self, _: usize) -> bool {
-        self.geometry.topology.is_closed()
+        self.geometry.frame.topology.is_closed()
     }
 
     fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
-        self.clearances.kinks(self.clear, contacts, &self.pose(t, y), kinks);
+        self.clearances.kinks(self.geometry.frame.clear, contacts, &self.pose(t, y), kinks);
     }
 
     fn guard_scale(&self) -> f64 {
-        if self.geometry.topology.is_closed() { IdealMechanism::CHANGE_POINT_SCALE } else { self.guard_scale }
+        if self.geometry.frame.topology.is_closed() { IdealMechanism::CHANGE_POINT_SCALE } else { self.guard_scale }
     }
 
     fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
         let pose = self.pose(t, y);
         let bristles = &mut y[2 * self.extent.positions..];
-        self.clearances.cross(self.clear, contacts, &pose, crossed, bristles)
+        self.clearances.cross(self.geometry.frame.clear, contacts, &pose, crossed, bristles)
     }
 }
 
@@ -181,11 +185,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Unilateral<
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, S, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {
-        let layout = &self.geometry.layout;
+        let layout = &self.geometry.frame.layout;
         let p = self.extent.positions;
         let mut y = [0.0; N];
         let (positions, rates) = y[..2 * p].split_at_mut(p);
-        if self.geometry.topology.is_closed() {
+        if self.geometry.frame.topology.is_closed() {
             if let (Some(angle), Some(speed)) = (layout.angle(CRANK), layout.angle(CRANK)) {
                 (positions[angle], rates[speed]) = (pose.angle[CRANK], pose.speed[CRANK]);
             }
@@ -200,7 +204,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
-        self.clearances.start(self.clear, &self.pose(t, y))
+        self.clearances.start(self.geometry.frame.clear, &self.pose(t, y))
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
@@ -228,11 +232,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
-        self.clearances.depths(self.clear, pose)
+        self.clearances.depths(self.geometry.frame.clear, pose)
     }
 
     fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
-        self.clearances.account(self.clear, contacts, pose, &y[2 * self.extent.positions..])
+        self.clearances.account(self.geometry.frame.clear, contacts, pose, &y[2 * self.extent.positions..])
     }
 
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
@@ -245,9 +249,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
         t: Tangent,
         y: &[Tangent; N],
     ) -> (Instant<Tangent>, Account<Tangent>) {
-        let instant = self.instant_of(self.tangent_motion(contacts, t, y, &mut [Tangent::ZERO; N]), y);
+        let mut rates = [Tangent::ZERO; N];
+        let motion = self.tangent_motion(contacts, t, y, &mut rates);
+        let instant = self.instant_of(self.geometry.frame, motion, y, &rates);
         let bristles = &y[2 * self.extent.positions..];
-        let account = self.clearances.account(self.clear, contacts, &instant.pose, bristles);
+        let account = self.clearances.account(self.geometry.frame.clear, contacts, &instant.pose, bristles);
         (instant, account)
     }
 }

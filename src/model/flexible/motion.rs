@@ -3,105 +3,147 @@
 
 use super::Flexible;
 use super::alone;
-use super::chain::PLACES;
+use super::chain::{Frame, PLACES};
 use super::configuration::{Configuration, Geometry};
 use super::equations::{Equations, Moving, Places};
-use crate::integrator::Guard;
+use crate::integrator::{GUARDS, Guard};
+use crate::math::each;
 use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
-use crate::model::mechanism::{CRANK, ROD, SLIDER};
+use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2};
 use crate::model::rod::{Inertia, Shape};
 use crate::model::scalar::{Scalar, Tangent};
 use crate::model::state::{Contacts, FlexibleInstant, Instant, Pose};
+use crate::scene::modal::MOST_MODES;
 
-/// The motion of `N` states in plain numbers, compiled for the number of places in x.
+type Ends<M, const N: usize> = fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N], &mut [Guard; GUARDS]);
+
+/// The motion of `N` states in plain numbers, compiled for its frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Functions<M, const N: usize> {
     /// Writes the rates of a state.
     pub rates: fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N]),
+    /// Writes the rates of a state, and its event functions.
+    pub ends: Ends<M, N>,
+    /// Tells places and velocities of a state.
+    pub pose: fn(&M, f64, &[f64; N]) -> Pose,
     /// Writes the rates of a state, and tells everything about that instant.
     pub instant: fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N]) -> Instant,
 }
 
 /// The motion at one instant.
-pub(super) struct Motion<R, const N: usize, const P: usize, const K: usize, const F: usize> {
+pub(super) struct Motion<R, const P: usize, const K: usize, const F: usize> {
     shape: Shape<R, K, F>,
     configuration: Configuration<R, P>,
     inertia: Inertia<R, K>,
     pose: Pose<R>,
     loads: Loads<R>,
-    /// Accelerations of the coordinates.
-    forced: [R; N],
 }
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
-    /// The functions for `size` coordinates in the rod's chain.
-    pub(super) fn functions(size: usize) -> Functions<Self, N> {
-        /// One for each number of places.
+    /// The functions for a topology; with many modes those for any, since it is they that take the time.
+    pub(super) fn functions(topology: Topology) -> Functions<Self, N> {
+        /// Those for a frame, with so many places.
         macro_rules! compiled {
-            ($($places:literal)*) => {
-                match size + 1 {
-                    $($places => Functions {
-                        rates: |all, contacts, t, y, rates| {
-                            all.motion::<f64, $places>($places - 1, contacts, t, y, rates);
-                        },
-                        instant: |all, contacts, t, y, rates| {
-                            all.instant_of(all.motion::<f64, $places>($places - 1, contacts, t, y, rates), y)
-                        },
-                    },)*
-                    places => unreachable!("{places} places in x"),
+            ($places:expr, $all:ident => $frame:expr) => {
+                Functions {
+                    rates: |$all, contacts, t, y, rates| {
+                        $all.motion::<f64, { $places }>($frame, contacts, t, y, rates);
+                    },
+                    ends: |$all, contacts, t, y, rates, guards| {
+                        let motion = $all.motion::<f64, { $places }>($frame, contacts, t, y, rates);
+                        if $frame.topology.is_closed() {
+                            guards[0] = $all.change_point(t, y);
+                        } else {
+                            $all.clearances.guards($frame.clear, contacts, &motion.pose, guards);
+                        }
+                    },
+                    pose: |$all, t, y| $all.pose_in::<{ $places }>($frame, t, y),
+                    instant: |$all, contacts, t, y, rates| {
+                        let motion = $all.motion::<f64, { $places }>($frame, contacts, t, y, rates);
+                        $all.instant_of($frame, motion, y, rates)
+                    },
                 }
             };
         }
-        compiled!(1 2 3 4 5 6)
+        if const { K > MOST_MODES } {
+            return compiled!(PLACES, all => all.geometry.frame);
+        }
+        /// Those for these ideal joints and this drive.
+        macro_rules! joined {
+            ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
+                const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
+                compiled!(FRAME.places(), all => FRAME)
+            }};
+        }
+        /// Chooses among all.
+        macro_rules! choose {
+            ($($a:literal $b:literal $c:literal $t:literal)*) => {
+                match (topology.a, topology.b, topology.c, topology.t) {
+                    $(($a, $b, $c, $t) if topology.speed => joined!($a $b $c $t true),
+                    ($a, $b, $c, $t) => joined!($a $b $c $t false),)*
+                }
+            };
+        }
+        choose!(
+            true true true true    true true true false    true true false true    true true false false
+            true false true true   true false true false   true false false true   true false false false
+            false true true true   false true true false   false true false true   false true false false
+            false false true true  false false true false  false false false true  false false false false
+        )
     }
 
     /// Places and velocities of the state `y` at `t`.
     pub(super) fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
-        let (eta, rate) = self.modal(y);
+        (self.functions.pose)(self, t, y)
+    }
+
+    #[inline(always)]
+    fn pose_in<const P: usize>(&self, frame: Frame, t: f64, y: &[f64; N]) -> Pose {
+        let (eta, rate) = self.modal(frame, y);
         let shape = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate);
-        self.configuration::<f64, PLACES>(self.geometry.chain.size, t, y, &shape).pose(shape.slope_rate)
+        self.configuration::<f64, P>(frame, t, y, &shape).pose(shape.slope_rate)
     }
 
     /// The event at which the rod, closed in a loop of ideal joints, stands across the guide.
     pub(super) fn change_point(&self, t: f64, y: &[f64; N]) -> Guard {
-        let (eta, rate) = self.modal(y);
+        let Geometry { frame, rotor, ideal, .. } = &self.geometry;
+        let (eta, rate) = self.modal(*frame, y);
         let chord = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate).chord;
-        let Geometry { layout, rotor, ideal, .. } = &self.geometry;
         let p = self.extent.positions;
-        let (angle, speed) = layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
+        let (angle, speed) = frame.layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
         ideal.change_point(Rotation::new(angle), speed, chord.length, chord.rate)
     }
 
     /// Modal coordinates and their rates.
     #[inline(always)]
-    fn modal<'a, R>(&self, y: &'a [R; N]) -> (&'a [R], &'a [R]) {
-        let (modes, p) = (self.geometry.modes(), self.extent.positions);
+    fn modal<'a, R>(&self, frame: Frame, y: &'a [R; N]) -> (&'a [R], &'a [R]) {
+        let (modes, p) = (self.geometry.modes(frame), self.extent.positions);
         (&y[modes.clone()], &y[p + modes.start..p + modes.end])
     }
 
     #[inline(always)]
     fn configuration<R: Scalar, const P: usize>(
         &self,
-        size: usize,
+        frame: Frame,
         t: R,
         y: &[R; N],
         shape: &Shape<R, K, F>,
     ) -> Configuration<R, P> {
         let p = self.extent.positions;
-        self.geometry.configuration(t, &y[..p], &y[p..2 * p], &shape.chord, size)
+        self.geometry.configuration(frame, t, &y[..p], &y[p..2 * p], &shape.chord)
     }
 
     #[inline(always)]
-    fn loads<R: Scalar>(&self, contacts: &Contacts, t: R, y: &[R; N], pose: &Pose<R>) -> Loads<R> {
+    fn loads<R: Scalar>(&self, frame: Frame, contacts: &Contacts, t: R, y: &[R; N], pose: &Pose<R>) -> Loads<R> {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
         let mut loads = Loads { pin: Vec2::new(slider_load, R::ZERO), slider_load, ..Loads::default() };
-        if !self.geometry.topology.speed {
+        if !frame.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
-        self.clearances.add_loads(self.clear, contacts, pose, &y[2 * self.extent.positions..], &mut loads);
+        self.clearances.add_loads(frame.clear, contacts, pose, &y[2 * self.extent.positions..], &mut loads);
         add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
@@ -109,50 +151,56 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         loads
     }
 
-    /// The motion through the state `y` at `t`, whose rates it writes; `size` coordinates are in the rod's chain.
+    /// The motion through the state `y` at `t`, whose rates it writes.
     #[inline(always)]
     fn motion<R: Scalar, const P: usize>(
         &self,
-        size: usize,
+        frame: Frame,
         contacts: &Contacts,
         t: R,
         y: &[R; N],
         rates: &mut [R; N],
-    ) -> Motion<R, N, P, K, F> {
+    ) -> Motion<R, P, K, F> {
+        let Frame { topology, layout, chain, .. } = frame;
         let p = self.extent.positions;
-        let (eta, rate) = self.modal(y);
+        let (eta, rate) = self.modal(frame, y);
         let rod = self.modes.functions::<R>();
         let shape = (rod.shape)(&self.modes, eta, rate);
-        let mut configuration = self.configuration::<R, P>(size, t, y, &shape);
+        let mut configuration = self.configuration::<R, P>(frame, t, y, &shape);
         let pose = configuration.pose(shape.slope_rate);
-        let loads = self.loads(contacts, t, y, &pose);
-        let Geometry { topology, layout, chain, .. } = &self.geometry;
-        alone::accelerate(*topology, &self.bodies, &mut configuration, &loads, self.gravity);
+        let loads = self.loads(frame, contacts, t, y, &pose);
+        alone::accelerate(topology, &self.bodies, &mut configuration, &loads, self.gravity);
         let inertia = (rod.inertia)(&self.modes, &shape, eta, rate, configuration.heading[ROD].speed);
-        let mut places = Places::new(size + 1);
-        places.add_rigid_bodies(*topology, &self.bodies, &configuration, &loads, self.gravity);
+        let mut places = Places::NONE;
+        places.add_rigid_bodies(topology, &self.bodies, &configuration, &loads, self.gravity);
         let modal_force = self.modes.forces(eta, rate, &loads.end_couple);
-        let moving = self.moving(&shape, &configuration, &inertia);
-        let found =
-            Equations::new(places, &moving, &loads, self.gravity, &modal_force).solve(*R::kernel(&self.solvers));
-        let mut forced = [R::ZERO; N];
-        chain.scatter(&found[..size], &mut forced);
-        forced[moving.modes.clone()].copy_from_slice(&found[size..size + moving.modes.len()]);
-        alone::write(*topology, layout, &configuration, &mut forced);
-        rates[..p].copy_from_slice(&y[p..2 * p]);
-        rates[p..2 * p].copy_from_slice(&forced[..p]);
-        self.clearances.write_bristle_rates(&loads.bristle_rate, &mut rates[2 * p..]);
-        Motion { shape, configuration, inertia, pose, loads, forced }
+        let moving = self.moving(frame, &shape, &configuration, &inertia);
+        let found = Equations::new(places, chain.size, &moving, &loads, self.gravity, &modal_force)
+            .solve(*R::kernel(&self.solvers));
+        let (positions, others) = rates.split_at_mut(p);
+        let (accelerations, bristle_rates) = others.split_at_mut(p);
+        each!(R::PLAIN, k < frame.rigid => {
+            positions[k] = y[p + k];
+        });
+        chain.scatter(&found[..chain.size], accelerations);
+        each!(const { R::PLAIN && K <= 4 }, mode < (p - frame.rigid).min(K) => {
+            positions[frame.rigid + mode] = y[p + frame.rigid + mode];
+            accelerations[frame.rigid + mode] = found[chain.size + mode];
+        });
+        alone::write(topology, &layout, &configuration, accelerations);
+        self.clearances.write_bristle_rates(&loads.bristle_rate, bristle_rates);
+        Motion { shape, configuration, inertia, pose, loads }
     }
 
     #[inline(always)]
     fn moving<'a, R, const P: usize>(
         &'a self,
+        frame: Frame,
         shape: &'a Shape<R, K, F>,
         configuration: &'a Configuration<R, P>,
         inertia: &'a Inertia<R, K>,
     ) -> Moving<'a, R, P, K, F> {
-        Moving { rod: &self.geometry.rod, shape, inertia, configuration, modes: self.geometry.modes() }
+        Moving { rod: &self.geometry.rod, shape, inertia, configuration, modes: self.geometry.modes(frame) }
     }
 
     /// The motion in numbers with derivatives.
@@ -162,27 +210,30 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         t: Tangent,
         y: &[Tangent; N],
         rates: &mut [Tangent; N],
-    ) -> Motion<Tangent, N, PLACES, K, F> {
-        self.motion(self.geometry.chain.size, contacts, t, y, rates)
+    ) -> Motion<Tangent, PLACES, K, F> {
+        self.motion(self.geometry.frame, contacts, t, y, rates)
     }
 
-    /// Everything about the instant of a motion.
+    /// Everything about the instant of a motion through `y` that gave these rates.
     pub(super) fn instant_of<R: Scalar, const P: usize>(
         &self,
-        motion: Motion<R, N, P, K, F>,
+        frame: Frame,
+        motion: Motion<R, P, K, F>,
         y: &[R; N],
+        rates: &[R; N],
     ) -> Instant<R> {
-        let Motion { shape, configuration, inertia, pose, loads, forced } = motion;
-        let moving = self.moving(&shape, &configuration, &inertia);
-        let places = self.geometry.accelerations(&shape, &forced);
-        let (eta, rate) = self.modal(y);
+        let Motion { shape, configuration, inertia, pose, loads } = motion;
+        let forced = &rates[self.extent.positions..2 * self.extent.positions];
+        let moving = self.moving(frame, &shape, &configuration, &inertia);
+        let places = self.geometry.accelerations(frame, &shape, forced);
+        let (eta, rate) = self.modal(frame, y);
         Instant {
             pose,
             acceleration: configuration.each(|centre| centre.acceleration(&places)),
             angle_acceleration: [CRANK, ROD, SLIDER].map(|k| configuration.heading[k].acceleration(&places)),
             loads,
             flexible: Some(FlexibleInstant {
-                demand: moving.demand(&places, &forced, self.gravity),
+                demand: moving.demand(&places, forced, self.gravity),
                 elastic: moving.rod.elastic(&shape, eta, rate),
                 kinetic: moving.kinetic(rate),
                 mass_height: moving.mass_height(),

@@ -4,9 +4,9 @@
 
 use super::Shape;
 use super::modes::{Counts, Modes};
-use crate::math::Real;
+use crate::math::{Real, each};
 use crate::model::plane::{Vec2, perp};
-use std::ops::Mul;
+use std::ops::Range;
 
 /// Inertia of the rod in its own frame, for the acceleration of its origin, its angle and η, and what
 /// its motion asks for besides.
@@ -30,52 +30,40 @@ pub struct Inertia<R, const K: usize> {
     pub modal_force: [R; K],
 }
 
-/// Moments of a field along x, over the rod's mass.
-#[derive(Clone, Copy, Debug)]
-pub struct Moments<R, const K: usize, const F: usize> {
-    /// [kg] of the field's unit: with 1,
-    pub mass: R,
-    /// with the functions B, times m,
-    pub functions: [R; F],
-    /// with the bending modes φ.
-    pub bending: [R; K],
-}
-
-impl<R: Real, const K: usize, const F: usize> Moments<R, K, F> {
-    /// Of nothing.
-    pub const NONE: Self = Self { mass: R::ZERO, functions: [R::ZERO; F], bending: [R::ZERO; K] };
-
-    /// Of a field that depends on nothing.
-    #[inline(always)]
-    fn constant(of: &Moments<f64, K, F>) -> Self {
-        Self {
-            mass: R::constant(of.mass),
-            functions: of.functions.map(R::constant),
-            bending: of.bending.map(R::constant),
-        }
-    }
-
-    /// Adds `factor` times a field.
-    #[inline(always)]
-    fn add<S: Copy>(&mut self, counts: Counts, factor: R, field: &Moments<S, K, F>)
-    where
-        R: Mul<S, Output = R>,
-    {
-        self.mass += factor * field.mass;
-        for k in 0..counts.functions() {
-            self.functions[k] += factor * field.functions[k];
-        }
-        for i in 0..counts.bending {
-            self.bending[i] += factor * field.bending[i];
-        }
-    }
-}
+/// So many columns are summed at a time: as many as stay in registers.
+pub const LANES: usize = 4;
 
 impl<const K: usize, const F: usize> Modes<K, F> {
+    /// Σ factor·row over `rows` of a table, of which there are so many columns.
+    #[inline(always)]
+    fn sum<R: Real, const FEW: bool>(
+        table: &[[f64; F]],
+        rows: Range<usize>,
+        factors: &[R],
+        columns: usize,
+        start: [R; F],
+    ) -> [R; F] {
+        let mut sums = start;
+        for first in (0..columns).step_by(LANES) {
+            let lanes = first..first + LANES;
+            let mut sum = [R::ZERO; LANES];
+            sum.copy_from_slice(&sums[lanes.clone()]);
+            each!(FEW, row < rows.end => {
+                if row >= rows.start {
+                    for (sum, &number) in sum.iter_mut().zip(&table[row][lanes.clone()]) {
+                        *sum += factors[row] * number;
+                    }
+                }
+            });
+            sums[lanes].copy_from_slice(&sum);
+        }
+        sums
+    }
+
     /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
     /// [rad/s].
     #[inline(always)]
-    pub(super) fn inertia<R: Real>(
+    pub(super) fn inertia<R: Real, const FEW: bool>(
         &self,
         counts: Counts,
         shape: &Shape<R, K, F>,
@@ -83,32 +71,32 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         rate: &[R],
         speed: R,
     ) -> Inertia<R, K> {
+        const { assert!(F.is_multiple_of(LANES) && F > K) };
         let Counts { bending: n, axial, shortening } = counts;
-        let Shape { xi, xi_rate, xi_bias, .. } = shape;
         let (q, dq) = (&eta[..n], &rate[..n]);
-        // Of ∂x/∂q_i, x, its rate and its bias. Foreshortenings are of second degree: their part of x is half
-        // of Σ q_i·∂x/∂q_i.
-        let mut slope = [Moments::NONE; K];
-        let mut field = Moments::constant(&self.moments[0]);
-        let (mut moving, mut bias) = (Moments::NONE, Moments::NONE);
-        for j in 0..axial {
-            field.add(counts, xi[1 + j], &self.moments[1 + j]);
-            moving.add(counts, xi_rate[1 + j], &self.moments[1 + j]);
-        }
-        for i in 0..shortening {
-            for j in 0..n {
-                slope[i].add(counts, q[j] * -2.0, &self.moments[counts.pair(i, j)]);
-            }
-            field.add(counts, q[i] * 0.5, &slope[i]);
-            moving.add(counts, dq[i], &slope[i]);
-            for j in 0..=i {
-                let place = counts.pair(i, j);
-                bias.add(counts, xi_bias[place], &self.moments[place]);
-            }
-        }
+        let Shape { xi, xi_rate, xi_bias, .. } = shape;
+        let (functions, pairs, none) = (counts.functions(), 1 + axial..counts.functions(), [R::ZERO; F]);
+        // Numbers of columns are not those of `counts`: sums of a constant number of rounds would be mixed up.
+        let (every, modes_and_1) = (self.counts.functions(), self.counts.bending + 1);
+        let place = Self::sum::<R, FEW>(&self.tables.placing, 0..functions, xi, modes_and_1, none);
+        let bias = Self::sum::<R, FEW>(&self.tables.with_modes, pairs.clone(), xi_bias, modes_and_1, none);
+        let mut moving = Self::sum::<R, FEW>(&self.tables.moving, 1..functions, xi_rate, modes_and_1, none);
+        let mut twist = none;
+        each!(FEW, i < shortening => {
+            each!(FEW, j < i => {
+                twist[i * (i - 1) / 2 + j] = q[j] * dq[i] - q[i] * dq[j];
+            });
+        });
+        let twists = if shortening > 0 { shortening * (shortening - 1) / 2 } else { 0 };
+        moving = Self::sum::<R, FEW>(&self.tables.twisting, 0..twists, &twist, modes_and_1, moving);
+        let spread = Self::sum::<R, FEW>(&self.tables.second, 0..functions, xi, every, none);
+        let mut asked = Self::sum::<R, FEW>(&self.tables.second, pairs.clone(), xi_bias, every, none);
+        let products = Self::sum::<R, FEW>(&self.tables.products, pairs, xi, self.counts.pairs(), none);
+        let first_slope = Self::sum::<R, FEW>(&self.tables.shifting, 0..shortening, q, modes_and_1, none);
+
         let (square, twice) = (speed * speed, speed * 2.0);
         let mut inertia = Inertia {
-            first: Vec2::new(field.mass, R::ZERO),
+            first: Vec2::new(place[n], R::ZERO),
             about_origin: R::ZERO,
             first_slope: [Vec2::ZERO; K],
             turning: [R::ZERO; K],
@@ -117,52 +105,55 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             couple: R::ZERO,
             modal_force: [R::ZERO; K],
         };
-        let mut first_rate = Vec2::new(moving.mass, R::ZERO);
+        let mut first_rate = Vec2::new(moving[n], R::ZERO);
         let mut spreading = R::ZERO;
-        for k in 0..counts.functions() {
-            inertia.about_origin += xi[k] * field.functions[k];
-            spreading += xi_rate[k] * field.functions[k];
+        for k in 0..functions {
+            inertia.about_origin += xi[k] * spread[k];
+            spreading += xi_rate[k] * spread[k];
+            // What the accelerations of x at q̈ = 0 ask of each function.
+            asked[k] -= square * spread[k];
         }
         for i in 0..n {
             let (m, moment) = (self.modal_mass[i], self.moment[i]);
+            let weighted = q[i] * m;
             inertia.first.y += q[i] * moment;
             first_rate.y += dq[i] * moment;
-            inertia.about_origin += q[i] * m * q[i];
-            spreading += q[i] * m * dq[i];
-            inertia.couple -= q[i] * bias.bending[i];
-            inertia.first_slope[i] = Vec2::new(slope[i].mass, R::constant(moment));
-            inertia.turning[i] = field.bending[i];
-            inertia.modal_force[i] = twice * moving.bending[i] - square * m * q[i];
+            inertia.about_origin += weighted * q[i];
+            spreading += weighted * dq[i];
+            inertia.couple -= q[i] * bias[i];
+            inertia.first_slope[i] = Vec2::new(first_slope[i], R::constant(moment));
+            inertia.turning[i] = place[i];
+            inertia.modal_force[i] = twice * moving[i] - square * weighted;
             inertia.modal[i][i] = R::constant(m);
         }
-        // What the accelerations of x at q̈ = 0 ask of each function.
-        let asked = |place: usize| bias.functions[place] - square * field.functions[place];
-        for i in 0..shortening {
-            for k in 0..n {
-                let (place, with) = (counts.pair(i, k), q[k] * -2.0);
-                inertia.turning[i] -= slope[i].bending[k] * q[k];
-                inertia.modal_force[i] += with * asked(place) - twice * slope[i].bending[k] * dq[k];
-                for j in 0..=i {
-                    inertia.modal[i][j] += with * slope[j].functions[place];
-                }
-            }
-        }
+        each!(FEW, i < shortening => {
+            each!(FEW, k < n => {
+                inertia.modal_force[i] += q[k] * -2.0 * asked[counts.pair(i, k)];
+            });
+            each!(FEW, j < i + 1 => {
+                inertia.modal[i][j] += products[counts.pair(i, j) - 1 - axial];
+            });
+        });
         for j in 0..axial {
-            let (a, place) = (n + j, 1 + j);
-            let Moments { mass, functions, bending } = &self.moments[place];
-            inertia.first_slope[a] = Vec2::constant(Vec2::new(*mass, 0.0));
-            inertia.modal_force[a] = asked(place);
+            let (a, function) = (n + j, 1 + j);
+            let with_modes = &self.tables.with_modes[function];
+            inertia.first_slope[a] = Vec2::constant(Vec2::new(with_modes[n], 0.0));
+            inertia.modal_force[a] = asked[function];
             for i in 0..n {
-                inertia.turning[a] -= q[i] * bending[i];
-                inertia.modal_force[a] -= twice * bending[i] * dq[i];
-                inertia.modal[a][i] = slope[i].functions[place];
+                inertia.turning[a] -= q[i] * with_modes[i];
+                inertia.modal_force[a] -= twice * with_modes[i] * dq[i];
             }
+            each!(FEW, i < shortening => {
+                each!(FEW, k < n => {
+                    inertia.modal[a][i] += q[k] * -2.0 * self.tables.second[counts.pair(i, k)][function];
+                });
+            });
             for i in 0..=j {
-                inertia.modal[a][n + i] = R::constant(functions[1 + i]);
+                inertia.modal[a][n + i] = R::constant(self.tables.second[function][1 + i]);
             }
         }
         inertia.couple += twice * spreading;
-        inertia.force = Vec2::new(bias.mass, R::ZERO) - square * inertia.first + twice * perp(first_rate);
+        inertia.force = Vec2::new(bias[n], R::ZERO) - square * inertia.first + twice * perp(first_rate);
         inertia
     }
 }

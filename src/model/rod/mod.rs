@@ -10,6 +10,7 @@ pub mod beam;
 mod inertia;
 mod modes;
 mod shape;
+mod tables;
 
 pub use inertia::Inertia;
 pub use modes::{Counts, Modes};
@@ -21,9 +22,10 @@ use crate::math::Real;
 use crate::scene::modal::{MOST_MODES, ModalTable, pairs};
 use crate::scene::{Flexible, Scene};
 
-/// Number of functions along x that `modes` modes may need at most.
+/// Number of functions along x that `modes` modes may need at most, in whole lanes.
 pub const fn most_functions(modes: usize) -> usize {
-    if modes <= MOST_MODES { 1 + pairs(modes) } else { 1 + modes - MOST_MODES + pairs(MOST_MODES) }
+    let functions = if modes <= MOST_MODES { 1 + pairs(modes) } else { 1 + modes - MOST_MODES + pairs(MOST_MODES) };
+    functions.next_multiple_of(inertia::LANES)
 }
 
 /// The rod's modes, as the scene calls for them.

@@ -1,6 +1,7 @@
 //! The rod's modes in arrays for the inner loop, and functions compiled for how many there are.
 
-use super::inertia::{Inertia, Moments};
+use super::inertia::Inertia;
+use super::tables::Tables;
 use super::{Rod, Shape};
 use crate::math::Real;
 use crate::model::joint::{Kernel, Kernels};
@@ -26,7 +27,18 @@ impl Counts {
     /// Number of functions along x: the rod itself, axial modes, foreshortenings of pairs i ≤ j.
     #[inline(always)]
     pub const fn functions(self) -> usize {
-        1 + self.axial + self.shortening * (self.shortening + 1) / 2
+        1 + self.axial + self.pairs()
+    }
+
+    /// Number of pairs of bending modes that foreshorten.
+    #[inline(always)]
+    pub const fn pairs(self) -> usize {
+        self.shortening * (self.shortening + 1) / 2
+    }
+
+    /// Them, i ≤ j.
+    pub(super) fn all_pairs(self) -> impl Iterator<Item = (usize, usize)> {
+        (0..self.shortening).flat_map(move |i| (i..self.shortening).map(move |j| (i, j)))
     }
 
     /// Place among the functions of the foreshortening of the bending modes `i` and `j`.
@@ -52,8 +64,8 @@ pub struct Modes<const K: usize, const F: usize> {
     stiffness: [f64; K],
     /// [N·s/m] 2·ζ·ω times the modal mass.
     damping: [f64; K],
-    /// Of each function.
-    pub(super) moments: [Moments<f64, K, F>; F],
+    /// Tables of moments; see [`Tables`].
+    pub(super) tables: Tables<K, F>,
     /// [kg] ∫φ dm.
     pub(super) moment: [f64; K],
     /// [kg] ∫φ² dm.
@@ -73,7 +85,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             slope: [[0.0; K]; 2],
             stiffness: [0.0; K],
             damping: [0.0; K],
-            moments: [Moments::NONE; F],
+            tables: Tables::new(rod),
             moment: [0.0; K],
             modal_mass: [0.0; K],
             kernels: Kernels { value: by_counts(counts), tangent: Functions::ANY },
@@ -88,12 +100,6 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             modes.modal_mass[k] = mass;
             modes.stiffness[k] = mass * omega * omega;
             modes.damping[k] = 2.0 * rod.damping_ratio * mass * omega;
-        }
-        for k in 0..count {
-            let Moments { mass, functions, bending } = &mut modes.moments[k];
-            *mass = rod.first[k];
-            functions[..count].copy_from_slice(&rod.second[k * count..][..count]);
-            bending[..n].copy_from_slice(&rod.coupling[k * n..][..n]);
         }
         modes
     }
@@ -131,16 +137,16 @@ pub struct Functions<R, const K: usize, const F: usize> {
 impl<R: Real, const K: usize, const F: usize> Functions<R, K, F> {
     /// For any counts.
     const ANY: Self = Self {
-        shape: |modes, eta, rate| modes.shape(modes.counts, eta, rate),
-        inertia: |modes, shape, eta, rate, speed| modes.inertia(modes.counts, shape, eta, rate, speed),
+        shape: |modes, eta, rate| modes.shape::<R, false>(modes.counts, eta, rate),
+        inertia: |modes, shape, eta, rate, speed| modes.inertia::<R, false>(modes.counts, shape, eta, rate, speed),
     };
 
     /// For these counts.
     const fn of<const BENDING: usize, const AXIAL: usize>() -> Self {
         Self {
-            shape: |modes, eta, rate| modes.shape(const { all::<BENDING, AXIAL>() }, eta, rate),
+            shape: |modes, eta, rate| modes.shape::<R, true>(const { all::<BENDING, AXIAL>() }, eta, rate),
             inertia: |modes, shape, eta, rate, speed| {
-                modes.inertia(const { all::<BENDING, AXIAL>() }, shape, eta, rate, speed)
+                modes.inertia::<R, true>(const { all::<BENDING, AXIAL>() }, shape, eta, rate, speed)
             },
         }
     }

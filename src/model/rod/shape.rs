@@ -3,7 +3,7 @@
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
 use super::modes::{Counts, Modes};
-use crate::math::Real;
+use crate::math::{Real, each};
 
 /// The deformed rod, and how it deforms; with room for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ pub struct Chord<R> {
 impl<const K: usize, const F: usize> Modes<K, F> {
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
     #[inline(always)]
-    pub(super) fn shape<R: Real>(&self, counts: Counts, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+    pub(super) fn shape<R: Real, const FEW: bool>(&self, counts: Counts, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
         let Counts { bending, axial, shortening } = counts;
         let mut shape = Shape {
             chord: Chord { length: R::ZERO, stretch: R::ZERO, rate: R::ZERO, bias: R::ZERO },
@@ -56,8 +56,8 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             chord.stretch += xi[place] * end;
             chord.rate += xi_rate[place] * end;
         }
-        for i in 0..shortening {
-            for j in i..shortening {
+        each!(FEW, i < shortening => {
+            each!(FEW, j < i + 1 => {
                 let place = counts.pair(i, j);
                 let twice = if i == j { 1.0 } else { 2.0 };
                 xi[place] = eta[i] * -twice * eta[j];
@@ -69,8 +69,8 @@ impl<const K: usize, const F: usize> Modes<K, F> {
                 chord.stretch += xi[place] * end;
                 chord.rate += xi_rate[place] * end;
                 chord.bias += xi_bias[place] * end;
-            }
-        }
+            });
+        });
         chord.length = chord.stretch + self.length;
         for i in 0..bending {
             for (end, slope) in slope_rate.iter_mut().zip(&self.slope) {
