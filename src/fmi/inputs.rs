@@ -126,8 +126,8 @@ impl InputLines {
 
     /// Tells the simulation what was set at its communication point, if that changes anything.
     pub fn pass_on(&mut self, simulation: &mut Simulation) {
+        let Some(lines) = self.wanted else { return };
         let time = simulation.time();
-        let lines = self.at(time);
         if !lines.same_bits(&self.in_force.shifted(time - self.since)) {
             simulation.set_inputs(lines.values, lines.rates);
             (self.since, self.in_force) = (time, lines);

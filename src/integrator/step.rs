@@ -61,6 +61,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
+        if t <= self.memory.front.t {
+            return Ok(());
+        }
         let longest = problem.longest_step();
         let longest = if M::ADAPTIVE { longest } else { self.settings.fixed_step.min(longest) };
         self.settings.effort.check(self.memory.front.t, t, longest)?;

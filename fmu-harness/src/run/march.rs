@@ -67,7 +67,7 @@ pub fn march(fmu: &Fmu, experiment: &Experiment, look: Look, budget: Duration) -
                 break;
             }
         }
-        if point % UNWATCHED == 0 && clock.elapsed() > budget {
+        if budget < Duration::MAX && point % UNWATCHED == 0 && clock.elapsed() > budget {
             ending = Ending::Stopped;
             break;
         }

@@ -76,7 +76,7 @@ impl<'a> Runner<'a> {
         self.slave.do_step(from, to - from)
     }
 
-    /// Sets the inputs of the interval that begins at `time`.
+    /// Sets the inputs of the interval that begins at `time`, unless they stay what they are.
     pub fn apply_inputs(&mut self, time: f64) -> Result<(), HostError> {
         if self.inputs.is_empty() {
             return Ok(());
@@ -86,9 +86,12 @@ impl<'a> Runner<'a> {
             self.slave.read(selection)?;
             angle = selection.values()[0];
         }
-        let inputs = &self.experiment.inputs;
-        self.values.iter_mut().zip(inputs).for_each(|(value, input)| *value = input.profile.value(time, angle));
-        self.slave.set_reals(&self.inputs, &self.values)
+        let mut changed = false;
+        for (value, input) in self.values.iter_mut().zip(&self.experiment.inputs) {
+            let before = std::mem::replace(value, input.profile.value(time, angle));
+            changed |= before.to_bits() != value.to_bits();
+        }
+        if changed { self.slave.set_reals(&self.inputs, &self.values) } else { Ok(()) }
     }
 
     /// 1 at the end of the experiment.

@@ -107,7 +107,7 @@ impl<const S: usize> Solvers<S> {
                 }
             };
         }
-        Kernels { value: compiled!(1 2 3 4 5 6 7 8 9 10), tangent: Equations::solve_any }
+        Kernels { value: compiled!(1 2 3 4 5 6 7 8 9 10 11 12 13 14), tangent: Equations::solve_any }
     }
 }
 
@@ -115,7 +115,7 @@ impl<const S: usize> Solvers<S> {
 mod tests {
     use super::*;
 
-    const ROOM: usize = 10;
+    const ROOM: usize = 15;
 
     /// Equations whose solution is 1, −2, 3, …: a chain of springs between masses, and a corner that fills up.
     fn equations(size: usize) -> Equations<f64, ROOM> {
