@@ -3,8 +3,8 @@
 //! [`scene`](crate::scene) says which joints are ideal and which have clearance; here that becomes a
 //! set of minimal coordinates and a right-hand side that holds the effects called for and no others.
 //! Reading order: `mechanism` (bodies, chains), `coordinates`, `kinematics`, `dynamics` (M·q̈ = Q),
-//! `open` and `closed` (the two kinds of mechanism), `joint` and `contact` (forces), `reactions` and
-//! `outputs`.
+//! `open` and `closed` (the two kinds of mechanism with a rigid rod), `rod` and `flexible` (those with a flexible
+//! one), `joint` and `contact` (forces), `reactions` and `outputs`.
 
 pub mod audit;
 pub mod bristles;

@@ -2,7 +2,9 @@
 //!
 //! Coordinates are those of the rigid mechanism, with joint centres as roots, and the rod's modal
 //! coordinates after them. Which coordinates move which point is in the slopes of a
-//! `configuration`; a mechanism's own modes and joints decide how many there are.
+//! `configuration`; a mechanism's own modes and joints decide how many there are. Those that the joints make
+//! zero are known as such (`sparse`), and with up to eight modes the motion is compiled for each topology:
+//! nothing is computed with them.
 
 mod alone;
 mod chain;

@@ -1,4 +1,5 @@
-//! Inertia of the deformed rod: mass matrix blocks, and the centrifugal and Coriolis terms beside them.
+//! Inertia of the deformed rod: mass matrix blocks, and the centrifugal and Coriolis terms beside them, all of them
+//! sums over the rod's tables.
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
