@@ -11,10 +11,10 @@ use super::coordinates::Layout;
 use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::{Accelerations, Loads, accelerate};
 use super::kinematics::{Acceleration, Place, Velocity, walk};
-use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology, bodies};
+use super::mechanism::{Bodies, ChainInertia, ROD, Topology, bodies};
 use super::plane::Vec2;
 use super::scalar::{Scalar, Tangent};
-use super::state::{Contacts, Instant, Pose, turning};
+use super::state::{Contacts, Instant, Pose, turning_at};
 use crate::scene::Scene;
 
 /// What joints an open mechanism has, and where its coordinates stand.
@@ -80,18 +80,7 @@ impl Linkage {
     pub fn pose<R: Scalar>(&self, arrangement: Arrangement, t: R, y: &[R]) -> Pose<R> {
         let Arrangement { topology, layout, positions: p, .. } = arrangement;
         let (positions, rates) = y[..2 * p].split_at(p);
-        let mut angle = [R::ZERO; 3];
-        let mut speed = [R::ZERO; 3];
-        for k in [CRANK, ROD, SLIDER] {
-            if let Some(place) = layout.angle(k) {
-                angle[k] = positions[place];
-                speed[k] = rates[place];
-            }
-        }
-        if topology.speed {
-            (angle[CRANK], speed[CRANK]) = (self.rotor.at(t), R::constant(self.rotor.speed));
-        }
-        let turning = turning(angle, speed, !topology.t);
+        let turning = turning_at(&layout, &self.rotor, t, positions, rates);
         let mut start = layout.roots(positions);
         if topology.t {
             start.slider.y = R::constant(self.height);

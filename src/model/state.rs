@@ -1,11 +1,13 @@
 //! A mechanism at one instant, the same for every topology: what outputs are made from.
 
 use super::contact::ContactMode;
+use super::coordinates::Layout;
+use super::drive::Rotor;
 use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
 use super::kinematics::{JointCentres, Turning};
-use super::mechanism::{CRANK, SLIDER};
+use super::mechanism::{CRANK, ROD, SLIDER};
 use super::plane::Rotation;
 use super::reactions::Demand;
 use super::rod::Elastic;
@@ -90,6 +92,21 @@ pub struct FlexibleInstant<R = f64> {
     pub kinetic: R,
     /// [kg·m] ∫y dm.
     pub mass_height: R,
+}
+
+/// Turning from `positions` and their `rates` at `t`; a crank whose angle is no coordinate follows `rotor`.
+#[inline(always)]
+pub fn turning_at<R: Real>(layout: &Layout, rotor: &Rotor, t: R, positions: &[R], rates: &[R]) -> Turning<R> {
+    let (mut angle, mut speed) = ([R::ZERO; 3], [R::ZERO; 3]);
+    for k in [CRANK, ROD, SLIDER] {
+        if let Some(place) = layout.angle(k) {
+            (angle[k], speed[k]) = (positions[place], rates[place]);
+        }
+    }
+    if layout.angle(CRANK).is_none() {
+        (angle[CRANK], speed[CRANK]) = (rotor.at(t), R::constant(rotor.speed));
+    }
+    turning(angle, speed, layout.angle(SLIDER).is_some())
 }
 
 /// Turning from angles and rates; the slider on an ideal guide does not turn.

@@ -12,13 +12,11 @@ use crate::model::flexible::{Flexible, most_equations, state_count};
 use crate::model::mechanism::Topology;
 use crate::model::open::Open;
 use crate::model::plant::Plant;
-use crate::model::rod::{Rod, most_functions};
+use crate::model::rod::{FEW_MODES, Rod, most_functions};
 use crate::model::start::StartPose;
 use crate::scene::modal::MOST_MODES;
 use crate::scene::{Method, Scene};
 
-/// So many modes have room in the smaller arrays.
-const FEW_MODES: usize = 4;
 /// Room for every mechanism: 9 rigid freedoms, 16 modes, 7 bristles, an audit.
 const LARGE: usize = 64;
 

@@ -13,7 +13,7 @@ use crate::model::kinematics::{JointCentres, Turning};
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2, perp};
 use crate::model::rod::{Chord, Rod, Shape};
-use crate::model::state::{Pose, turning};
+use crate::model::state::{Pose, turning_at};
 use std::ops::Range;
 
 /// A joint centre.
@@ -184,19 +184,10 @@ impl Geometry {
         rates: &[R],
         chord: &Chord<R>,
     ) -> Configuration<R, P> {
-        let (rotor, Frame { topology, layout, chain, .. }) = (&self.rotor, frame);
-        let (place, Topology { a, b, c, t: guided, speed }) = (chain.size, topology);
+        let Frame { topology, layout, chain, .. } = frame;
+        let (place, Topology { a, b, c, t: guided, .. }) = (chain.size, topology);
         let closed = topology.is_closed();
-        let (mut angles, mut speeds) = ([R::ZERO; 3], [R::ZERO; 3]);
-        for k in [CRANK, ROD, SLIDER] {
-            if let Some(position) = layout.angle(k) {
-                (angles[k], speeds[k]) = (positions[position], rates[position]);
-            }
-        }
-        if speed {
-            (angles[CRANK], speeds[CRANK]) = (rotor.at(t), R::constant(rotor.speed));
-        }
-        let turning = turning(angles, speeds, !guided);
+        let turning = turning_at(&layout, &self.rotor, t, positions, rates);
         let crank = Heading::new(&turning, CRANK, chain.angle[CRANK]);
         let slider = Heading::new(&turning, SLIDER, chain.angle[SLIDER]);
         let rod =

@@ -10,7 +10,7 @@ use crate::model::dynamics::Loads;
 use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Vec2, cross, perp};
 use crate::model::reactions::Demand;
-use crate::model::rod::{Inertia, Rod, Shape};
+use crate::model::rod::{FEW_MODES, Inertia, Rod, Shape};
 use std::ops::Range;
 
 /// Mass matrix (lower triangle) and right side over x, the configuration's coordinates.
@@ -140,7 +140,7 @@ impl<R: Real, const S: usize> Equations<R, S> {
         // A mode turns and shifts the rod's mass in its frame, and moves the frame through the chord.
         let of_chord = &places.matrix[rigid];
         let mut by_chord = [Sparse::Zero; K];
-        each!(const { R::PLAIN && K <= 4 }, a < n => {
+        each!(const { R::PLAIN && K <= FEW_MODES }, a < n => {
             let (slope, turning) = (heading.rotation.apply(inertia.first_slope[a]), inertia.turning[a]);
             let with = |i: usize| big_end.slope[i].with(slope) + heading.slope[i] * turning;
             let chord = shape.chord_slope[a];
@@ -148,7 +148,7 @@ impl<R: Real, const S: usize> Equations<R, S> {
                 all.matrix[i][rigid + a] = (with(i) + of_chord[i] * chord).value();
             });
             by_chord[a] = with(rigid);
-            each!(const { R::PLAIN && K <= 4 }, b < a + 1 => {
+            each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1 => {
                 let other = shape.chord_slope[b];
                 let shifted = of_chord[rigid] * (chord * other) + by_chord[b] * chord + by_chord[a] * other;
                 all.matrix[rigid + b][rigid + a] = shifted.added_to(inertia.modal[a][b]);

@@ -12,7 +12,7 @@ use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2};
-use crate::model::rod::{Inertia, Shape};
+use crate::model::rod::{FEW_MODES, Inertia, Shape};
 use crate::model::scalar::{Scalar, Tangent};
 use crate::model::state::{Contacts, FlexibleInstant, Instant, Pose};
 use crate::scene::modal::MOST_MODES;
@@ -183,7 +183,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
             positions[k] = y[p + k];
         });
         chain.scatter(&found[..chain.size], accelerations);
-        each!(const { R::PLAIN && K <= 4 }, mode < (p - frame.rigid).min(K) => {
+        each!(const { R::PLAIN && K <= FEW_MODES }, mode < (p - frame.rigid).min(K) => {
             positions[frame.rigid + mode] = y[p + frame.rigid + mode];
             accelerations[frame.rigid + mode] = found[chain.size + mode];
         });

@@ -22,6 +22,9 @@ use crate::math::Real;
 use crate::scene::modal::{MOST_MODES, ModalTable, pairs};
 use crate::scene::{Flexible, Scene};
 
+/// So few modes have arrays of their own, and loops over them that are written out.
+pub const FEW_MODES: usize = 4;
+
 /// Number of functions along x that `modes` modes may need at most, in whole lanes.
 pub const fn most_functions(modes: usize) -> usize {
     let functions = if modes <= MOST_MODES { 1 + pairs(modes) } else { 1 + modes - MOST_MODES + pairs(MOST_MODES) };

@@ -2,7 +2,7 @@
 
 use super::inertia::Inertia;
 use super::tables::Tables;
-use super::{Rod, Shape};
+use super::{FEW_MODES, Rod, Shape};
 use crate::math::Real;
 use crate::model::joint::{Kernel, Kernels};
 
@@ -159,7 +159,7 @@ const fn all<const BENDING: usize, const AXIAL: usize>() -> Counts {
 
 /// The functions for `counts`: compiled for them where they are small and usual.
 fn by_counts<const K: usize, const F: usize>(counts: Counts) -> Functions<f64, K, F> {
-    const { assert!(K >= 4, "room for every counts below") };
+    const { assert!(K >= FEW_MODES, "room for every counts below") };
     /// Chooses among the listed numbers of bending and axial modes.
     macro_rules! compiled {
         ($(($bending:literal, $axial:literal))*) => {
