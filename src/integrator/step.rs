@@ -61,6 +61,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
+        // Most communication points lie within the last step.
         if t <= self.memory.front.t {
             return Ok(());
         }

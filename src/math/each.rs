@@ -7,7 +7,7 @@ macro_rules! each {
     ($alone:expr, $i:ident < $end:expr => $work:block) => {{
         let end: usize = $end;
         if $alone {
-            debug_assert!(end <= 12, "more rounds than are written out");
+            assert!(end <= 12, "more rounds than are written out");
             each!(@ $i end, $work 0 1 2 3 4 5 6 7 8 9 10 11)
         } else {
             #[allow(clippy::needless_range_loop, clippy::manual_memcpy)]

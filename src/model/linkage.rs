@@ -17,7 +17,7 @@ use super::scalar::{Scalar, Tangent};
 use super::state::{Contacts, Instant, Pose, turning_at};
 use crate::scene::Scene;
 
-/// What joints an open mechanism has, and where its coordinates stand.
+/// What joints a mechanism has, and where its coordinates stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrangement {
     /// Which joints are ideal and whether the crank's angle is prescribed.

@@ -10,6 +10,7 @@ mod differences;
 mod finite_elements;
 mod first_impact;
 mod flexible;
+mod flexible_arrays;
 mod foundation_guide;
 mod foundation_law;
 mod foundation_motion;

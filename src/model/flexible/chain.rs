@@ -5,6 +5,7 @@
 
 use crate::math::Real;
 use crate::model::coordinates::Layout;
+use crate::model::linkage::Arrangement;
 use crate::model::mechanism::Topology;
 
 /// Most places in x: two of a root, three angles, L.
@@ -21,28 +22,20 @@ pub struct Chain {
     pub angle: [Option<usize>; 3],
 }
 
-/// Which joints a mechanism has, and where its coordinates stand.
+/// Which joints a mechanism with a flexible rod has, and where its coordinates stand; modal ones come after the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// Which joints are ideal and whether the crank's angle is prescribed.
-    pub topology: Topology,
-    /// Places of the coordinates among the positions.
-    pub layout: Layout,
+    /// Of the coordinates that are not modal.
+    pub arrangement: Arrangement,
     /// Which of them are in x.
     pub chain: Chain,
-    /// Which of A, B, C and T have clearance.
-    pub clear: [bool; 4],
-    /// Number of coordinates that are not modal.
-    pub rigid: usize,
 }
 
 impl Frame {
     /// Of a topology.
     pub const fn new(topology: Topology) -> Self {
-        let Topology { a, b, c, t, speed } = topology;
-        let layout = Layout::new(topology);
-        let rigid = if topology.is_closed() { !speed as usize } else { topology.freedoms() };
-        Self { topology, layout, chain: Chain::new(topology, &layout), clear: [!a, !b, !c, !t], rigid }
+        let arrangement = Arrangement::new(topology);
+        Self { arrangement, chain: Chain::new(topology, &arrangement.layout) }
     }
 
     /// How many coordinates x has.

@@ -10,6 +10,7 @@ use crate::math::{self, Real, each};
 use crate::model::drive::Rotor;
 use crate::model::ideal::IdealMechanism;
 use crate::model::kinematics::{JointCentres, Turning};
+use crate::model::linkage::Arrangement;
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2, perp};
 use crate::model::rod::{Chord, Rod, Shape};
@@ -157,7 +158,8 @@ impl Geometry {
     /// Where the modal coordinates stand.
     #[inline(always)]
     pub fn modes(&self, frame: Frame) -> Range<usize> {
-        frame.rigid..frame.rigid + self.rod.modes()
+        let rigid = frame.arrangement.positions;
+        rigid..rigid + self.rod.modes()
     }
 
     /// Accelerations of x at `forced` of the coordinates, the bias of L apart.
@@ -184,7 +186,7 @@ impl Geometry {
         rates: &[R],
         chord: &Chord<R>,
     ) -> Configuration<R, P> {
-        let Frame { topology, layout, chain, .. } = frame;
+        let Frame { arrangement: Arrangement { topology, layout, .. }, chain } = frame;
         let (place, Topology { a, b, c, t: guided, .. }) = (chain.size, topology);
         let closed = topology.is_closed();
         let turning = turning_at(&layout, &self.rotor, t, positions, rates);

@@ -63,7 +63,7 @@ pub const fn most_equations(modes: usize) -> usize {
 
 /// Number of states of the scene's mechanism with its rod.
 pub fn state_count(scene: &Scene, rod: &Rod) -> usize {
-    2 * (Frame::new(Topology::of(scene)).rigid + rod.modes()) + bristled_contacts(scene).len()
+    2 * (Frame::new(Topology::of(scene)).arrangement.positions + rod.modes()) + bristled_contacts(scene).len()
 }
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
@@ -74,14 +74,14 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         let frame = Frame::new(topology);
         let geometry = Geometry { frame, ideal: IdealMechanism::new(scene), rotor: Rotor::new(scene, time), rod };
         let clearances = Clearances::new(scene);
-        let (rigid, modal) = (frame.rigid, geometry.modes(frame));
+        let (rigid, modal) = (frame.arrangement.positions, geometry.modes(frame));
         let positions = modal.end;
         let states = 2 * positions + clearances.bristles.len();
         let scale = Scale::of(scene);
         let mut scales = [0.0; N];
         let (of_positions, of_rates) = scales[..2 * positions].split_at_mut(positions);
         of_positions[..rigid].fill(scale.length);
-        frame.layout.set_angles(&scale.angle, of_positions);
+        frame.arrangement.layout.set_angles(&scale.angle, of_positions);
         for (rate, position) in of_rates.iter_mut().zip(of_positions.iter()) {
             *rate = position * scale.frequency;
         }
@@ -138,18 +138,18 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn guard_count(&self) -> usize {
-        if self.geometry.frame.topology.is_closed() {
+        if self.geometry.frame.arrangement.topology.is_closed() {
             1
         } else {
-            self.clearances.guard_count(self.geometry.frame.clear)
+            self.clearances.guard_count(self.geometry.frame.arrangement.clear)
         }
     }
 
     fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        if self.geometry.frame.topology.is_closed() {
+        if self.geometry.frame.arrangement.topology.is_closed() {
             guards[0] = self.change_point(t, y);
         } else {
-            self.clearances.guards(self.geometry.frame.clear, contacts, &self.pose(t, y), guards);
+            self.clearances.guards(self.geometry.frame.arrangement.clear, contacts, &self.pose(t, y), guards);
         }
     }
 
@@ -165,21 +165,25 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn is_dead_end(&self, _: usize) -> bool {
-        self.geometry.frame.topology.is_closed()
+        self.geometry.frame.arrangement.topology.is_closed()
     }
 
     fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
-        self.clearances.kinks(self.geometry.frame.clear, contacts, &self.pose(t, y), kinks);
+        self.clearances.kinks(self.geometry.frame.arrangement.clear, contacts, &self.pose(t, y), kinks);
     }
 
     fn guard_scale(&self) -> f64 {
-        if self.geometry.frame.topology.is_closed() { IdealMechanism::CHANGE_POINT_SCALE } else { self.guard_scale }
+        if self.geometry.frame.arrangement.topology.is_closed() {
+            IdealMechanism::CHANGE_POINT_SCALE
+        } else {
+            self.guard_scale
+        }
     }
 
     fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
         let pose = self.pose(t, y);
         let bristles = &mut y[2 * self.extent.positions..];
-        self.clearances.cross(self.geometry.frame.clear, contacts, &pose, crossed, bristles)
+        self.clearances.cross(self.geometry.frame.arrangement.clear, contacts, &pose, crossed, bristles)
     }
 }
 
@@ -187,11 +191,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Unilateral<
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, S, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {
-        let layout = &self.geometry.frame.layout;
+        let layout = &self.geometry.frame.arrangement.layout;
         let p = self.extent.positions;
         let mut y = [0.0; N];
         let (positions, rates) = y[..2 * p].split_at_mut(p);
-        if self.geometry.frame.topology.is_closed() {
+        if self.geometry.frame.arrangement.topology.is_closed() {
             if let (Some(angle), Some(speed)) = (layout.angle(CRANK), layout.angle(CRANK)) {
                 (positions[angle], rates[speed]) = (pose.angle[CRANK], pose.speed[CRANK]);
             }
@@ -206,7 +210,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
-        self.clearances.start(self.geometry.frame.clear, &self.pose(t, y))
+        self.clearances.start(self.geometry.frame.arrangement.clear, &self.pose(t, y))
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
@@ -234,11 +238,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
-        self.clearances.depths(self.geometry.frame.clear, pose)
+        self.clearances.depths(self.geometry.frame.arrangement.clear, pose)
     }
 
     fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
-        self.clearances.account(self.geometry.frame.clear, contacts, pose, &y[2 * self.extent.positions..])
+        self.clearances.account(self.geometry.frame.arrangement.clear, contacts, pose, &y[2 * self.extent.positions..])
     }
 
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
@@ -255,7 +259,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
         let motion = self.tangent_motion(contacts, t, y, &mut rates);
         let instant = self.instant_of(self.geometry.frame, motion, y, &rates);
         let bristles = &y[2 * self.extent.positions..];
-        let account = self.clearances.account(self.geometry.frame.clear, contacts, &instant.pose, bristles);
+        let account = self.clearances.account(self.geometry.frame.arrangement.clear, contacts, &instant.pose, bristles);
         (instant, account)
     }
 }

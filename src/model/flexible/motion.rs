@@ -10,6 +10,7 @@ use crate::integrator::{GUARDS, Guard};
 use crate::math::each;
 use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
+use crate::model::linkage::Arrangement;
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2};
 use crate::model::rod::{FEW_MODES, Inertia, Shape};
@@ -53,10 +54,10 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
                     },
                     ends: |$all, contacts, t, y, rates, guards| {
                         let motion = $all.motion::<f64, { $places }>($frame, contacts, t, y, rates);
-                        if $frame.topology.is_closed() {
+                        if $frame.arrangement.topology.is_closed() {
                             guards[0] = $all.change_point(t, y);
                         } else {
-                            $all.clearances.guards($frame.clear, contacts, &motion.pose, guards);
+                            $all.clearances.guards($frame.arrangement.clear, contacts, &motion.pose, guards);
                         }
                     },
                     pose: |$all, t, y| $all.pose_in::<{ $places }>($frame, t, y),
@@ -112,7 +113,8 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         let (eta, rate) = self.modal(*frame, y);
         let chord = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate).chord;
         let p = self.extent.positions;
-        let (angle, speed) = frame.layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
+        let (angle, speed) =
+            frame.arrangement.layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
         ideal.change_point(Rotation::new(angle), speed, chord.length, chord.rate)
     }
 
@@ -140,10 +142,10 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
         let mut loads = Loads { pin: Vec2::new(slider_load, R::ZERO), slider_load, ..Loads::default() };
-        if !frame.topology.speed {
+        if !frame.arrangement.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
-        self.clearances.add_loads(frame.clear, contacts, pose, &y[2 * self.extent.positions..], &mut loads);
+        self.clearances.add_loads(frame.arrangement.clear, contacts, pose, &y[2 * self.extent.positions..], &mut loads);
         add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
@@ -161,7 +163,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         y: &[R; N],
         rates: &mut [R; N],
     ) -> Motion<R, P, K, F> {
-        let Frame { topology, layout, chain, .. } = frame;
+        let Frame { arrangement: Arrangement { topology, layout, positions: rigid, .. }, chain } = frame;
         let p = self.extent.positions;
         let (eta, rate) = self.modal(frame, y);
         let rod = self.modes.functions::<R>();
@@ -179,13 +181,13 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
             .solve(*R::kernel(&self.solvers));
         let (positions, others) = rates.split_at_mut(p);
         let (accelerations, bristle_rates) = others.split_at_mut(p);
-        each!(R::PLAIN, k < frame.rigid => {
+        each!(R::PLAIN, k < rigid => {
             positions[k] = y[p + k];
         });
         chain.scatter(&found[..chain.size], accelerations);
-        each!(const { R::PLAIN && K <= FEW_MODES }, mode < (p - frame.rigid).min(K) => {
-            positions[frame.rigid + mode] = y[p + frame.rigid + mode];
-            accelerations[frame.rigid + mode] = found[chain.size + mode];
+        each!(const { R::PLAIN && K <= FEW_MODES }, mode < (p - rigid).min(K) => {
+            positions[rigid + mode] = y[p + rigid + mode];
+            accelerations[rigid + mode] = found[chain.size + mode];
         });
         alone::write(topology, &layout, &configuration, accelerations);
         self.clearances.write_bristle_rates(&loads.bristle_rate, bristle_rates);

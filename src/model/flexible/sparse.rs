@@ -3,7 +3,7 @@
 //! Where the frame is a constant, so is which numbers those are, and nothing of them is compiled.
 
 use crate::math::{Real, Vec2};
-use std::ops::{Add, AddAssign, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Mul};
 
 /// A number that may be known to be zero.
 #[derive(Clone, Copy, Debug)]
@@ -83,22 +83,6 @@ impl<R: Real> Add for Sparse<R> {
             (Is(a), Zero) => Is(a),
             (Zero, b) => b,
         }
-    }
-}
-
-impl<R: Real> Sub for Sparse<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl<R: Real> Neg for Sparse<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        self.map(|value| -value)
     }
 }
 

@@ -88,7 +88,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
                 twist[i * (i - 1) / 2 + j] = q[j] * dq[i] - q[i] * dq[j];
             });
         });
-        let twists = if shortening > 0 { shortening * (shortening - 1) / 2 } else { 0 };
+        let twists = counts.pairs() - shortening;
         moving = Self::sum::<R, FEW>(&self.tables.twisting, 0..twists, &twist, modes_and_1, moving);
         let spread = Self::sum::<R, FEW>(&self.tables.second, 0..functions, xi, every, none);
         let mut asked = Self::sum::<R, FEW>(&self.tables.second, pairs.clone(), xi_bias, every, none);

@@ -6,22 +6,23 @@
 
 use super::Rod;
 
-/// The tables, each with a row for a factor and a column for a result; with room for `K` modes and `F` functions.
+/// The tables, each with a row for a factor and a column for a result; with room for `K` modes and `F` functions. Their
+/// units are such that a factor [1, m, m² and their rates] makes of a row what stands with it.
 #[derive(Clone, Debug)]
 pub struct Tables<const K: usize, const F: usize> {
-    /// ∫B·Bᵀ dm.
+    /// ∫B·Bᵀ dm; of a product of two factors [kg·m²].
     pub second: [[f64; F]; F],
-    /// ∫B·φ_i dm for every bending mode and, after them, ∫B dm.
+    /// ∫B·φ_i dm for every bending mode and, after them, ∫B dm [kg·m].
     pub with_modes: [[f64; F]; F],
-    /// From ξ: ∫(x·φ_i − w·∂x/∂q_i) dm, and ∫x dm.
+    /// From ξ: ∫(x·φ_i − w·∂x/∂q_i) dm, and ∫x dm [kg·m].
     pub placing: [[f64; F]; F],
-    /// From ξ̇, with `twisting`: ∫(ẋ·φ_i − ẇ·∂x/∂q_i) dm, and ∫ẋ dm.
+    /// From ξ̇, with `twisting`: ∫(ẋ·φ_i − ẇ·∂x/∂q_i) dm, and ∫ẋ dm [kg·m/s].
     pub moving: [[f64; F]; F],
     /// From q_j·q̇_k − q_k·q̇_j for j < k, ordered by k.
     pub twisting: [[f64; F]; F],
-    /// From ξ: ∫(∂x/∂q_i)·(∂x/∂q_j) dm, for pairs i ≤ j.
+    /// From ξ: ∫(∂x/∂q_i)·(∂x/∂q_j) dm [kg], for pairs i ≤ j.
     pub products: [[f64; F]; F],
-    /// From q: ∫∂x/∂q_i dm.
+    /// From q: ∫∂x/∂q_i dm [kg].
     pub shifting: [[f64; F]; K],
 }
 
