@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 
 const MAGIC: &[u8; 8] = b"SLCRANK\x1a";
 /// To be raised with every change of [`FmuState`] or of what it holds.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// Everything that an instance is, its name and its logging aside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -121,7 +121,10 @@ pub fn error_power<M: Method>([longer, shorter]: [(f64, f64); 2]) -> f64 {
 
 /// The first state (or rate) that is not a number, or so large that its powers are none.
 pub fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
-    y.iter().take(Extent::of(problem).states).position(|y| !is_kept(*y))
+    let states = &y[..Extent::of(problem).states];
+    // Without leaving at the first one, several are looked at in one go.
+    let all_kept = states.iter().fold(true, |kept, y| kept & is_kept(*y));
+    if all_kept { None } else { states.iter().position(|y| !is_kept(*y)) }
 }
 
 /// A number, and not so large that its powers are none.

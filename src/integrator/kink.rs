@@ -2,7 +2,9 @@
 //!
 //! Past a kink the stages of a step follow another branch of the rates than those before it. The error estimate notices
 //! and the step fails, but it does not tell where: to halve steps towards a kink takes ten attempts. The functions that
-//! have their zeros there tell: one attempt then ends at the kink, and the next begins behind it.
+//! have their zeros there tell: one attempt then ends at the kink, and the next begins behind it. Kinks keep company: a
+//! friction law has one at every corner, and sliding that turns round passes them all. So after a step that was cut at
+//! one, the next is looked for before anything has failed.
 //!
 //! Nothing but the length of a step follows from this. The rates keep their branches to themselves.
 
@@ -31,34 +33,56 @@ pub fn first<const N: usize, P: Problem<N> + ?Sized>(
     h: f64,
     end: &[f64; N],
 ) -> Option<f64> {
+    let mut fallen = [Guard::default(); GUARDS];
+    problem.guards(&start.modes, start.t + h, end, &mut fallen);
+    let above = guards.iter().zip(&fallen).take(problem.guard_count()).filter(|(guard, _)| guard.value > 0.0);
+    let events = above.filter_map(|(now, then)| crossing(now.value, now.rate * h, then.value));
+    let event = earliest(events.map(|share| share * PAST_EVENT));
+    let kink = first_kink(problem, start, h, end);
+    earliest([event, kink].into_iter().flatten())
+}
+
+/// The share at which a step of `h` from `start` that nobody has attempted should end: at the first kink, as far as the
+/// accelerations go on as they did since `earlier`.
+pub fn foreseen<const N: usize, P: Problem<N> + ?Sized>(
+    problem: &P,
+    earlier: &Front<N, P::Modes>,
+    start: &Front<N, P::Modes>,
+    h: f64,
+) -> Option<f64> {
+    let bend = 0.5 * h * h / (start.t - earlier.t);
+    let rates = start.rates.iter().zip(&earlier.rates);
+    let mut end = start.y;
+    for (end, (rate, before)) in end.iter_mut().zip(rates) {
+        *end += h * rate + bend * (rate - before);
+    }
+    first_kink(problem, start, h, &end)
+}
+
+fn first_kink<const N: usize, P: Problem<N> + ?Sized>(
+    problem: &P,
+    start: &Front<N, P::Modes>,
+    h: f64,
+    end: &[f64; N],
+) -> Option<f64> {
     let Front { t, y, rates, modes, .. } = start;
     let (mut before, mut after) = (Kinks::NONE, Kinks::NONE);
     problem.kinks(modes, *t, y, &mut before);
     problem.kinks(modes, t + h, end, &mut after);
-    let mut fallen = [Guard::default(); GUARDS];
-    problem.guards(modes, t + h, end, &mut fallen);
-    let mut ends = f64::INFINITY;
-    let mut end_at = |share: f64| {
-        if WITHIN.contains(&share) {
-            ends = ends.min(share);
-        }
-    };
-    for (now, then) in guards.iter().zip(&fallen).take(problem.guard_count()).filter(|(guard, _)| guard.value > 0.0) {
-        if let Some(share) = crossing(now.value, now.rate * h, then.value) {
-            end_at(share * PAST_EVENT);
-        }
+    if before.values().iter().zip(after.values()).all(|(now, then)| now * then >= 0.0) {
+        return None;
     }
-    if before.values().iter().zip(after.values()).any(|(now, then)| now * then < 0.0) {
-        let soon: [f64; N] = std::array::from_fn(|i| y[i] + AHEAD * h * rates[i]);
-        let mut ahead = Kinks::NONE;
-        problem.kinks(modes, t + AHEAD * h, &soon, &mut ahead);
-        for ((now, soon), then) in before.values().iter().zip(ahead.values()).zip(after.values()) {
-            if let Some(share) = crossing(*now, (soon - now) / AHEAD, *then) {
-                end_at(share * if share > FAR { SHORT_OF } else { PAST_KINK });
-            }
-        }
-    }
-    ends.is_finite().then_some(ends)
+    let soon: [f64; N] = std::array::from_fn(|i| y[i] + AHEAD * h * rates[i]);
+    let mut ahead = Kinks::NONE;
+    problem.kinks(modes, t + AHEAD * h, &soon, &mut ahead);
+    let all = before.values().iter().zip(ahead.values()).zip(after.values());
+    let kinks = all.filter_map(|((now, soon), then)| crossing(*now, (soon - now) / AHEAD, *then));
+    earliest(kinks.map(|share| share * if share > FAR { SHORT_OF } else { PAST_KINK }))
+}
+
+/// The least share at which a shorter step may end.
+fn earliest(shares: impl Iterator<Item = f64>) -> Option<f64> {
+    shares.filter(|share| WITHIN.contains(share)).min_by(f64::total_cmp)
 }
 
 /// The share at which the parabola from `value` with `slope` to `end` is zero, if its ends differ in sign.

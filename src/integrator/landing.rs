@@ -20,7 +20,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     pub(super) fn settle<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P) -> Result<(), IntegrationError> {
         let count = problem.guard_count();
         let near = LANDED * problem.guard_scale();
-        let ended = |i: &usize| problem.is_dead_end(*i) && self.guards[*i].value <= near && self.guards[*i].rate < 0.0;
+        let ended = |i: &usize| self.guards[*i].value <= near && self.guards[*i].rate < 0.0 && problem.is_dead_end(*i);
         if let Some(guard) = (0..count).find(ended) {
             return Err(IntegrationError::DeadEnd { time: self.memory.front.t, guard });
         }

@@ -3,6 +3,7 @@
 use super::controller;
 use super::error::IntegrationError;
 use super::kink;
+use super::memory::Memory;
 use super::method::Method;
 use super::problem::Problem;
 use super::step::Integrator;
@@ -16,9 +17,20 @@ const CUTS: usize = 6;
 const SHORTEST_CUT: f64 = 1e3;
 
 impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
+    /// The share of the next step at which a kink lies, where one is to be looked for.
+    pub(super) fn foreseen_kink<P>(&self, problem: &P) -> Option<f64>
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        let Memory { start, front, step, cut, crossings, .. } = &self.memory;
+        let goes_on = *cut && *crossings == 0 && front.t > start.t;
+        goes_on.then(|| kink::foreseen(problem, start, front, step.min(problem.longest_step()))).flatten()
+    }
+
     /// Attempts until the error is tolerable, and tells how long that step is. One that fails because a kink lies in it
-    /// ends at the kink, and the next is as long as this one should have been.
-    pub(super) fn accepted<P>(&mut self, problem: &P) -> Result<f64, IntegrationError>
+    /// ends at the kink, and the next is as long as this one should have been; so does one with a kink `foreseen` at
+    /// that share.
+    pub(super) fn accepted<P>(&mut self, problem: &P, foreseen: Option<f64>) -> Result<f64, IntegrationError>
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
@@ -30,6 +42,10 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         // Forces that are gone may have left a step that no longer moves time.
         let least = time.next_up() - time;
         let mut wanted = if M::ADAPTIVE { self.memory.step.max(least) } else { self.settings.fixed_step };
+        if let Some(share) = foreseen.filter(|share| share * wanted > SHORTEST_CUT * least) {
+            (first, cuts, cut) = (Some(wanted), 1, true);
+            wanted = share * wanted.min(problem.longest_step());
+        }
         loop {
             // The step is what time really moves by: nothing drifts from its rounding.
             let h = time + wanted.min(problem.longest_step()) - time;
@@ -51,6 +67,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                     None => h * growth,
                 };
                 self.memory.last_error = error.max(1e-4);
+                self.memory.cut = cut;
                 return Ok(h);
             }
             first.get_or_insert(h);

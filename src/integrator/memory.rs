@@ -36,6 +36,8 @@ pub struct Memory<const N: usize, D> {
     pub step: f64,
     /// Error of the last accepted step over the tolerance.
     pub last_error: f64,
+    /// The last accepted step was cut short at a kink.
+    pub cut: bool,
     /// Events at the front, which the end does not know yet.
     pub crossings: u64,
     /// Work done.

@@ -33,7 +33,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         problem.rates(&modes, t, &y, &mut front.rates);
         let statistics = Statistics { evaluations: 1, ..Statistics::default() };
         let step = controller::first_step(problem, &front);
-        let memory = Memory { start: front, end: front, front, step, last_error: 1e-4, crossings: 0, statistics };
+        let (last_error, cut) = (1e-4, false);
+        let memory = Memory { start: front, end: front, front, step, last_error, cut, crossings: 0, statistics };
         Self::resume(problem, settings, memory)
     }
 
@@ -154,6 +155,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         }
         self.memory.statistics = self.memory.statistics_at(t);
         self.memory.statistics.steps -= 1;
+        self.memory.cut = false;
         if t <= start.t {
             self.memory.crossings = 0;
             self.memory.front = start;
@@ -190,9 +192,10 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if let Some(component) = controller::lost_state(problem, rates) {
             return Err(IntegrationError::NotFinite { time: *t, component });
         }
+        let kink = self.foreseen_kink(problem);
         let earlier = self.memory.start;
         self.memory.start = self.memory.front;
-        let h = match self.accepted(problem) {
+        let h = match self.accepted(problem, kink) {
             Ok(h) => h,
             Err(error) => {
                 self.memory.start = earlier;
@@ -218,8 +221,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             return Ok(());
         }
         // A state beyond a dead end is none, not even between two communication points.
-        let ends = (0..problem.guard_count()).any(|guard| problem.is_dead_end(guard));
-        if !M::LOCATES && !ends {
+        if !M::LOCATES && !(0..problem.guard_count()).any(|guard| problem.is_dead_end(guard)) {
             self.notice(problem);
             return Ok(());
         }

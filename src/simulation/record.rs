@@ -56,7 +56,7 @@ impl<const N: usize> Discrete for Impulses<N> {
 
 /// Appends the inputs in force and the integrator's memory.
 pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N, D>, snapshot: &mut Snapshot) {
-    let Memory { start, end, front, step, last_error, crossings, statistics } = memory;
+    let Memory { start, end, front, step, last_error, cut, crossings, statistics } = memory;
     let InputSignal { at, value, rate } = plant.signal();
     let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
     snapshot.reals.extend(inputs);
@@ -67,7 +67,7 @@ pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N
         modes.save(snapshot);
     }
     let Statistics { steps, rejected, evaluations, events } = *statistics;
-    snapshot.integers.extend([*crossings, steps, rejected, evaluations, events]);
+    snapshot.integers.extend([u64::from(*cut), *crossings, steps, rejected, evaluations, events]);
     snapshot.integers.push(N as u64);
 }
 
@@ -83,6 +83,7 @@ pub fn load<const N: usize, D: Discrete>(
     let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
     let [start_time, step, last_error] = reader.reals()?;
     let (start, end, front) = (take_front(reader)?, take_front(reader)?, take_front(reader)?);
+    let cut = reader.integer()? != 0;
     let crossings = reader.integer()?;
     let statistics = Statistics {
         steps: reader.integer()?,
@@ -95,7 +96,7 @@ pub fn load<const N: usize, D: Discrete>(
     }
     plant.set_signal(InputSignal { at, value, rate });
     plant.set_start_time(start_time);
-    let memory = Memory { start, end, front, step, last_error, crossings, statistics };
+    let memory = Memory { start, end, front, step, last_error, cut, crossings, statistics };
     memory.is_sound(time, Extent::of(plant), plant.longest_step()).then_some(memory)
 }
 

@@ -84,6 +84,9 @@ fn a_step_that_fails_ends_at_the_kink_that_it_fails_by() {
             assert!(error <= 10.0 * tolerance, "{}: {error:e} at {tolerance:e}", M::NAME);
             let work = told.evaluations as f64 / searched.evaluations as f64;
             assert!(work < 0.9, "{} at {tolerance:e}: {told:?} against {searched:?}", M::NAME);
+            // The second corner is foreseen from the first.
+            let failed = told.rejected as f64 / searched.rejected as f64;
+            assert!(failed < 0.67, "{} at {tolerance:e}: {told:?} against {searched:?}", M::NAME);
         }
     }
     compare::<Dopri5>();

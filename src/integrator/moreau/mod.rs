@@ -51,7 +51,10 @@ impl<const N: usize> Moreau<N> {
         let front = Front { t, y, rates: [0.0; N], modes: Impulses::none(t, y), impact_end: t };
         let statistics = Statistics::default();
         let (start, step) = (front, settings.fixed_step);
-        Self::resume(settings, Memory { start, end: front, front, step, last_error: 0.0, crossings: 0, statistics })
+        Self::resume(
+            settings,
+            Memory { start, end: front, front, step, last_error: 0.0, cut: false, crossings: 0, statistics },
+        )
     }
 
     /// Goes on from a saved state.
