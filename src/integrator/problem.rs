@@ -1,5 +1,8 @@
 //! What the integrator asks of a hybrid system.
 
+use super::stages::in_registers;
+use super::tableau::{STAGES, Tableau};
+
 /// Most event functions that a problem may have.
 pub const GUARDS: usize = 8;
 
@@ -106,6 +109,13 @@ pub trait Problem<const N: usize> {
     /// Writes the rates of the state `y` at time `t`: the velocities, then the accelerations, then the
     /// rates of first-order states.
     fn rates(&self, modes: &Self::Modes, t: f64, y: &[f64; N], rates: &mut [f64; N]);
+
+    /// Writes the rates at the stages of a method after its first into their places in `k`, for a step of `h` from the
+    /// state `y` at time `t`; `k[0]` has the rates there. Compiled for a problem of at most
+    /// [`IN_REGISTERS`](super::stages::IN_REGISTERS) states, with its rates inside; larger ones are not asked.
+    fn stages(&self, tableau: &Tableau, modes: &Self::Modes, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
+        in_registers(self, tableau, modes, t, y, h, k);
+    }
 
     /// Writes the exact derivatives of the rates at `t` and `y` into the rows and columns of the
     /// problem's states; what lies beyond keeps its value. Where a rate has a corner, the derivative is

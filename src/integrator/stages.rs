@@ -2,7 +2,11 @@
 
 use super::memory::Front;
 use super::problem::{Extent, Problem};
-use super::tableau::{Explicit, STAGES};
+use super::tableau::{Explicit, STAGES, Tableau};
+
+/// Up to so many states, all that one stage hands on to the next stays in registers. In memory it would be written in
+/// other portions than it is read in, and wait to have left the processor's store buffer.
+pub const IN_REGISTERS: usize = 8;
 
 /// An attempted step, and room to make it.
 pub struct Attempt<const N: usize> {
@@ -36,6 +40,9 @@ impl<const N: usize> Attempt<N> {
     #[inline(never)] // one copy for steps, landings and rewinds
     pub fn explicitly<E: Explicit, P: Problem<N> + ?Sized>(&mut self, problem: &P, start: &Front<N, P::Modes>, h: f64) {
         self.k[0] = start.rates;
+        if N <= IN_REGISTERS {
+            problem.stages(const { &E::TABLEAU }, &start.modes, start.t, &start.y, h, &mut self.k);
+        }
         let mut stages = Stages { problem, start, h, states: Extent::of(problem).states, made: self };
         // A stage beyond the method's own is not compiled.
         stages.evaluate::<E, 1>();
@@ -65,7 +72,7 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     #[inline(always)]
     fn evaluate<E: Explicit, const I: usize>(&mut self) {
         let tableau = const { &E::TABLEAU };
-        if I < tableau.stages {
+        if N > IN_REGISTERS && I < tableau.stages {
             let Self { problem, start, h, states, made } = self;
             let (earlier, later) = made.k.split_at_mut(I);
             combine(&mut made.y, &start.y, *h, &tableau.a[I], earlier, *states);
@@ -135,5 +142,40 @@ fn combine<const N: usize>(
             change += weight_of_last * k[last][i];
         }
         sum[i] = y[i] + change;
+    }
+}
+
+/// See [`Problem::stages`].
+#[inline(always)]
+pub(super) fn in_registers<const N: usize, P: Problem<N> + ?Sized>(
+    problem: &P,
+    tableau: &Tableau,
+    modes: &P::Modes,
+    t: f64,
+    y: &[f64; N],
+    h: f64,
+    k: &mut [[f64; N]; STAGES],
+) {
+    if N > IN_REGISTERS {
+        return; // nothing is compiled
+    }
+    let states = Extent::of(problem).states;
+    let mut last = k[0];
+    for i in 1..tableau.stages.min(STAGES) {
+        let weights = &tableau.a[i];
+        let mut slope = [0.0; N];
+        for (weight, k) in weights.iter().zip(k.iter()).take(i - 1) {
+            for (slope, rate) in slope.iter_mut().zip(k).take(states) {
+                *slope += weight * rate;
+            }
+        }
+        // The last rates are added last, as in `combine`.
+        let weight_of_last = h * weights[i - 1];
+        let mut at = *y;
+        for m in 0..states {
+            at[m] += h * slope[m] + weight_of_last * last[m];
+        }
+        problem.rates(modes, t + tableau.c[i] * h, &at, &mut last);
+        k[i] = last;
     }
 }

@@ -93,11 +93,11 @@ impl Real for f64 {
     }
     #[inline(always)]
     fn max(self, limit: f64) -> Self {
-        f64::max(self, limit)
+        if self > limit { self } else { limit } // one instruction
     }
     #[inline(always)]
     fn min(self, limit: f64) -> Self {
-        f64::min(self, limit)
+        if self < limit { self } else { limit }
     }
     #[inline(always)]
     fn clamp(self, low: f64, high: f64) -> Self {

@@ -5,7 +5,7 @@
 use super::bristles::{Bristles, bristled_contacts};
 use super::contact::{Account, ContactMode, ContactParameters};
 use super::dynamics::Loads;
-use super::joint::guide::{CORNERS, Guide};
+use super::joint::guide::{CORNERS, GUIDE_CONTACTS, Guide};
 use super::joint::revolute::Revolute;
 use super::mechanism::{CRANK, ROD, SLIDER, bodies};
 use super::rigid;
@@ -57,8 +57,10 @@ impl Clearances {
             }
         }
         if clear[3] {
-            let load = self.guide.load(&contacts[3..], &pose.slider(), &z.guide, &mut loads.bristle_rate.guide);
-            loads.add_guide(&load);
+            // On its own: a reference into the loads would keep them all in memory.
+            let mut bristle_rate = [R::ZERO; GUIDE_CONTACTS];
+            loads.add_guide(&self.guide.load(&contacts[3..], &pose.slider(), &z.guide, &mut bristle_rate));
+            loads.bristle_rate.guide = bristle_rate;
         }
     }
 

@@ -169,6 +169,7 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
         Extent::second_order(2 * Self::P)
     }
 
+    #[inline(always)] // into the loop over stages
     fn rates(&self, _: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         self.write_rates(t, y, rates);
     }

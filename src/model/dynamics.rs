@@ -172,9 +172,10 @@ pub fn accelerate<R: Real>(
         }
     }
 
-    // Elements of the mass matrix and the centrifugal terms.
+    // Elements of the mass matrix and the centrifugal terms, which are known before the forces are.
     let linked = [b, c && !t, b && c && !t];
     let mut m = [R::ZERO; 3];
+    let mut early = [R::ZERO; 3];
     for pair in 0..3 {
         if linked[pair] {
             let (k, l) = PAIRS[pair];
@@ -182,8 +183,8 @@ pub fn accelerate<R: Real>(
             let sin = rotation[l].sin * rotation[k].cos - rotation[l].cos * rotation[k].sin;
             m[pair] = cos * chains.cos[pair] + sin * chains.sin[pair];
             let centrifugal = sin * chains.cos[pair] - cos * chains.sin[pair];
-            q[k] += centrifugal * square[l];
-            q[l] -= centrifugal * square[k];
+            early[k] += centrifugal * square[l];
+            early[l] -= centrifugal * square[k];
         }
     }
     let mut d = chains.diagonal.map(R::constant);
@@ -194,8 +195,9 @@ pub fn accelerate<R: Real>(
     for k in 0..3 {
         if rooted[k] {
             first_moment[k] = rotation[k].apply(chains.moment[k]);
-            q[k] -= first_moment[k].x * gravity;
+            early[k] -= first_moment[k].x * gravity;
         }
+        q[k] += early[k];
     }
     let per_mass = chains.per_mass[SLIDER];
     let mut along = on_rail.x;

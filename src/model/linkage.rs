@@ -107,11 +107,12 @@ impl Linkage {
         if !arrangement.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
-        self.clearances.add_loads(arrangement.clear, contacts, pose, bristles, &mut loads);
+        // Contact forces, which are known last, come last.
         add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
         }
+        self.clearances.add_loads(arrangement.clear, contacts, pose, bristles, &mut loads);
         loads
     }
 

@@ -71,6 +71,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
 {
     type Modes = Contacts;
 
+    #[inline(always)] // into the loop over stages
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         self.linkage.rates(Self::ARRANGEMENT, contacts, t, y, rates);
     }

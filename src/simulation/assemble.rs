@@ -118,7 +118,8 @@ fn with_audit<const N: usize, P: Plant<N> + 'static>(
 }
 
 /// A method is compiled once for every number of states and calls the mechanism through a table of
-/// functions: that costs about a nanosecond an evaluation, and spares a hundred copies of the integrator.
+/// functions: that spares a hundred copies of the integrator. Only the loop over a step's stages is compiled
+/// for each small mechanism on its own; see [`Problem::stages`](crate::integrator::Problem::stages).
 fn with_method<const N: usize, P: Plant<N> + 'static>(
     scene: &Scene,
     time: f64,

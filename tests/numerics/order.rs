@@ -2,7 +2,7 @@
 
 use super::free::{Free, distance, kepler, orbit, power};
 use slidercrank::integrator::methods::{Bs3, Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::stages::Attempt;
+use slidercrank::integrator::stages::{Attempt, IN_REGISTERS};
 use slidercrank::integrator::{Explicit, Front, Problem};
 
 const ECCENTRICITY: f64 = 0.2;
@@ -10,11 +10,19 @@ const ECCENTRICITY: f64 = 0.2;
 const END: f64 = 4.0;
 
 fn step<M: Explicit>(t: f64, y: &[f64; 4], h: f64) -> Attempt<4> {
-    let problem = Free { accelerations: kepler };
-    let mut rates = [0.0; 4];
+    step_of::<M, 4, _>(&Free { accelerations: kepler }, t, y, h)
+}
+
+fn step_of<M: Explicit, const N: usize, P: Problem<N, Modes = ()>>(
+    problem: &P,
+    t: f64,
+    y: &[f64; N],
+    h: f64,
+) -> Attempt<N> {
+    let mut rates = [0.0; N];
     problem.rates(&(), t, y, &mut rates);
     let mut made = Attempt::NONE;
-    made.explicitly::<M, _>(&problem, &Front { t, y: *y, rates, modes: (), impact_end: 0.0 }, h);
+    made.explicitly::<M, _>(problem, &Front { t, y: *y, rates, modes: (), impact_end: 0.0 }, h);
     made
 }
 
@@ -89,4 +97,41 @@ fn the_estimate_is_at_least_as_large_as_the_error_of_the_step() {
     covers::<Dopri5>(0.05);
     covers::<Verner7>(0.1);
     covers::<Dop853>(0.2);
+}
+
+/// Three orbits side by side, each of which starts a little later: positions first, then velocities.
+const SIDE_BY_SIDE: usize = 12;
+
+/// A step of three orbits at once, whose stages are in memory, and of each alone, whose stages are in registers.
+fn orbits_do_not_know_of_each_other<M: Explicit>() {
+    const { assert!(SIDE_BY_SIDE > IN_REGISTERS && 4 <= IN_REGISTERS) };
+    let accelerations = |t: f64, q: &[f64], v: &[f64], a: &mut [f64]| {
+        for i in [0, 2, 4] {
+            kepler(t, &q[i..i + 2], &v[i..i + 2], &mut a[i..i + 2]);
+        }
+    };
+    let alone: [[f64; 4]; 3] = [0.3, 0.9, 2.5].map(|t| orbit(ECCENTRICITY, t));
+    let mut all = [0.0; SIDE_BY_SIDE];
+    for (k, orbit) in alone.iter().enumerate() {
+        all[2 * k..][..2].copy_from_slice(&orbit[..2]);
+        all[6 + 2 * k..][..2].copy_from_slice(&orbit[2..]);
+    }
+    let together = step_of::<M, SIDE_BY_SIDE, _>(&Free { accelerations }, 0.0, &all, 0.1);
+    for (k, orbit) in alone.iter().enumerate() {
+        let own = step::<M>(0.0, orbit, 0.1);
+        let of = |all: &[f64; SIDE_BY_SIDE]| [all[2 * k], all[2 * k + 1], all[6 + 2 * k], all[7 + 2 * k]];
+        assert_eq!(of(&together.y), own.y, "{}", M::NAME);
+        assert_eq!(of(&together.error), own.error, "{}", M::NAME);
+        assert_eq!(of(&together.coarse_error), own.coarse_error, "{}", M::NAME);
+        assert_eq!(of(&together.unseen), own.unseen, "{}", M::NAME);
+    }
+}
+
+#[test]
+fn stages_in_registers_and_in_memory_are_the_same_to_the_bit() {
+    orbits_do_not_know_of_each_other::<Rk4>();
+    orbits_do_not_know_of_each_other::<Bs3>();
+    orbits_do_not_know_of_each_other::<Dopri5>();
+    orbits_do_not_know_of_each_other::<Verner7>();
+    orbits_do_not_know_of_each_other::<Dop853>();
 }

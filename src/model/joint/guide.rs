@@ -87,7 +87,8 @@ struct OfSurface {
 type Bristles<R> = [R; GUIDE_CONTACTS];
 
 /// [`load`] of one combination of laws.
-type LoadKernel<R> = fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>, &mut Bristles<R>) -> Load<R>;
+type LoadKernel<R> =
+    fn(&Guide, &[ContactMode], R, Vec2<R>, Rotation<R>, R, &Bristles<R>, &mut Bristles<R>, &mut R) -> Vec2<R>;
 /// [`account`] of one combination of laws.
 type AccountKernel<R> = fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>) -> Account<R>;
 
@@ -123,26 +124,37 @@ impl<S: Surface> KernelFamily for Family<S> {
     }
 }
 
+/// Returns the force [N] and writes the couple [N·m]. The slider's pose, of which only the pin's abscissa does not
+/// matter, goes in by registers.
+#[expect(clippy::too_many_arguments, reason = "what goes by registers stands alone")]
 fn load<R: Real, S: Surface, E: Elastic, D: Damped, F: Friction>(
     g: &Guide,
     modes: &[ContactMode],
-    pose: &SliderPose<R>,
+    height: R,
+    pin_velocity: Vec2<R>,
+    rotation: Rotation<R>,
+    speed: R,
     z: &Bristles<R>,
     bristle_rate: &mut Bristles<R>,
-) -> Load<R> {
+    couple: &mut R,
+) -> Vec2<R> {
+    let pose = &SliderPose { pin: Vec2::new(R::ZERO, height), pin_velocity, rotation, speed };
     let mut load = Load::default();
     for (k, mode) in modes.iter().enumerate().take(S::CONTACTS) {
         if mode.closed {
             let Touch { arm, normal, depth, rate, sliding } = S::touch(g, k, pose);
             let Forces { normal: pressure, tangential, bristle_rate: moving } =
                 force::<R, E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], || sliding);
-            bristle_rate[k] = moving;
+            if F::BRISTLES {
+                bristle_rate[k] = moving;
+            }
             let force = Vec2::new(-tangential, pressure * normal);
             load.force += force;
             load.couple += cross(arm, force);
         }
     }
-    load
+    *couple = load.couple;
+    load.force
 }
 
 fn approaches<S: Surface>(guide: &Guide, pose: &SliderPose) -> [(f64, f64); CORNERS] {
@@ -246,7 +258,10 @@ impl Guide {
         bristle_rate: &mut [R; GUIDE_CONTACTS],
     ) -> Load<R> {
         if modes.iter().any(|mode| mode.closed) {
-            (R::kernel(&self.kernels).load)(self, modes, pose, z, bristle_rate)
+            let SliderPose { pin, pin_velocity, rotation, speed } = *pose;
+            let (load, mut couple) = (R::kernel(&self.kernels).load, R::ZERO);
+            let force = load(self, modes, pin.y, pin_velocity, rotation, speed, z, bristle_rate, &mut couple);
+            Load { force, couple }
         } else {
             Load::default()
         }

@@ -8,7 +8,7 @@ use super::{Kernel, KernelFamily, Kernels, choose, compliance, parameters};
 use crate::integrator::{Guard, Kinks};
 use crate::math::Real;
 use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, force};
-use crate::model::friction::Friction;
+use crate::model::friction::{Friction, Frictionless};
 use crate::model::plane::{Vec2, perp};
 use crate::model::scalar::Scalar;
 use crate::scene::{self, Elasticity};
@@ -40,14 +40,21 @@ pub struct Load<R = f64> {
     pub bristle_rate: R,
 }
 
-/// The force on the journal's body [N] at per_approach, e, ė, ω_journal, ω_bearing and the bristles' deflection. Only
-/// friction adds to the load. All that the motion waits for goes in and out by registers.
-type LoadKernel<R> = fn(&Revolute, f64, Vec2<R>, Vec2<R>, R, R, R, &mut Load<R>) -> Vec2<R>;
+/// The forces of a contact, from per_approach, δ [m] and δ̇ [m/s] on. All that the motion waits for goes in and out by
+/// registers.
+#[derive(Clone, Copy, Debug)]
+enum ForceKernel<R> {
+    /// Without friction: f_n [N].
+    Smooth(fn(&ContactParameters, f64, R, R) -> R),
+    /// With friction: (f_n, f_t) [N] at the sliding speed [m/s] and the bristles' deflection [m] too; writes the rate of
+    /// that.
+    Rubbing(fn(&ContactParameters, f64, R, R, R, R, &mut R) -> Vec2<R>),
+}
 
 /// What is compiled for each combination of laws.
 #[derive(Clone, Copy, Debug)]
 pub struct ByLaws<R> {
-    load: LoadKernel<R>,
+    force: ForceKernel<R>,
     account: fn(&Revolute, f64, &Play<R>, R) -> Account<R>,
 }
 
@@ -73,39 +80,34 @@ impl Kernel for Family {
 impl KernelFamily for Family {
     type Kernel = Self;
     fn kernel<R: Real, E: Elastic, D: Damped, F: Friction>() -> ByLaws<R> {
-        ByLaws { load: load::<R, E, D, F>, account: account::<R, E, D, F> }
+        let force = if F::PRESENT {
+            ForceKernel::Rubbing(rubbing::<R, E, D, F>)
+        } else {
+            ForceKernel::Smooth(smooth::<R, E, D>)
+        };
+        ByLaws { force, account: account::<R, E, D, F> }
     }
 }
 
-#[expect(clippy::too_many_arguments, reason = "as many as there are registers for")]
-fn load<R: Real, E: Elastic, D: Damped, F: Friction>(
-    joint: &Revolute,
+fn smooth<R: Real, E: Elastic, D: Damped>(contact: &ContactParameters, per_approach: f64, depth: R, rate: R) -> R {
+    force::<R, E, D, Frictionless>(contact, per_approach, depth, rate, R::ZERO, || R::ZERO).normal
+}
+
+fn rubbing<R: Real, E: Elastic, D: Damped, F: Friction>(
+    contact: &ContactParameters,
     per_approach: f64,
-    eccentricity: Vec2<R>,
-    rate: Vec2<R>,
-    journal_speed: R,
-    bearing_speed: R,
+    depth: R,
+    rate: R,
+    sliding: R,
     z: R,
-    load: &mut Load<R>,
+    moving: &mut R,
 ) -> Vec2<R> {
-    let epsilon = eccentricity.norm();
-    let depth = epsilon - joint.clearance;
-    if depth <= 0.0 && !(F::BRISTLES && epsilon > 0.0) {
-        return Vec2::ZERO;
-    }
-    let play = Play { eccentricity, rate, journal_speed, bearing_speed };
-    let n = eccentricity / epsilon;
-    let t = perp(n);
-    let sliding = || joint.sliding(&play, epsilon, t);
     let Forces { normal, tangential, bristle_rate } =
-        force::<R, E, D, F>(&joint.contact, per_approach, depth, rate.dot(n), z, sliding);
-    if !F::PRESENT {
-        return -normal * n;
+        force::<R, E, D, F>(contact, per_approach, depth, rate, z, || sliding);
+    if F::BRISTLES {
+        *moving = bristle_rate;
     }
-    load.journal_couple = (epsilon - joint.radius) * tangential;
-    load.bearing_couple = tangential * joint.radius;
-    load.bristle_rate = bristle_rate;
-    -normal * n - tangential * t
+    Vec2::new(normal, tangential)
 }
 
 fn account<R: Real, E: Elastic, D: Damped, F: Friction>(
@@ -186,10 +188,30 @@ impl Revolute {
     /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
     pub fn load<R: Scalar>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Load<R> {
-        let Play { eccentricity, rate, journal_speed, bearing_speed } = *play;
-        let (kernel, mut load) = (R::kernel(&self.kernels).load, Load::default());
-        load.force = kernel(self, mode.per_approach, eccentricity, rate, journal_speed, bearing_speed, z, &mut load);
-        load
+        let epsilon = play.eccentricity.norm();
+        if epsilon <= 0.0 {
+            return Load::default(); // n is undefined
+        }
+        let n = play.eccentricity / epsilon;
+        let (depth, rate) = (epsilon - self.clearance, play.rate.dot(n));
+        match R::kernel(&self.kernels).force {
+            ForceKernel::Smooth(force) => {
+                Load { force: -force(&self.contact, mode.per_approach, depth, rate) * n, ..Load::default() }
+            }
+            ForceKernel::Rubbing(force) => {
+                let t = perp(n);
+                let sliding = self.sliding(play, epsilon, t);
+                let mut bristle_rate = R::ZERO;
+                let Vec2 { x: normal, y: tangential } =
+                    force(&self.contact, mode.per_approach, depth, rate, sliding, z, &mut bristle_rate);
+                Load {
+                    force: -normal * n - tangential * t,
+                    journal_couple: (epsilon - self.radius) * tangential,
+                    bearing_couple: tangential * self.radius,
+                    bristle_rate,
+                }
+            }
+        }
     }
 }
 
