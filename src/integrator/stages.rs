@@ -4,9 +4,9 @@ use super::memory::Front;
 use super::problem::{Extent, Problem};
 use super::tableau::{Explicit, STAGES, Tableau};
 
-/// Up to so many states, all that one stage hands on to the next stays in registers. In memory it would be written in
-/// other portions than it is read in, and wait to have left the processor's store buffer.
-pub const IN_REGISTERS: usize = 8;
+/// Up to so many states, what one stage hands on to the next stays in registers, or in places of its own. In an array it
+/// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
+pub const IN_REGISTERS: usize = 14;
 
 /// An attempted step, and room to make it.
 pub struct Attempt<const N: usize> {

@@ -9,7 +9,7 @@ pub struct Free<A> {
 }
 
 /// Weights of one: the tolerance is the error that a step may make.
-static UNIT: [f64; 12] = [1.0; 12];
+static UNIT: [f64; 16] = [1.0; 16];
 
 impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Problem<N> for Free<A> {
     type Modes = ();
@@ -26,7 +26,7 @@ impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Problem<N> for Free
     }
 
     fn scales(&self) -> &[f64; N] {
-        UNIT.first_chunk().expect("at most twelve states")
+        UNIT.first_chunk().expect("at most sixteen states")
     }
 
     fn longest_step(&self) -> f64 {

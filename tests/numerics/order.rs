@@ -99,27 +99,27 @@ fn the_estimate_is_at_least_as_large_as_the_error_of_the_step() {
     covers::<Dop853>(0.2);
 }
 
-/// Three orbits side by side, each of which starts a little later: positions first, then velocities.
-const SIDE_BY_SIDE: usize = 12;
+/// States of four orbits side by side, each of which starts a little later: positions first, then velocities.
+const SIDE_BY_SIDE: usize = 16;
 
-/// A step of three orbits at once, whose stages are in memory, and of each alone, whose stages are in registers.
+/// A step of all orbits at once, whose stages are in memory, and of each alone, whose stages are in registers.
 fn orbits_do_not_know_of_each_other<M: Explicit>() {
     const { assert!(SIDE_BY_SIDE > IN_REGISTERS && 4 <= IN_REGISTERS) };
     let accelerations = |t: f64, q: &[f64], v: &[f64], a: &mut [f64]| {
-        for i in [0, 2, 4] {
+        for i in [0, 2, 4, 6] {
             kepler(t, &q[i..i + 2], &v[i..i + 2], &mut a[i..i + 2]);
         }
     };
-    let alone: [[f64; 4]; 3] = [0.3, 0.9, 2.5].map(|t| orbit(ECCENTRICITY, t));
+    let alone: [[f64; 4]; 4] = [0.3, 0.9, 2.5, 5.1].map(|t| orbit(ECCENTRICITY, t));
     let mut all = [0.0; SIDE_BY_SIDE];
     for (k, orbit) in alone.iter().enumerate() {
         all[2 * k..][..2].copy_from_slice(&orbit[..2]);
-        all[6 + 2 * k..][..2].copy_from_slice(&orbit[2..]);
+        all[8 + 2 * k..][..2].copy_from_slice(&orbit[2..]);
     }
     let together = step_of::<M, SIDE_BY_SIDE, _>(&Free { accelerations }, 0.0, &all, 0.1);
     for (k, orbit) in alone.iter().enumerate() {
         let own = step::<M>(0.0, orbit, 0.1);
-        let of = |all: &[f64; SIDE_BY_SIDE]| [all[2 * k], all[2 * k + 1], all[6 + 2 * k], all[7 + 2 * k]];
+        let of = |all: &[f64; SIDE_BY_SIDE]| [all[2 * k], all[2 * k + 1], all[8 + 2 * k], all[9 + 2 * k]];
         assert_eq!(of(&together.y), own.y, "{}", M::NAME);
         assert_eq!(of(&together.error), own.error, "{}", M::NAME);
         assert_eq!(of(&together.coarse_error), own.coarse_error, "{}", M::NAME);
