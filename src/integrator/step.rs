@@ -205,17 +205,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let before = self.guards;
         self.commit(problem, self.memory.start.t + h);
         if let Some(component) = controller::lost_state(problem, &self.memory.end.rates) {
-            (self.memory.end, self.memory.front) = (self.memory.start, self.memory.start);
-            self.memory.statistics.steps -= 1;
-            self.guards = before;
-            if M::ADAPTIVE {
-                // Nothing had estimated the error of these rates: a shorter step may end before they are lost.
-                self.memory.statistics.rejected += 1;
-                self.memory.step = controller::shrinkage(f64::INFINITY, M::ERROR_POWER) * h;
-                return Ok(());
-            }
-            // Without an error estimate a step may have led anywhere.
-            return Err(IntegrationError::NotFinite { time: self.memory.start.t, component });
+            return self.take_back(before, h, component);
         }
         if problem.guard_count() == 0 {
             return Ok(());
@@ -228,8 +218,30 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let step = self.memory.last_step(Extent::of(problem));
         if let Some((share, guard)) = event::first(problem, &self.memory.start.modes, &step, &before, &self.guards) {
             self.land(problem, h, share, guard);
+            // The shorter step up to the event was not judged.
+            if let Some(component) = controller::lost_state(problem, &self.memory.front.y) {
+                return self.take_back(before, h, component);
+            }
         }
         Ok(())
+    }
+
+    /// Takes back the last step, of `h` from where the guards were `guards`: this `component` was lost in it.
+    fn take_back(&mut self, guards: [Guard; GUARDS], h: f64, component: usize) -> Result<(), IntegrationError> {
+        let Memory { start, end, front, step, crossings, statistics, .. } = &mut self.memory;
+        (*end, *front) = (*start, *start);
+        statistics.steps -= 1;
+        statistics.events -= *crossings;
+        *crossings = 0;
+        self.guards = guards;
+        if M::ADAPTIVE {
+            // Nothing had estimated the error of what was lost: a shorter step may end before that.
+            statistics.rejected += 1;
+            *step = controller::shrinkage(f64::INFINITY, M::ERROR_POWER) * h;
+            return Ok(());
+        }
+        // Without an error estimate a step may have led anywhere.
+        Err(IntegrationError::NotFinite { time: start.t, component })
     }
 
     /// Makes the attempt the step that ends at `t`.

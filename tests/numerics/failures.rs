@@ -3,7 +3,7 @@
 use super::free::Free;
 use slidercrank::integrator::methods::{Dopri5, Rk4, Rk4Unlocated, Verner7};
 use slidercrank::integrator::{
-    Crossed, Effort, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Problem, Reset, Settings,
+    Crossed, Effort, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Memory, Problem, Reset, Settings,
 };
 
 const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3, effort: Effort::ANY };
@@ -118,15 +118,17 @@ fn a_fixed_step_into_a_wall_underflows_too() {
 struct Stuck {
     /// Nothing lies beyond the floor.
     ends: bool,
+    /// Acceleration at a time.
+    pull: fn(f64) -> f64,
 }
 
-const STUCK: Stuck = Stuck { ends: false };
+const STUCK: Stuck = Stuck { ends: false, pull: |_| -2.0 };
 
 impl Problem<2> for Stuck {
     type Modes = ();
 
-    fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
-        *rates = [y[1], -2.0];
+    fn rates(&self, (): &(), t: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
+        *rates = [y[1], (self.pull)(t)];
     }
 
     fn jacobian(&self, _: &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
@@ -186,7 +188,7 @@ fn events_at_the_start_of_every_step_are_refused_too() {
 
 #[test]
 fn a_motion_goes_up_to_its_dead_end_and_no_further() {
-    let problem = Stuck { ends: true };
+    let problem = Stuck { ends: true, ..STUCK };
     let mut integrator = Integrator::<2, (), Verner7>::start(&problem, SETTINGS, 0.0, [1.0, 0.0], ());
     assert_eq!(integrator.advance(&problem, 0.9), Ok(()));
     for _ in 0..2 {
@@ -202,6 +204,21 @@ fn a_motion_goes_up_to_its_dead_end_and_no_further() {
     let error = coarse.advance(&problem, 3.0).expect_err("there is no way on");
     assert!(matches!(error, IntegrationError::DeadEnd { guard: 1, .. }), "{error:?}");
     assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
+}
+
+/// A step of 1 from 0 looks at 0, ½ and 1, and one up to the event at ½ at ¼ too, where the force is beyond all measure.
+#[test]
+fn a_step_that_is_lost_on_the_way_to_its_event_is_taken_back() {
+    let pull = |t: f64| if (t - 0.25).abs() < 0.1 { 1e30 } else { -2.0 };
+    let problem = Stuck { pull, ..STUCK };
+    let settings = Settings { fixed_step: 1.0, ..SETTINGS };
+    let start = [0.25, 0.0];
+    let mut integrator = Integrator::<2, (), Rk4>::start(&problem, settings, 0.0, start, ());
+    let error = integrator.advance(&problem, 1.0).expect_err("no state at the event");
+    assert!(matches!(error, IntegrationError::NotFinite { time: 0.0, .. }), "{error:?}");
+    let Memory { start: before, end, front, crossings, statistics, .. } = integrator.memory();
+    assert!([before, end, front].iter().all(|front| front.t == 0.0 && front.y == start), "{:?}", integrator.memory());
+    assert_eq!((*crossings, statistics.events, statistics.steps), (0, 0, 0));
 }
 
 #[test]
