@@ -40,22 +40,23 @@ impl<const N: usize> Attempt<N> {
     #[inline(never)] // one copy for steps, landings and rewinds
     pub fn explicitly<E: Explicit, P: Problem<N> + ?Sized>(&mut self, problem: &P, start: &Front<N, P::Modes>, h: f64) {
         self.k[0] = start.rates;
-        if N <= IN_REGISTERS {
-            problem.stages(const { &E::TABLEAU }, &start.modes, start.t, &start.y, h, &mut self.k);
-        }
         let mut stages = Stages { problem, start, h, states: Extent::of(problem).states, made: self };
-        // A stage beyond the method's own is not compiled.
-        stages.evaluate::<E, 1>();
-        stages.evaluate::<E, 2>();
-        stages.evaluate::<E, 3>();
-        stages.evaluate::<E, 4>();
-        stages.evaluate::<E, 5>();
-        stages.evaluate::<E, 6>();
-        stages.evaluate::<E, 7>();
-        stages.evaluate::<E, 8>();
-        stages.evaluate::<E, 9>();
-        stages.evaluate::<E, 10>();
-        stages.evaluate::<E, 11>();
+        if N <= IN_REGISTERS {
+            problem.stages(const { &E::TABLEAU }, &start.modes, start.t, &start.y, h, &mut stages.made.k);
+        } else {
+            // A stage beyond the method's own is not compiled.
+            stages.evaluate::<E, 1>();
+            stages.evaluate::<E, 2>();
+            stages.evaluate::<E, 3>();
+            stages.evaluate::<E, 4>();
+            stages.evaluate::<E, 5>();
+            stages.evaluate::<E, 6>();
+            stages.evaluate::<E, 7>();
+            stages.evaluate::<E, 8>();
+            stages.evaluate::<E, 9>();
+            stages.evaluate::<E, 10>();
+            stages.evaluate::<E, 11>();
+        }
         stages.finish::<E>();
     }
 }
@@ -72,7 +73,7 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     #[inline(always)]
     fn evaluate<E: Explicit, const I: usize>(&mut self) {
         let tableau = const { &E::TABLEAU };
-        if N > IN_REGISTERS && I < tableau.stages {
+        if I < tableau.stages {
             let Self { problem, start, h, states, made } = self;
             let (earlier, later) = made.k.split_at_mut(I);
             combine(&mut made.y, &start.y, *h, &tableau.a[I], earlier, *states);

@@ -162,7 +162,25 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             self.memory.end = start;
         } else {
             self.attempt(problem, t - start.t);
+            self.keep(problem, t);
             self.commit(problem, t);
+        }
+    }
+
+    /// A shorter step to `t` was not judged. Where it is lost, what was told of this instant takes its place, and where
+    /// that is lost, too, the straight line between the longer step's ends, which are not.
+    fn keep<P>(&mut self, problem: &P, t: f64)
+    where
+        P: Problem<N, Modes = D> + ?Sized,
+    {
+        if controller::lost_state(problem, &self.made.y).is_none() {
+            return;
+        }
+        self.made.y = self.state_at(problem, t).0;
+        if controller::lost_state(problem, &self.made.y).is_some() {
+            let Memory { start, end, .. } = &self.memory;
+            let share = (t - start.t) / (end.t - start.t);
+            self.made.y = std::array::from_fn(|i| (1.0 - share) * start.y[i] + share * end.y[i]);
         }
     }
 

@@ -221,6 +221,50 @@ fn a_step_that_is_lost_on_the_way_to_its_event_is_taken_back() {
     assert_eq!((*crossings, statistics.events, statistics.steps), (0, 0, 0));
 }
 
+/// The same without an event, taken back to ½.
+#[test]
+fn a_step_that_is_lost_when_it_is_shortened_leaves_a_state_that_is_not() {
+    let problem = Free {
+        accelerations: |t: f64, _: &[f64], _: &[f64], a: &mut [f64]| {
+            a[0] = if (t - 0.25).abs() < 0.1 { 1e30 } else { -2.0 };
+        },
+    };
+    let settings = Settings { fixed_step: 1.0, ..SETTINGS };
+    let mut integrator = Integrator::<2, (), Rk4>::start(&problem, settings, 0.0, [0.25, 0.0], ());
+    integrator.advance(&problem, 1.0).expect("nobody looks at ¼");
+    integrator.rewind(&problem, 0.5);
+    let front = integrator.memory().front;
+    assert_eq!(front.t, 0.5);
+    assert!(front.y[0].abs() < 1e-14 && (front.y[1] + 1.0).abs() < 1e-14, "{front:?}");
+}
+
+/// The same where only the full step's own stages are not lost, so that the curve between its ends is.
+#[test]
+fn a_step_that_is_lost_when_it_is_shortened_leaves_a_state_between_its_ends() {
+    let problem = Free {
+        accelerations: |t: f64, _: &[f64], v: &[f64], a: &mut [f64]| {
+            a[0] = if t == 0.0 || t == 1.0 {
+                -2.0
+            } else if t == 0.5 {
+                10.0 * v[0]
+            } else {
+                1e30
+            };
+        },
+    };
+    let settings = Settings { fixed_step: 1.0, ..SETTINGS };
+    let mut integrator = Integrator::<2, (), Rk4>::start(&problem, settings, 0.0, [0.25, 0.0], ());
+    integrator.advance(&problem, 1.0).expect("nobody looks between");
+    assert!(integrator.state_at(&problem, 0.5).0.iter().any(|y| y.abs() > 1e25), "not lost");
+    integrator.rewind(&problem, 0.5);
+    let front = integrator.memory().front;
+    assert_eq!(front.t, 0.5);
+    // Accelerations of -2, -10, -50 and -2, speeds of 0, -1, -5 and -50.
+    let [position, speed] = [0.25 - 62.0 / 6.0, -124.0 / 6.0];
+    assert!((front.y[0] - 0.5 * (0.25 + position)).abs() < 1e-12, "{front:?}");
+    assert!((front.y[1] - 0.5 * speed).abs() < 1e-12, "{front:?}");
+}
+
 #[test]
 fn errors_say_what_where_and_how_much() {
     let error = IntegrationError::StepUnderflow { time: 0.1234, step: 3.1e-18, component: 2 };

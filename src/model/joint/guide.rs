@@ -124,8 +124,8 @@ impl<S: Surface> KernelFamily for Family<S> {
     }
 }
 
-/// Returns the force [N] and writes the couple [N·m]. The slider's pose, of which only the pin's abscissa does not
-/// matter, goes in by registers.
+/// Returns the force [N] and writes the couple [N·m]. The slider's pose goes in by registers, all but the pin's abscissa,
+/// which does not matter.
 #[expect(clippy::too_many_arguments, reason = "what goes by registers stands alone")]
 fn load<R: Real, S: Surface, E: Elastic, D: Damped, F: Friction>(
     g: &Guide,
