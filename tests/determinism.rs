@@ -6,14 +6,34 @@ mod inputs;
 #[path = "determinism/mechanisms.rs"]
 mod mechanisms;
 
-use mechanisms::{Dice, END, INPUTS, METHODS, advance, bits, mechanisms, memory, outputs_at, split, start};
+use mechanisms::{Dice, END, INPUTS, METHODS, advance, bits, mechanisms, memory, outputs_at, split, start, stiff};
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::{Method, Scene};
 use slidercrank::simulation::{Simulation, Snapshot};
 
+/// Every mechanism under every method, and in stiff motion.
+fn all() -> impl Iterator<Item = (String, Scene)> {
+    METHODS.into_iter().flat_map(mechanisms).chain(stiff())
+}
+
+#[test]
+fn stiff_runs_are_left_to_the_linearly_implicit_method() {
+    let spared = stiff().filter(|(_, scene)| {
+        let [automatic, explicit] = [Method::Automatic, Method::Verner7].map(|method| {
+            let mut scene = scene.clone();
+            scene.solver.method = method;
+            outputs_at(&mut start(&scene), END).solver.evaluations
+        });
+        2 * automatic < explicit
+    });
+    // The others ring all the time.
+    let count = spared.count();
+    assert!(count >= 8, "{count} of 32");
+}
+
 #[test]
 fn the_same_bits_twice() {
-    for (name, scene) in METHODS.into_iter().flat_map(mechanisms) {
+    for (name, scene) in all() {
         let [one, other] = [(); 2].map(|()| {
             let mut simulation = start(&scene);
             advance(&mut simulation, END);
@@ -35,7 +55,7 @@ fn contacts_and_events_go_on_in_these_runs() {
 #[test]
 fn the_same_bits_for_any_split_of_the_interval() {
     let mut dice = Dice(0x5EED);
-    for (name, scene) in METHODS.into_iter().flat_map(mechanisms) {
+    for (name, scene) in all() {
         let mut whole = start(&scene);
         advance(&mut whole, END);
         let wanted = (bits(&whole.outputs()), memory(&whole));
@@ -72,7 +92,7 @@ fn the_same_bits_on_the_way_whatever_was_asked_before() {
 #[test]
 fn a_restored_run_is_one_that_never_stopped() {
     let mut dice = Dice(0xCAFE);
-    for (name, scene) in METHODS.into_iter().flat_map(mechanisms) {
+    for (name, scene) in all() {
         let mut whole = start(&scene);
         let mut saved = vec![];
         let times = split(&mut dice, 0.0);

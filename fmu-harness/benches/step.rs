@@ -17,7 +17,7 @@ const SCENES: [(&str, f64, f64); 5] = [
     ("press", 0.004, 0.05),
 ];
 const METHODS: [(Method, &str); 3] =
-    [(Method::Dopri5, "dopri5"), (Method::Verner7, "verner7"), (Method::Dop853, "dop853")];
+    [(Method::Dopri5, "dopri5"), (Method::Automatic, "automatic"), (Method::Dop853, "dop853")];
 const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 /// Points at which the error is measured.
 const POINTS: usize = 1200;

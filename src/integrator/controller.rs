@@ -98,10 +98,10 @@ pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt
     (0..Extent::of(problem).weighed).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
 }
 
-/// By how much the next step is longer after an accepted one.
-pub fn growth<M: Method>(error: f64, last_error: f64) -> f64 {
+/// By how much the next step is longer after an accepted one, whose error falls with this `power` of the step.
+pub fn growth(error: f64, last_error: f64, power: f64) -> f64 {
     let error = error.max(1e-10);
-    let exponent = 1.0 / M::ERROR_POWER - 0.75 * MEMORY;
+    let exponent = 1.0 / power - 0.75 * MEMORY;
     let factor = SAFETY * math::rough_power(error, -exponent) * math::rough_power(last_error, MEMORY);
     factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
 }
@@ -111,12 +111,12 @@ pub fn shrinkage(error: f64, power: f64) -> f64 {
     if error.is_finite() { (SAFETY * math::rough_power(error, -1.0 / power)).clamp(LEAST_FACTOR, SAFETY) } else { 0.1 }
 }
 
-/// The power of the step with which the error falls, at most the method's, as two attempts from the same state tell by
+/// The power of the step with which the error falls, at most `full`, the method's, as two attempts from the same state tell by
 /// their steps [s] and errors: low where a force sets in (K. Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533, on
 /// consecutive rejections).
-pub fn error_power<M: Method>([longer, shorter]: [(f64, f64); 2]) -> f64 {
+pub fn error_power([longer, shorter]: [(f64, f64); 2], full: f64) -> f64 {
     let power = math::ln(longer.1 / shorter.1) / math::ln(longer.0 / shorter.0);
-    if power.is_nan() { M::ERROR_POWER } else { power.clamp(1.0, M::ERROR_POWER) }
+    if power.is_nan() { full } else { power.clamp(1.0, full) }
 }
 
 /// The first state (or rate) that is not a number, or so large that its powers are none.

@@ -13,6 +13,9 @@ use super::step::Integrator;
 const IMPACT_SHARE: f64 = 0.1;
 /// Most times that one step is cut short at a kink.
 const CUTS: usize = 6;
+/// After so many steps in a row that were cut, the motion creeps along a kink: it is passed over as any error is, until a
+/// step does not fail.
+pub(super) const CREEPING: u32 = 8;
 /// [roundings of time] No kink makes a step shorter than this.
 const SHORTEST_CUT: f64 = 1e3;
 
@@ -22,8 +25,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Memory { start, front, step, cut, crossings, .. } = &self.memory;
-        let goes_on = *cut && *crossings == 0 && front.t > start.t;
+        let Memory { start, front, step, cuts, crossings, .. } = &self.memory;
+        let goes_on = (1..CREEPING).contains(cuts) && *crossings == 0 && front.t > start.t;
         goes_on.then(|| kink::foreseen(problem, start, front, step.min(problem.longest_step()))).flatten()
     }
 
@@ -37,7 +40,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let time = self.memory.start.t;
         let share = if time < self.memory.start.impact_end { IMPACT_SHARE } else { 1.0 };
         let tolerance = share * self.settings.tolerance;
+        let full = M::character(self.memory.stiff).error_power;
         let (mut first, mut cuts, mut cut) = (None, 0, false);
+        let creeping = self.memory.cuts >= CREEPING;
         let mut failed = None;
         // Forces that are gone may have left a step that no longer moves time.
         let least = time.next_up() - time;
@@ -60,26 +65,30 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                 Some(_) => f64::INFINITY,
             };
             if error <= 1.0 {
-                let growth = controller::growth::<M>(error, self.memory.last_error);
+                let growth = controller::growth(error, self.memory.last_error, full);
                 self.memory.step = match first {
                     Some(first) if cut => first,
                     Some(_) => h * growth.min(1.0),
                     None => h * growth,
                 };
                 self.memory.last_error = error.max(1e-4);
-                self.memory.cut = cut;
+                self.memory.cuts = match (cut, failed) {
+                    (true, _) => self.memory.cuts + 1,
+                    (false, Some(_)) if creeping => CREEPING,
+                    _ => 0,
+                };
                 return Ok(h);
             }
             first.get_or_insert(h);
             self.memory.statistics.rejected += 1;
-            let look = error.is_finite() && cuts < CUTS;
+            let look = error.is_finite() && cuts < CUTS && !creeping;
             let kink =
                 if look { kink::first(problem, &self.memory.start, &self.guards, h, &self.made.y) } else { None };
             // A kink that close is where the step starts.
             let kink = kink.filter(|share| share * h > SHORTEST_CUT * least);
             cut = kink.is_some();
             cuts += usize::from(cut);
-            let power = failed.map_or(M::ERROR_POWER, |before| controller::error_power::<M>([before, (h, error)]));
+            let power = failed.map_or(full, |before| controller::error_power([before, (h, error)], full));
             failed = Some((h, error));
             wanted = wanted.min(h) * kink.unwrap_or_else(|| controller::shrinkage(error, power));
         }

@@ -2,7 +2,9 @@
 
 use super::controller::is_kept;
 use super::dense_output::Step;
+use super::length::CREEPING;
 use super::problem::Extent;
+use super::regime::Regime;
 use super::statistics::Statistics;
 
 /// No run counts as far as this.
@@ -32,12 +34,16 @@ pub struct Memory<const N: usize, D> {
     pub end: Front<N, D>,
     /// The same instant after its events: where the next step starts.
     pub front: Front<N, D>,
+    /// The last step was made by the method for stiff motion.
+    pub stiff: bool,
+    /// Which method makes the next one.
+    pub regime: Regime,
     /// [s] The next step.
     pub step: f64,
     /// Error of the last accepted step over the tolerance.
     pub last_error: f64,
-    /// The last accepted step was cut short at a kink.
-    pub cut: bool,
+    /// So many of the last accepted steps were cut short at a kink.
+    pub cuts: u32,
     /// Events at the front, which the end does not know yet.
     pub crossings: u64,
     /// Work done.
@@ -54,7 +60,7 @@ impl<const N: usize, D> Memory<N, D> {
     /// Whether a run at `time` can have come to this: a last step around it, no longer than any, between states that
     /// are kept.
     pub fn is_sound(&self, time: f64, extent: Extent, longest_step: f64) -> bool {
-        let Self { start, end, front, step, crossings, statistics, .. } = self;
+        let Self { start, end, front, regime, step, cuts, crossings, statistics, .. } = self;
         let kept = |y: &[f64; N]| y.iter().take(extent.states).all(|y| is_kept(*y));
         let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
         let impacts_end = |front: &Front<N, D>| front.impact_end - front.t <= longest_step + rounding;
@@ -67,6 +73,8 @@ impl<const N: usize, D> Memory<N, D> {
             && (0.0..=longest_step + rounding).contains(&length)
             && (length == 0.0 || steps > 0)
             && *step >= 0.0
+            && regime.is_sound()
+            && *cuts <= CREEPING
             && *crossings <= events
             && counted
     }

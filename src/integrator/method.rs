@@ -1,10 +1,22 @@
 //! What the step-size control and the marching need to know of a method.
 
-use super::memory::Front;
+use super::memory::{Front, Memory};
 use super::problem::Problem;
 use super::stages::Attempt;
 
-/// A one-step method.
+/// What the control of a step needs to know of the method that makes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Character {
+    /// The power of the step with which the error estimate falls.
+    pub error_power: f64,
+    /// States within a step are interpolated; otherwise a shorter step is made to each: an interpolant
+    /// leaves the slow motion of a stiff system.
+    pub interpolates: bool,
+    /// Evaluations of the rates in an attempt.
+    pub evaluations: u64,
+}
+
+/// A one-step method, or two of them that take turns as the motion is stiff or not.
 pub trait Method: Send + Sync + 'static {
     /// Name in the `solver.method` enumeration.
     const NAME: &'static str;
@@ -12,30 +24,47 @@ pub trait Method: Send + Sync + 'static {
     const ORDER: u32;
     /// There is an error estimate, to which the step is fitted; otherwise the step is fixed.
     const ADAPTIVE: bool;
-    /// The power of the step with which the error estimate falls.
-    const ERROR_POWER: f64;
     /// There is a second, lower-order estimate.
     const COARSE: bool;
     /// An attempt gives the rates at its end.
     const GIVES_RATES: bool;
     /// Events are located and landed on; otherwise they are noticed at the end of a step.
     const LOCATES: bool;
-    /// States within a step are interpolated; otherwise a shorter step is made to each: an interpolant
-    /// leaves the slow motion of a stiff system.
-    const INTERPOLATES: bool;
-    /// Evaluations of the rates in an attempt.
-    const EVALUATIONS: u64;
+    /// What is particular to its steps.
+    const CHARACTER: Character;
+    /// What is particular to its steps in stiff motion, for a method that changes then.
+    const IN_STIFF: Option<Character> = None;
     /// What an attempt works with besides [`Attempt`].
     type Room<const N: usize>: Room;
 
-    /// Attempts a step of `h` from `start`.
+    /// Attempts a step of `h` from `start`, as in `stiff` motion or not.
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
         made: &mut Attempt<N>,
         room: &mut Self::Room<N>,
         problem: &P,
         start: &Front<N, P::Modes>,
         h: f64,
+        stiff: bool,
     );
+
+    /// To be called after the last attempt has become the last step: which method makes the next one, and of what
+    /// length at most.
+    fn choose<const N: usize, P: Problem<N> + ?Sized>(
+        _made: &Attempt<N>,
+        _room: &Self::Room<N>,
+        _problem: &P,
+        _memory: &mut Memory<N, P::Modes>,
+    ) {
+    }
+
+    /// What is particular to its steps in `stiff` motion or not.
+    #[inline(always)]
+    fn character(stiff: bool) -> Character {
+        match Self::IN_STIFF {
+            Some(character) if stiff => character,
+            _ => Self::CHARACTER,
+        }
+    }
 }
 
 /// Room in memory, empty at first.

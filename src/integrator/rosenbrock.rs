@@ -8,7 +8,7 @@
 
 use super::linear::Factors;
 use super::memory::Front;
-use super::method::{Method, Room};
+use super::method::{Character, Method, Room};
 use super::problem::{Extent, Jacobian, Problem};
 use super::stages::Attempt;
 
@@ -55,6 +55,13 @@ pub struct Workspace<const N: usize> {
     stages: [[f64; N]; STAGES],
 }
 
+impl<const N: usize> Workspace<N> {
+    /// The derivatives of the rates at the start of the last attempt.
+    pub fn jacobian(&self) -> &Jacobian<N> {
+        &self.jacobian
+    }
+}
+
 impl<const N: usize> Room for Workspace<N> {
     const NEW: Self = Self { jacobian: Jacobian::ZERO, factors: Factors::NONE, stages: [[0.0; N]; STAGES] };
 }
@@ -63,13 +70,15 @@ impl<R: Rosenbrock> Method for Implicit<R> {
     const NAME: &'static str = R::NAME;
     const ORDER: u32 = R::COEFFICIENTS.order;
     const ADAPTIVE: bool = true;
-    const ERROR_POWER: f64 = R::COEFFICIENTS.order as f64;
     const COARSE: bool = false;
     const GIVES_RATES: bool = false;
     const LOCATES: bool = true;
-    const INTERPOLATES: bool = false;
-    /// The Jacobian counts as one.
-    const EVALUATIONS: u64 = STAGES as u64;
+    const CHARACTER: Character = Character {
+        error_power: R::COEFFICIENTS.order as f64,
+        interpolates: false,
+        // The Jacobian counts as one.
+        evaluations: STAGES as u64,
+    };
     type Room<const N: usize> = Workspace<N>;
 
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
@@ -78,6 +87,7 @@ impl<R: Rosenbrock> Method for Implicit<R> {
         problem: &P,
         start: &Front<N, P::Modes>,
         h: f64,
+        _stiff: bool,
     ) {
         let Workspace { jacobian, factors, stages: u } = room;
         let method = const { &R::COEFFICIENTS };
@@ -110,6 +120,7 @@ impl<R: Rosenbrock> Method for Implicit<R> {
         }
         sum(&mut made.y, &start.y, &method.weights, u, states);
         sum(&mut made.error, &[0.0; N], &method.error, u, states);
+        made.unseen = [0.0; N];
     }
 }
 

@@ -59,6 +59,23 @@ impl<const N: usize> Attempt<N> {
         }
         stages.finish::<E>();
     }
+
+    /// The fastest rate that shows in a step made by a method whose last two stages are at the same instant, times the
+    /// step: how far their rates are apart over how far their states are (E. Hairer, G. Wanner, Solving Ordinary
+    /// Differential Equations II, IV.2, (2.26)).
+    pub fn stiffness<E: Explicit>(&self, extent: Extent, scales: &[f64; N]) -> f64 {
+        let tableau = const { &E::TABLEAU };
+        let [before, last] = [tableau.stages - 2, tableau.stages - 1];
+        let (mut rates, mut states) = (0.0, 0.0);
+        for (i, scale) in scales.iter().enumerate().take(extent.weighed) {
+            let weights = tableau.a[last].iter().zip(&tableau.a[before]).map(|(last, before)| last - before);
+            let state: f64 = weights.zip(&self.k[..last]).map(|(weight, k)| weight * k[i]).sum();
+            rates += ((self.k[last][i] - self.k[before][i]) / scale).powi(2);
+            states += (state / scale).powi(2);
+        }
+        // By h less than the states are apart.
+        (rates / states).sqrt()
+    }
 }
 
 struct Stages<'a, const N: usize, P: Problem<N> + ?Sized> {

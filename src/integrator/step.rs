@@ -7,6 +7,7 @@ use super::event;
 use super::memory::{Front, Memory};
 use super::method::{Method, Room};
 use super::problem::{Extent, GUARDS, Guard, Problem};
+use super::regime::Regime;
 use super::stages::Attempt;
 use super::statistics::Statistics;
 
@@ -33,8 +34,10 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         problem.rates(&modes, t, &y, &mut front.rates);
         let statistics = Statistics { evaluations: 1, ..Statistics::default() };
         let step = controller::first_step(problem, &front);
-        let (last_error, cut) = (1e-4, false);
-        let memory = Memory { start: front, end: front, front, step, last_error, cut, crossings: 0, statistics };
+        let (last_error, cuts) = (1e-4, 0);
+        let (stiff, regime) = (false, Regime::LOOSE);
+        let memory =
+            Memory { start: front, end: front, front, stiff, regime, step, last_error, cuts, crossings: 0, statistics };
         Self::resume(problem, settings, memory)
     }
 
@@ -52,6 +55,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     /// All that is needed to go on.
     pub fn memory(&self) -> &Memory<N, D> {
         &self.memory
+    }
+
+    /// How accurate its steps are.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Steps until `t` lies within the last step.
@@ -127,12 +135,12 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Memory { start, front, .. } = &self.memory;
+        let Memory { start, front, stiff, .. } = &self.memory;
         if t >= front.t {
             return (front.y, front.modes);
         }
-        if !M::INTERPOLATES && t > start.t {
-            M::attempt(&mut self.made, &mut self.room, problem, start, t - start.t);
+        if !M::character(*stiff).interpolates && t > start.t {
+            M::attempt(&mut self.made, &mut self.room, problem, start, t - start.t, *stiff);
             if controller::lost_state(problem, &self.made.y).is_none() {
                 return (self.made.y, start.modes);
             }
@@ -155,7 +163,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         }
         self.memory.statistics = self.memory.statistics_at(t);
         self.memory.statistics.steps -= 1;
-        self.memory.cut = false;
+        self.memory.cuts = 0;
         if t <= start.t {
             self.memory.crossings = 0;
             self.memory.front = start;
@@ -189,8 +197,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        self.memory.statistics.evaluations += M::EVALUATIONS;
-        M::attempt(&mut self.made, &mut self.room, problem, &self.memory.start, h);
+        let Memory { start, stiff, statistics, .. } = &mut self.memory;
+        statistics.evaluations += M::character(*stiff).evaluations;
+        M::attempt(&mut self.made, &mut self.room, problem, start, h, *stiff);
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
@@ -211,12 +220,13 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             return Err(IntegrationError::NotFinite { time: *t, component });
         }
         let kink = self.foreseen_kink(problem);
-        let earlier = self.memory.start;
+        let Memory { start: earlier, stiff: earlier_stiff, .. } = self.memory;
         self.memory.start = self.memory.front;
+        self.memory.stiff = self.memory.regime.stiff;
         let h = match self.accepted(problem, kink) {
             Ok(h) => h,
             Err(error) => {
-                self.memory.start = earlier;
+                (self.memory.start, self.memory.stiff) = (earlier, earlier_stiff);
                 return Err(error);
             }
         };
@@ -225,6 +235,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if let Some(component) = controller::lost_state(problem, &self.memory.end.rates) {
             return self.take_back(before, h, component);
         }
+        M::choose(&self.made, &self.room, problem, &mut self.memory);
         if problem.guard_count() == 0 {
             return Ok(());
         }
@@ -246,7 +257,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
 
     /// Takes back the last step, of `h` from where the guards were `guards`: this `component` was lost in it.
     fn take_back(&mut self, guards: [Guard; GUARDS], h: f64, component: usize) -> Result<(), IntegrationError> {
-        let Memory { start, end, front, step, crossings, statistics, .. } = &mut self.memory;
+        let Memory { start, end, front, stiff, step, crossings, statistics, .. } = &mut self.memory;
         (*end, *front) = (*start, *start);
         statistics.steps -= 1;
         statistics.events -= *crossings;
@@ -255,7 +266,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if M::ADAPTIVE {
             // Nothing had estimated the error of what was lost: a shorter step may end before that.
             statistics.rejected += 1;
-            *step = controller::shrinkage(f64::INFINITY, M::ERROR_POWER) * h;
+            *step = controller::shrinkage(f64::INFINITY, M::character(*stiff).error_power) * h;
             return Ok(());
         }
         // Without an error estimate a step may have led anywhere.

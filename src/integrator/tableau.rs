@@ -1,7 +1,7 @@
 //! Butcher tableaux, as printed in their sources and summed up by the compiler.
 
 use super::memory::Front;
-use super::method::Method;
+use super::method::{Character, Method};
 use super::problem::Problem;
 use super::stages::Attempt;
 
@@ -46,12 +46,14 @@ impl<E: Explicit> Method for E {
     const NAME: &'static str = E::NAME;
     const ORDER: u32 = E::TABLEAU.order;
     const ADAPTIVE: bool = E::TABLEAU.first_weighed_stage() != 0;
-    const ERROR_POWER: f64 = E::TABLEAU.error_power;
     const COARSE: bool = E::TABLEAU.coarse_error.is_some();
     const GIVES_RATES: bool = E::TABLEAU.first_same_as_last;
     const LOCATES: bool = E::LOCATES;
-    const INTERPOLATES: bool = true;
-    const EVALUATIONS: u64 = E::TABLEAU.stages as u64 - 1;
+    const CHARACTER: Character = Character {
+        error_power: E::TABLEAU.error_power,
+        interpolates: true,
+        evaluations: E::TABLEAU.stages as u64 - 1,
+    };
     type Room<const N: usize> = ();
 
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
@@ -60,6 +62,7 @@ impl<E: Explicit> Method for E {
         problem: &P,
         start: &Front<N, P::Modes>,
         h: f64,
+        _stiff: bool,
     ) {
         made.explicitly::<E, P>(problem, start, h);
     }

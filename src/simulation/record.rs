@@ -1,7 +1,7 @@
 //! A run's memory in a snapshot.
 
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Extent, Front, Impulses, Memory, Statistics};
+use crate::integrator::{Extent, Front, Impulses, Memory, Regime, Statistics};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::plant::Plant;
@@ -56,7 +56,7 @@ impl<const N: usize> Discrete for Impulses<N> {
 
 /// Appends the inputs in force and the integrator's memory.
 pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N, D>, snapshot: &mut Snapshot) {
-    let Memory { start, end, front, step, last_error, cut, crossings, statistics } = memory;
+    let Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, statistics } = memory;
     let InputSignal { at, value, rate } = plant.signal();
     let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
     snapshot.reals.extend(inputs);
@@ -67,7 +67,9 @@ pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N
         modes.save(snapshot);
     }
     let Statistics { steps, rejected, evaluations, events } = *statistics;
-    snapshot.integers.extend([u64::from(*cut), *crossings, steps, rejected, evaluations, events]);
+    snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
+    snapshot.integers.extend([u64::from(*stiff), u64::from(regime.stiff)]);
+    snapshot.integers.extend([regime.steps, regime.patience, regime.unpaid].map(u64::from));
     snapshot.integers.push(N as u64);
 }
 
@@ -83,7 +85,7 @@ pub fn load<const N: usize, D: Discrete>(
     let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
     let [start_time, step, last_error] = reader.reals()?;
     let (start, end, front) = (take_front(reader)?, take_front(reader)?, take_front(reader)?);
-    let cut = reader.integer()? != 0;
+    let cuts = reader.integer()?.try_into().ok()?;
     let crossings = reader.integer()?;
     let statistics = Statistics {
         steps: reader.integer()?,
@@ -91,12 +93,19 @@ pub fn load<const N: usize, D: Discrete>(
         evaluations: reader.integer()?,
         events: reader.integer()?,
     };
+    let stiff = reader.integer()? != 0;
+    let regime = Regime {
+        stiff: reader.integer()? != 0,
+        steps: reader.integer()?.try_into().ok()?,
+        patience: reader.integer()?.try_into().ok()?,
+        unpaid: reader.integer()?.try_into().ok()?,
+    };
     if reader.integer()? != N as u64 {
         return None;
     }
     plant.set_signal(InputSignal { at, value, rate });
     plant.set_start_time(start_time);
-    let memory = Memory { start, end, front, step, last_error, cut, crossings, statistics };
+    let memory = Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, statistics };
     memory.is_sound(time, Extent::of(plant), plant.longest_step()).then_some(memory)
 }
 

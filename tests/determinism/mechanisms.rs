@@ -1,7 +1,7 @@
 //! Mechanisms of every topology, ways to cut up their runs, and their bits.
 
 use slidercrank::model::signals::{Inputs, Outputs};
-use slidercrank::scene::{DriveMode, FrictionLaw, JointModel, Method, Scene};
+use slidercrank::scene::{DampingLaw, DriveMode, FrictionLaw, JointModel, Method, Scene};
 use slidercrank::simulation::{Simulation, Snapshot};
 
 /// Pseudo-random numbers, the same on every run: xorshift64*, G. Marsaglia 2003, S. Vigna 2016.
@@ -17,7 +17,8 @@ impl Dice {
     }
 }
 
-pub const METHODS: [Method; 5] = [Method::Verner7, Method::Dopri5, Method::Dop853, Method::Rk4, Method::Moreau];
+pub const METHODS: [Method; 6] =
+    [Method::Automatic, Method::Verner7, Method::Dopri5, Method::Dop853, Method::Rk4, Method::Moreau];
 pub const LAWS: [FrictionLaw; 4] = [FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck, FrictionLaw::None];
 /// [s] Length of a run: a third of a turn and some impacts of every joint.
 pub const END: f64 = 0.012;
@@ -50,6 +51,18 @@ pub fn mechanisms(method: Method) -> impl Iterator<Item = (String, Scene)> {
             contact.friction.law = law;
         }
         (name, scene)
+    })
+}
+
+/// The same with a pin so tight that its motion is stiff, and contacts that hardly ring, under the method that changes.
+pub fn stiff() -> impl Iterator<Item = (String, Scene)> {
+    mechanisms(Method::Automatic).map(|(name, mut scene)| {
+        let joint = &mut scene.joint;
+        joint.c.damping = 1e3;
+        for contact in [&mut joint.a.contact, &mut joint.b.contact, &mut joint.c.contact, &mut joint.t.contact] {
+            (contact.law, contact.restitution) = (DampingLaw::Flores, 0.05);
+        }
+        (format!("stiff, {name}"), scene)
     })
 }
 

@@ -205,7 +205,7 @@ const WRONG_ROWS: [(&str, &str, &str); 15] = [
     ("start = 0, min = 0, max = 8", "start = 0, min = 0", "`max` is missing"),
     ("start = true, field", "start = 1, field", "`start` is missing"),
     ("start = true, field", "start = true, min = 0, field", "`min, max` has no meaning here"),
-    ("start = \"verner7\"", "start = \"verner9\"", "`verner9` is not declared"),
+    ("start = \"automatic\"", "start = \"verner9\"", "`verner9` is not declared"),
 ];
 
 #[test]

@@ -93,3 +93,67 @@ fn a_step_that_fails_ends_at_the_kink_that_it_fails_by() {
     compare::<Verner7>();
     compare::<Dop853>();
 }
+
+/// A body that is pushed against a damper from a corner on: v̇ = GENTLE − RATE·max(v, 0) settles just beyond the corner,
+/// so close that every step beyond its stability has the corner in it.
+struct Creeping {
+    tells: bool,
+}
+
+const GENTLE: f64 = 1e-2;
+const RATE: f64 = 1e6;
+
+impl Problem<2> for Creeping {
+    type Modes = ();
+
+    fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
+        *rates = [y[1], GENTLE - RATE * y[1].max(0.0)];
+    }
+
+    fn jacobian(&self, (): &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
+        jacobian.state = [[f64::NAN; 2]; 2]; // no explicit method asks
+    }
+
+    fn scales(&self) -> &[f64; 2] {
+        &[1.0, 1.0]
+    }
+
+    fn longest_step(&self) -> f64 {
+        0.1
+    }
+
+    fn guard_count(&self) -> usize {
+        0
+    }
+
+    fn guards(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [Guard; GUARDS]) {}
+
+    fn kinks(&self, (): &(), _: f64, y: &[f64; 2], kinks: &mut Kinks) {
+        if self.tells {
+            kinks.push(y[1]);
+        }
+    }
+
+    fn guard_scale(&self) -> f64 {
+        1.0
+    }
+
+    fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
+        Reset { modes: (), impact: None }
+    }
+}
+
+#[test]
+fn a_motion_that_creeps_along_a_kink_is_not_cut_to_pieces() {
+    for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
+        let [blind, told] = [false, true].map(|tells| {
+            let problem = Creeping { tells };
+            let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
+            let mut integrator = Integrator::<2, (), Verner7>::start(&problem, settings, 0.0, [0.0, -1e-6], ());
+            integrator.advance(&problem, 0.01).expect("a motion without trouble");
+            integrator.memory().statistics
+        });
+        println!("at {tolerance:e}: {blind:?}, told {told:?}");
+        assert!(told.evaluations < 2 * blind.evaluations, "at {tolerance:e}: {told:?} against {blind:?}");
+    }
+}

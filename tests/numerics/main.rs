@@ -11,4 +11,5 @@ mod kinks;
 mod order;
 mod polynomials;
 mod step_control;
+mod switching;
 mod time_stepping;

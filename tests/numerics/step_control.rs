@@ -27,9 +27,9 @@ fn the_error_follows_the_tolerance() {
         println!("{}: error ~ tolerance^{found:.2}, steps ~ tolerance^{work:.3}, {ratios:.1?}", M::NAME);
         // Error per step: the error of a whole run falls with tolerance^(order/error_power); steps grow
         // with tolerance^(−1/error_power), those of the start apart, which the tolerance does not set.
-        let wanted = f64::from(M::ORDER) / M::ERROR_POWER;
+        let wanted = f64::from(M::ORDER) / M::CHARACTER.error_power;
         assert!((found - wanted).abs() < 0.25, "{}: error ~ tolerance^{found}", M::NAME);
-        let wanted = -1.0 / M::ERROR_POWER;
+        let wanted = -1.0 / M::CHARACTER.error_power;
         assert!(wanted < work && work < 0.6 * wanted, "{}: steps ~ tolerance^{work}", M::NAME);
         // A hundred steps, each with an error that the orbit triples or so.
         assert!(ratios.iter().all(|&ratio| ratio < 300.0), "{}: {ratios:?}", M::NAME);

@@ -232,7 +232,8 @@ impl<'a> Trial<'a> {
     /// The balance of energy, of a run that had an audit and a tolerance.
     fn balance(&self) -> Result<(), Stop> {
         let solver = &self.file.scene.solver;
-        let share = if solver.method == Method::Rodas4 { IMPLICIT_BALANCE } else { BALANCE };
+        let implicit = matches!(solver.method, Method::Rodas4 | Method::Automatic);
+        let share = if implicit { IMPLICIT_BALANCE } else { BALANCE };
         let weighed = !solver.method.has("fixed step") && solver.tolerance <= TIGHT;
         if !weighed || self.residual <= share * self.turned_over + noticeable(&self.file.scene) {
             return Ok(());

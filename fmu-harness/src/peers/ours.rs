@@ -14,8 +14,12 @@ use slidercrank::simulation::Simulation;
 use std::time::Duration;
 
 /// The methods, the default first.
-const METHODS: [(Method, &str); 3] =
-    [(Method::Verner7, "verner7"), (Method::Dop853, "dop853"), (Method::Dopri5, "dopri5")];
+const METHODS: [(Method, &str); 4] = [
+    (Method::Automatic, "automatic"),
+    (Method::Verner7, "verner7"),
+    (Method::Dop853, "dop853"),
+    (Method::Dopri5, "dopri5"),
+];
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// [s] Of Moreau's rule.
 const STEPS: [f64; 8] = [1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7];

@@ -16,7 +16,7 @@ use std::path::Path;
 /// [s] Communication steps.
 pub const STEPS: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// How the FMU is asked to solve.
-pub const METHOD: Method = Method::Verner7;
+pub const METHOD: Method = Method::Automatic;
 /// How accurately.
 pub const TOLERANCE: f64 = 1e-6;
 /// Runs, of which the cheapest counts.

@@ -138,7 +138,7 @@ fn a_run_that_gives_up_is_a_failure_with_the_words_of_the_fmu() {
 
 #[test]
 fn a_choice_is_not_left_to_chance() {
-    let own = Method::Verner7;
+    let own = Method::default();
     let runs = [(1e-3, 5e-2, 1.0), (1e-4, 5e-5, 2.0), (1e-5, 5e-4, 3.0), (1e-6, 5e-5, 4.0), (1e-7, 5e-6, 8.0)];
     let mut points: Vec<_> = runs.map(|(tolerance, error, cost)| point(own, tolerance, error, cost)).into();
     points.push(point(Method::Dopri5, 1e-3, 5e-4, 2.5));

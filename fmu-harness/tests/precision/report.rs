@@ -9,7 +9,7 @@ use slidercrank::scene::Method;
 
 /// Runs that ended well, one that failed with its cost, one that was stopped at once.
 fn mixed() -> Diagram {
-    let own = Method::Verner7;
+    let own = Method::default();
     let failed = Verdict::Failed("the floor, \"so to say\", fell out".into());
     let stopped = Point { error: None, cost: None, evaluations: None, ..point(Method::Rk4, 1e-5, 0.0, 0.0) };
     let points = vec![
@@ -53,12 +53,12 @@ fn a_failing_run_is_drawn() {
 fn tables_and_sentence_tell_the_runs_of_the_diagram() {
     let diagram = mixed();
     let table = cheapest(std::slice::from_ref(&diagram)).markdown();
-    let row = "| own | 11.0 | 1e-9 | 0.0125 | 80.0 | verner7 at tolerance 1e-4 | 0.0250 | 40.0 | verner7 at tolerance 1e-6 \
-               | 0.0500 | 20.0 | verner7 at tolerance 1e-8 | × 1.36 |";
+    let row = "| own | 11.0 | 1e-9 | 0.0125 | 80.0 | automatic at tolerance 1e-4 | 0.0250 | 40.0 \
+               | automatic at tolerance 1e-6 | 0.0500 | 20.0 | automatic at tolerance 1e-8 | × 1.36 |";
     assert!(table.contains(row), "{table}");
     let text = sentence(&diagram);
     for part in
-        ["known to 1e-9", "verner7 at tolerance 1e-6: 0.0250 s", "40.0 times", "1.36 times", "5 runs 1 failed and 1"]
+        ["known to 1e-9", "automatic at tolerance 1e-6: 0.0250 s", "40.0 times", "1.36 times", "5 runs 1 failed and 1"]
     {
         assert!(text.contains(part), "{part}: {text}");
     }

@@ -1,6 +1,7 @@
 //! One method a file: coefficients as printed, and where they are printed.
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
+mod automatic;
 mod bs3;
 mod dop853;
 mod dopri5;
@@ -8,6 +9,7 @@ mod rk4;
 mod rodas4;
 mod verner7;
 
+pub use automatic::Automatic;
 pub use bs3::Bs3;
 pub use dop853::Dop853;
 pub use dopri5::Dopri5;

@@ -34,6 +34,7 @@ use super::controller::Settings;
 use super::error::IntegrationError;
 use super::memory::{Front, Memory};
 use super::problem::{Extent, GUARDS, Guard, Problem};
+use super::regime::Regime;
 use super::statistics::Statistics;
 use super::unilateral::{Impulses, Unilateral};
 use attempt::{Made, attempt};
@@ -50,11 +51,19 @@ impl<const N: usize> Moreau<N> {
         // Rates are of no use to it.
         let front = Front { t, y, rates: [0.0; N], modes: Impulses::none(t, y), impact_end: t };
         let statistics = Statistics::default();
-        let (start, step) = (front, settings.fixed_step);
-        Self::resume(
-            settings,
-            Memory { start, end: front, front, step, last_error: 0.0, cut: false, crossings: 0, statistics },
-        )
+        let memory = Memory {
+            start: front,
+            end: front,
+            front,
+            stiff: false,
+            regime: Regime::LOOSE,
+            step: settings.fixed_step,
+            last_error: 0.0,
+            cuts: 0,
+            crossings: 0,
+            statistics,
+        };
+        Self::resume(settings, memory)
     }
 
     /// Goes on from a saved state.

@@ -1,0 +1,166 @@
+//! Which of its two methods a changing one uses: an explicit one, or a linearly implicit one where the motion is stiff.
+//!
+//! A contact that closes slowly gets a damping that grows with the approach speed's inverse; pressed on by a load, it
+//! stays closed, creeps, and bounds the steps of an explicit method by their stability long after its own motion is
+//! over. A linearly implicit method is not bound, but its steps are dearer: it is worth it only while its steps are so
+//! much longer.
+//!
+//! Stiffness is suspected where an explicit step comes near its bound of stability, as two stages at the same instant
+//! tell (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, (2.26)), and then tried. A trial that
+//! does not pay is given up after a few steps, and the next waits longer.
+
+use super::problem::{Extent, Jacobian};
+
+/// How many accepted steps the next look waits for, after a change that paid, and at most.
+const PATIENCE: u32 = 32;
+const MOST_PATIENCE: u32 = 1024;
+/// Share of the explicit method's bound of stability from which on a step is suspicious.
+const SUSPICIOUS: f64 = 0.6;
+/// A linearly implicit step costs as much as so many explicit ones, and so many more for each position.
+const PRICE: f64 = 1.5;
+const PRICE_OF_POSITION: f64 = 0.4;
+/// So many steps in a row that do not pay end a stiff stretch.
+const UNPAID: u32 = 3;
+/// A stiff stretch of fewer steps did not pay.
+const WORTHWHILE: u32 = 10;
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Which method makes the next step, and what speaks for a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Regime {
+    /// The next step is made by the method for stiff motion.
+    pub stiff: bool,
+    /// Accepted steps since the last look; in a stiff stretch, since its beginning.
+    pub steps: u32,
+    /// Steps between two looks.
+    pub patience: u32,
+    /// The last steps of a stiff stretch that did not pay.
+    pub unpaid: u32,
+}
+
+impl Regime {
+    /// Not stiff, and nothing known.
+    pub const LOOSE: Self = Self { stiff: false, steps: 0, patience: PATIENCE, unpaid: 0 };
+
+    /// Whether a run can have come to this.
+    pub fn is_sound(&self) -> bool {
+        (PATIENCE..=MOST_PATIENCE).contains(&self.patience) && self.unpaid < UNPAID
+    }
+
+    /// After an accepted explicit step: `stiffness` tells its length times the fastest rate seen in it, and is asked only
+    /// now and then; `bound` is where the method is unstable.
+    pub fn after_explicit(&mut self, bound: f64, stiffness: impl FnOnce() -> f64) {
+        self.steps = self.steps.saturating_add(1);
+        if self.steps >= self.patience {
+            self.steps = 0;
+            self.stiff = stiffness() > SUSPICIOUS * bound;
+        }
+    }
+
+    /// After an accepted linearly implicit step of `h` [s] of a motion with so many positions, whose fastest rate
+    /// is `fastest` [1/s]: how long the next explicit step may be [s], where it is to be one.
+    pub fn after_implicit(&mut self, h: f64, bound: f64, fastest: f64, positions: usize) -> Option<f64> {
+        self.steps = self.steps.saturating_add(1);
+        let stable = bound / fastest;
+        let price = PRICE + PRICE_OF_POSITION * positions as f64;
+        self.unpaid = if h < price * stable { self.unpaid + 1 } else { 0 };
+        if self.unpaid < UNPAID {
+            return None;
+        }
+        let paid = self.steps >= WORTHWHILE;
+        let patience = if paid { PATIENCE } else { (2 * self.patience).min(MOST_PATIENCE) };
+        *self = Self { patience, ..Self::LOOSE };
+        Some(SUSPICIOUS * stable)
+    }
+}
+
+/// [1/s] About the fastest rate of a motion near a state with these derivatives of the rates, by powers of their matrix
+/// on a vector without pattern: over an even number of them an oscillation comes back to the phase that it had.
+pub fn fastest<const N: usize>(jacobian: &Jacobian<N>, extent: Extent, scales: &[f64; N]) -> f64 {
+    let Extent { positions, weighed, .. } = extent;
+    let next = |y: &[f64; N]| -> [f64; N] {
+        let slopes = |i: usize| jacobian.state[i][..weighed].iter().zip(y).map(|(slope, y)| slope * y).sum();
+        std::array::from_fn(|i| match i {
+            _ if i < positions => y[positions + i],
+            _ if i < weighed => slopes(i),
+            _ => 0.0,
+        })
+    };
+    let square = |y: &[f64; N]| y.iter().zip(scales).take(weighed).map(|(y, scale)| (y / scale).powi(2)).sum::<f64>();
+    let mut y: [f64; N] = std::array::from_fn(|i| scales[i] * (0.5 + (GOLDEN * i as f64).fract()));
+    for _ in 0..2 {
+        y = next(&y);
+    }
+    let before = square(&y);
+    for _ in 0..4 {
+        y = next(&y);
+    }
+    // None where nothing acts.
+    (square(&y) / before).sqrt().sqrt().sqrt().max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EXTENT: Extent = Extent::second_order(4);
+
+    fn of(elastic: [[f64; 2]; 2], damped: [[f64; 2]; 2], scales: [f64; 4]) -> f64 {
+        let mut jacobian = Jacobian::ZERO;
+        for i in 0..2 {
+            jacobian.state[i][2 + i] = 1.0;
+            for j in 0..2 {
+                jacobian.state[2 + i][j] = -elastic[i][j];
+                jacobian.state[2 + i][2 + j] = -damped[i][j];
+            }
+        }
+        fastest(&jacobian, EXTENT, &scales)
+    }
+
+    #[test]
+    fn the_fastest_rate_is_that_of_the_fastest_motion_in_any_units() {
+        let none = [[0.0; 2]; 2];
+        for scales in [[1.0; 4], [1e-6, 1.0, 1e-3, 1e2], [1.0, 1e-6, 1e-4, 1e-4]] {
+            let near = |found: f64, wanted: f64| {
+                assert!(found > 0.5 * wanted && found < 2.0 * wanted, "{found:e}, not {wanted:e}");
+            };
+            near(of([[1e10, 0.0], [0.0, 1.0]], none, scales), 1e5);
+            near(of([[1.0, 0.0], [0.0, 1e10]], [[1.0, 0.0], [0.0, 1e3]], scales), 1e5);
+            near(of([[1e8, 0.0], [0.0, 1.0]], [[1e6, 0.0], [0.0, 1.0]], scales), 1e6);
+            assert_eq!(of(none, none, scales), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_trial_that_does_not_pay_makes_the_next_wait_longer() {
+        let mut regime = Regime::LOOSE;
+        let trial = |regime: &mut Regime| {
+            let looks = (1..).find(|_| {
+                regime.after_explicit(4.6, || 4.0);
+                regime.stiff
+            });
+            let ends = (1..).find(|_| regime.after_implicit(1e-6, 4.6, 4e6, 2).is_some());
+            (looks, ends)
+        };
+        for patience in [32, 64, 128, 256, 512, 1024, 1024] {
+            assert_eq!(trial(&mut regime), (Some(patience), Some(3)));
+            assert!(regime.is_sound());
+        }
+        // One that paid for a while, and then no more.
+        regime.stiff = true;
+        let ends = (0..50).find(|step| {
+            let h = if *step < 20 { 1e-3 } else { 1e-7 };
+            regime.after_implicit(h, 4.6, 4e6, 2).is_some()
+        });
+        assert_eq!((ends, regime), (Some(22), Regime::LOOSE));
+    }
+
+    #[test]
+    fn steps_far_within_stability_are_never_tried() {
+        let mut regime = Regime::LOOSE;
+        for _ in 0..1000 {
+            regime.after_explicit(4.6, || 2.0);
+        }
+        assert!(!regime.stiff);
+    }
+}
