@@ -16,6 +16,8 @@ const CUTS: usize = 6;
 /// After so many steps in a row that were cut, the motion creeps along a kink: it is passed over as any error is, until a
 /// step does not fail.
 pub(super) const CREEPING: u32 = 8;
+/// After so many failures of one step it is not for the method for stiff motion, which may know no derivatives here.
+const TOO_MANY: usize = 8;
 /// [roundings of time] No kink makes a step shorter than this.
 const SHORTEST_CUT: f64 = 1e3;
 
@@ -40,10 +42,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let time = self.memory.start.t;
         let share = if time < self.memory.start.impact_end { IMPACT_SHARE } else { 1.0 };
         let tolerance = share * self.settings.tolerance;
-        let full = M::character(self.memory.stiff).error_power;
         let (mut first, mut cuts, mut cut) = (None, 0, false);
         let creeping = self.memory.cuts >= CREEPING;
-        let mut failed = None;
+        let (mut failed, mut failures) = (None, 0);
         // Forces that are gone may have left a step that no longer moves time.
         let least = time.next_up() - time;
         let mut wanted = if M::ADAPTIVE { self.memory.step.max(least) } else { self.settings.fixed_step };
@@ -60,6 +61,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                 return Err(IntegrationError::StepUnderflow { time, step: wanted, component });
             }
             self.attempt(problem, h);
+            let full = M::character(self.memory.stiff).error_power;
             let error = match controller::lost_state(problem, &self.made.y) {
                 None => controller::norm::<N, M, P>(&self.made, &self.memory.start.y, problem, tolerance),
                 Some(_) => f64::INFINITY,
@@ -81,6 +83,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             first.get_or_insert(h);
             self.memory.statistics.rejected += 1;
+            failures += 1;
+            if failures == TOO_MANY && self.memory.stiff {
+                self.memory.stiff = false;
+                self.memory.regime.give_up();
+            }
             let look = error.is_finite() && cuts < CUTS && !creeping;
             let kink =
                 if look { kink::first(problem, &self.memory.start, &self.guards, h, &self.made.y) } else { None };

@@ -6,7 +6,7 @@
 //! much longer.
 //!
 //! Stiffness is suspected where an explicit step comes near its bound of stability, as two stages at the same instant
-//! tell (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, (2.26)), and then tried. A trial that
+//! tell (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection), and then tried. A trial that
 //! does not pay is given up after a few steps, and the next waits longer.
 
 use super::problem::{Extent, Jacobian};
@@ -16,7 +16,8 @@ const PATIENCE: u32 = 32;
 const MOST_PATIENCE: u32 = 1024;
 /// Share of the explicit method's bound of stability from which on a step is suspicious.
 const SUSPICIOUS: f64 = 0.6;
-/// A linearly implicit step costs as much as so many explicit ones, and so many more for each position.
+/// A linearly implicit step costs as much as so many explicit ones, and so many more for each position: as measured with
+/// two positions to nine.
 const PRICE: f64 = 1.5;
 const PRICE_OF_POSITION: f64 = 0.4;
 /// So many steps in a row that do not pay end a stiff stretch.
@@ -67,10 +68,17 @@ impl Regime {
         if self.unpaid < UNPAID {
             return None;
         }
-        let paid = self.steps >= WORTHWHILE;
-        let patience = if paid { PATIENCE } else { (2 * self.patience).min(MOST_PATIENCE) };
-        *self = Self { patience, ..Self::LOOSE };
+        if self.steps >= WORTHWHILE {
+            *self = Self::LOOSE;
+        } else {
+            self.give_up();
+        }
         Some(SUSPICIOUS * stable)
+    }
+
+    /// Ends a stiff stretch that did not pay.
+    pub fn give_up(&mut self) {
+        *self = Self { patience: (2 * self.patience).min(MOST_PATIENCE), ..Self::LOOSE };
     }
 }
 

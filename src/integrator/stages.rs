@@ -62,7 +62,7 @@ impl<const N: usize> Attempt<N> {
 
     /// The fastest rate that shows in a step made by a method whose last two stages are at the same instant, times the
     /// step: how far their rates are apart over how far their states are (E. Hairer, G. Wanner, Solving Ordinary
-    /// Differential Equations II, IV.2, (2.26)).
+    /// Differential Equations II, IV.2, on stiffness detection).
     pub fn stiffness<E: Explicit>(&self, extent: Extent, scales: &[f64; N]) -> f64 {
         let tableau = const { &E::TABLEAU };
         let [before, last] = [tableau.stages - 2, tableau.stages - 1];

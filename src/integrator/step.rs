@@ -57,11 +57,6 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         &self.memory
     }
 
-    /// How accurate its steps are.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
     /// Steps until `t` lies within the last step.
     ///
     /// # Errors

@@ -67,9 +67,12 @@ impl Problem<4> for Following {
     }
 }
 
+fn settings(tolerance: f64) -> Settings {
+    Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY }
+}
+
 fn start<M: Method>(problem: &Following, tolerance: f64) -> Integrator<4, (), M> {
-    let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
-    Integrator::start(problem, settings, 0.0, [0.0, 0.0, 1.0, 1.0], ())
+    Integrator::start(problem, settings(tolerance), 0.0, [0.0, 0.0, 1.0, 1.0], ())
 }
 
 /// Largest error, and all that is remembered at the end.
@@ -122,8 +125,8 @@ fn a_stiff_stretch_is_gone_on_with_from_a_saved_state_and_from_a_step_taken_back
     let mut whole = start::<Automatic>(&problem, 1e-6);
     whole.advance(&problem, 4.0).expect("no trouble");
     assert!(whole.memory().stiff && whole.memory().regime.stiff, "{:?}", whole.memory().regime);
-    let mut again = Integrator::<4, (), Automatic>::resume(&problem, *whole.settings(), *whole.memory());
-    let mut taken_back = Integrator::<4, (), Automatic>::resume(&problem, *whole.settings(), *whole.memory());
+    let mut again = Integrator::<4, (), Automatic>::resume(&problem, settings(1e-6), *whole.memory());
+    let mut taken_back = Integrator::<4, (), Automatic>::resume(&problem, settings(1e-6), *whole.memory());
     whole.advance(&problem, END).expect("no trouble");
     again.advance(&problem, END).expect("no trouble");
     assert_eq!(again.memory(), whole.memory());
@@ -133,4 +136,53 @@ fn a_stiff_stretch_is_gone_on_with_from_a_saved_state_and_from_a_step_taken_back
     taken_back.advance(&problem, END).expect("no trouble");
     let (y, ()) = taken_back.state_at(&problem, END);
     assert!((y[1] - END.sin()).abs() < 1e-5 && !taken_back.memory().regime.stiff);
+}
+
+/// The same motion, but without derivatives.
+struct Unknown(Following);
+
+impl Problem<4> for Unknown {
+    type Modes = ();
+
+    fn rates(&self, modes: &(), t: f64, y: &[f64; 4], rates: &mut [f64; 4]) {
+        self.0.rates(modes, t, y, rates);
+    }
+
+    fn jacobian(&self, (): &(), _: f64, _: &[f64; 4], jacobian: &mut Jacobian<4>) {
+        jacobian.state = [[f64::NAN; 4]; 4];
+    }
+
+    fn scales(&self) -> &[f64; 4] {
+        self.0.scales()
+    }
+
+    fn longest_step(&self) -> f64 {
+        self.0.longest_step()
+    }
+
+    fn guard_count(&self) -> usize {
+        0
+    }
+
+    fn guards(&self, (): &(), _: f64, _: &[f64; 4], _: &mut [Guard; GUARDS]) {}
+
+    fn guard_scale(&self) -> f64 {
+        1.0
+    }
+
+    fn cross(&self, modes: &(), t: f64, y: &mut [f64; 4], crossed: &Crossed) -> Reset<()> {
+        self.0.cross(modes, t, y, crossed)
+    }
+}
+
+#[test]
+fn where_derivatives_are_none_the_explicit_method_goes_on() {
+    let problem = Unknown(Following { rate: 1e4 });
+    let mut integrator = Integrator::<4, (), Automatic>::start(&problem, settings(1e-6), 0.0, [0.0, 0.0, 1.0, 1.0], ());
+    integrator.advance(&problem, END).expect("a motion without trouble");
+    let (y, ()) = integrator.state_at(&problem, END);
+    assert!((y[1] - END.sin()).abs() < 1e-5, "{y:?}");
+    let Memory { regime, statistics, .. } = integrator.memory();
+    println!("{statistics:?}");
+    assert!(regime.patience > 32 && statistics.rejected >= 8, "never tried: {regime:?}");
 }
