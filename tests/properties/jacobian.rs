@@ -11,7 +11,7 @@ const ALL: [bool; 4] = [true; 4];
 const SPAN: f64 = 0.01;
 const STATES: usize = 8;
 /// First increments of positions [m, rad], of rates, of bristles [m], of time [s].
-const INCREMENTS: [f64; 4] = [2e-6, 0.2, 2e-6, 2e-7];
+const INCREMENTS: [f64; 4] = [2e-6, 0.05, 2e-6, 2e-7];
 
 /// How many derivatives other than 0 were compared, how many of them were known to 3e-8 of themselves, and the
 /// largest error of those relative to themselves.
