@@ -30,7 +30,7 @@ impl Budget {
     pub const FULL: Self = Self {
         run: Duration::from_millis(2500),
         reference: Duration::from_secs(8),
-        scene: Duration::from_secs(75),
+        scene: Duration::from_secs(65),
         quick: false,
     };
     /// For a first look.
