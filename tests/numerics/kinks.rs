@@ -11,17 +11,24 @@ const PUSH: f64 = 2.0;
 const FRICTION: f64 = 1.0;
 const END: f64 = 1.0;
 
-/// A body on a table, pushed: v̇ = PUSH − FRICTION·clamp(v/WIDTH, −1, 1).
+/// A body that moves along a line.
 struct Sliding {
-    /// The integrator is told where the corners are.
-    tells: bool,
+    /// By its speed.
+    acceleration: fn(f64) -> f64,
+    /// Speeds at corners of that, as far as the integrator is told.
+    corners: &'static [f64],
+}
+
+/// Of a body on a table, pushed: v̇ = PUSH − FRICTION·clamp(v/WIDTH, −1, 1).
+fn rubbing(v: f64) -> f64 {
+    PUSH - FRICTION * (v / WIDTH).clamp(-1.0, 1.0)
 }
 
 impl Problem<2> for Sliding {
     type Modes = ();
 
     fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
-        *rates = [y[1], PUSH - FRICTION * (y[1] / WIDTH).clamp(-1.0, 1.0)];
+        *rates = [y[1], (self.acceleration)(y[1])];
     }
 
     fn jacobian(&self, (): &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
@@ -43,9 +50,8 @@ impl Problem<2> for Sliding {
     fn guards(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [Guard; GUARDS]) {}
 
     fn kinks(&self, (): &(), _: f64, y: &[f64; 2], kinks: &mut Kinks) {
-        if self.tells {
-            kinks.push(y[1] - WIDTH);
-            kinks.push(y[1] + WIDTH);
+        for corner in self.corners {
+            kinks.push(y[1] - corner);
         }
     }
 
@@ -66,7 +72,7 @@ fn exact() -> f64 {
 
 /// Error of the speed at the end, and the work.
 fn slide<M: Method>(tells: bool, tolerance: f64) -> (f64, Statistics) {
-    let problem = Sliding { tells };
+    let problem = Sliding { acceleration: rubbing, corners: if tells { &[WIDTH, -WIDTH] } else { &[] } };
     let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
     let mut integrator = Integrator::<2, (), M>::start(&problem, settings, 0.0, [0.0, -1.0], ());
     integrator.advance(&problem, END).expect("a motion without trouble");
@@ -96,58 +102,18 @@ fn a_step_that_fails_ends_at_the_kink_that_it_fails_by() {
 
 /// A body that is pushed against a damper from a corner on: v̇ = GENTLE − RATE·max(v, 0) settles just beyond the corner,
 /// so close that every step beyond its stability has the corner in it.
-struct Creeping {
-    tells: bool,
+fn creeping(v: f64) -> f64 {
+    GENTLE - RATE * v.max(0.0)
 }
 
 const GENTLE: f64 = 1e-2;
 const RATE: f64 = 1e6;
 
-impl Problem<2> for Creeping {
-    type Modes = ();
-
-    fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
-        *rates = [y[1], GENTLE - RATE * y[1].max(0.0)];
-    }
-
-    fn jacobian(&self, (): &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
-        jacobian.state = [[f64::NAN; 2]; 2]; // no explicit method asks
-    }
-
-    fn scales(&self) -> &[f64; 2] {
-        &[1.0, 1.0]
-    }
-
-    fn longest_step(&self) -> f64 {
-        0.1
-    }
-
-    fn guard_count(&self) -> usize {
-        0
-    }
-
-    fn guards(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [Guard; GUARDS]) {}
-
-    fn kinks(&self, (): &(), _: f64, y: &[f64; 2], kinks: &mut Kinks) {
-        if self.tells {
-            kinks.push(y[1]);
-        }
-    }
-
-    fn guard_scale(&self) -> f64 {
-        1.0
-    }
-
-    fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), impact: None }
-    }
-}
-
 #[test]
 fn a_motion_that_creeps_along_a_kink_is_not_cut_to_pieces() {
     for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
         let [blind, told] = [false, true].map(|tells| {
-            let problem = Creeping { tells };
+            let problem = Sliding { acceleration: creeping, corners: if tells { &[0.0] } else { &[] } };
             let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
             let mut integrator = Integrator::<2, (), Verner7>::start(&problem, settings, 0.0, [0.0, -1e-6], ());
             integrator.advance(&problem, 0.01).expect("a motion without trouble");
