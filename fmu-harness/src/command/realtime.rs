@@ -3,8 +3,12 @@
 use super::{out_directory, shown};
 use crate::host::Fmu;
 use crate::package::Stock;
+use crate::precision::Subject;
+use crate::precision::ladder::told;
 use crate::realtime::Timing;
-use crate::report::realtime as report;
+use crate::realtime::deadline::{TRIED, Trials};
+use crate::report::table::Table;
+use crate::report::{deadline, realtime as report};
 use crate::scenes::{Scenario, directory, names};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -13,21 +17,26 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// One step of so many is taken with every setting.
+const SETTINGS_SHARE: u64 = 5;
+
 /// Times every one of many communication steps of 1 ms: median, 99.9 %, worst, and what is in the worst.
 ///
 /// Every scene is packaged and the packaged file is stepped in this process, its inputs set before each step. Times are
 /// those in fmi2DoStep, by the clock and as CPU time, so that a step during which another program ran can be told from a
-/// long one. Writes realtime.csv, realtime.md and realtime.svg.
+/// long one. Then a few settings of the solver are tried, with error control and with fixed steps: what a step takes at
+/// most with each, and the error that it makes, for a loop that waits for every step. Writes realtime.md,
+/// and realtime.csv, realtime.svg, realtime-settings.csv and realtime-settings.svg.
 #[derive(Args)]
 pub struct Realtime {
     /// One scene in place of all: the name of a shipped one, or a .toml file
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
-    /// Steps of every scene
+    /// Steps of every scene; a fifth of them with every setting
     #[arg(long, default_value_t = 100_000, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
-    /// Longest time for one scene; one that takes longer makes fewer steps
-    #[arg(long, default_value_t = 60.0, value_name = "SECONDS", value_parser = budget)]
+    /// Longest time for one scene, and for one setting of it; one that takes longer makes fewer steps
+    #[arg(long, default_value_t = 300.0, value_name = "SECONDS", value_parser = budget)]
     budget: f64,
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
@@ -47,34 +56,49 @@ impl Realtime {
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenes = self.scene.clone().map_or_else(|| names(&directory()), |scene| vec![scene]);
         let stock = Stock::build()?;
-        let style = ProgressStyle::with_template("{msg:16} {wide_bar:.cyan/blue} {percent}% {elapsed:>4}")?;
-        let bar = ProgressBar::new(scenes.len() as u64 * self.steps).with_style(style);
-        let mut timings = Vec::new();
+        let style = ProgressStyle::with_template("{msg:34} {wide_bar:.cyan/blue} {percent}% {elapsed:>4}")?;
+        let fewer = self.steps.div_ceil(SETTINGS_SHARE);
+        let of_scene = self.steps + TRIED.len() as u64 * fewer;
+        let bar = ProgressBar::new(scenes.len() as u64 * of_scene).with_style(style);
+        let (mut timings, mut trials) = (Vec::new(), Vec::new());
         for (number, scene) in scenes.iter().enumerate() {
+            let before = number as u64 * of_scene;
             bar.set_message(scene.clone());
-            bar.set_position(number as u64 * self.steps);
+            bar.set_position(before);
             let scenario = Scenario::find(scene)?;
             let file = out.join(format!("{}.fmu", scenario.name));
             stock.package(&scenario)?.save(&file)?;
+            let fmu = Fmu::open(&file)?;
             let budget = Duration::from_secs_f64(self.budget);
-            let timing = Timing::of(&scenario.file, &Fmu::open(&file)?, self.steps as usize, budget, |done| {
+            let timing = Timing::of(&scenario.file, &fmu, vec![], self.steps as usize, budget, |done| {
                 if done % 256 == 0 {
                     bar.inc(256);
                 }
             });
             timings.push(timing.with_context(|| scene.clone())?);
+            bar.set_position(before + self.steps);
+            let subject = Subject { file: &scenario.file, fmu: &fmu };
+            let tried = Trials::of(&subject, fewer as usize, budget, |method, rung| {
+                bar.set_message(format!("{scene} {}", told(method, rung)));
+                bar.inc(fewer);
+            });
+            trials.push(tried.with_context(|| scene.clone())?);
         }
         bar.finish_and_clear();
-        let table = report::table(&timings);
-        let sentences: Vec<String> = timings.iter().map(report::sentence).collect();
-        println!("{}\n{}\n", table.print(), sentences.join("\n"));
+        let tables = [report::table(&timings), deadline::table(&trials)];
+        let sentences: Vec<String> =
+            timings.iter().map(report::sentence).chain(trials.iter().map(deadline::sentence)).collect();
+        println!("{}\n{}\n", tables.each_ref().map(Table::print).join("\n"), sentences.join("\n"));
         let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("realtime.{ending}")));
+        let [settings, scatter] = ["csv", "svg"].map(|ending| out.join(format!("realtime-settings.{ending}")));
         report::write_csv(&timings, &csv)?;
-        let text = format!("{}\n{}\n", table.markdown(), sentences.join("\n\n"));
-        for (file, text) in [(&page, text), (&drawing, report::sheet(&timings).svg()?)] {
+        deadline::write_csv(&trials, &settings)?;
+        let text = format!("{}\n{}\n", tables.map(|table| table.markdown()).join("\n"), sentences.join("\n\n"));
+        let by_setting = deadline::sheet(&trials).svg()?;
+        for (file, text) in [(&page, text), (&drawing, report::sheet(&timings).svg()?), (&scatter, by_setting)] {
             fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
-        [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
+        [csv, settings, page, drawing, scatter].iter().for_each(|file| println!("{}", shown(file)));
         Ok(())
     }
 }

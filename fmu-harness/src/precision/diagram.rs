@@ -143,7 +143,41 @@ impl Diagram {
 }
 
 impl Point {
-    fn stopped(method: Method, rung: Rung, why: &str) -> Self {
+    /// Runs a method over the reference's window for at most about `budget`: its error, where it reaches the end, and
+    /// what it cost on the reference's grid.
+    ///
+    /// # Errors
+    /// If the run cannot be compared with the reference.
+    pub fn in_window(
+        subject: &Subject,
+        ruler: &Ruler,
+        reference: &Reference,
+        method: Method,
+        rung: Rung,
+        budget: Duration,
+    ) -> Result<Self> {
+        let Reference { trajectory, window, grid, .. } = reference;
+        let mut point = Self { verdict: Verdict::Reached, ..Self::stopped(method, rung, "") };
+        let experiment = subject.experiment(method, rung, *window, *grid);
+        let run = match march(subject.fmu, &experiment, Look::Everywhere, budget) {
+            Ok(run) => run,
+            // A method may refuse a scene.
+            Err(error) => return Ok(Self { verdict: Verdict::Failed(format!("{error:#}")), ..point }),
+        };
+        point.account(&run);
+        match run.ending {
+            Ending::Reached => point.error = Some(ruler.error(&run.trajectory, trajectory, *window)?),
+            Ending::Stopped => {
+                let seconds = budget.as_secs_f64();
+                point.verdict = Verdict::Stopped(format!("{seconds} s did not take it to {window} s"));
+            }
+            Ending::Failed(why) => point.verdict = Verdict::Failed(why),
+        }
+        Ok(point)
+    }
+
+    /// One that was not run.
+    pub fn stopped(method: Method, rung: Rung, why: &str) -> Self {
         let verdict = Verdict::Stopped(why.into());
         Self { method, rung, error: None, cost: None, evaluations: None, over: 0.0, verdict }
     }
@@ -161,29 +195,8 @@ struct Bench<'a> {
 impl Bench<'_> {
     /// First the error, then the cost.
     fn point(&self, method: Method, rung: Rung) -> Result<Point> {
-        let Reference { trajectory, window, grid, .. } = self.reference;
-        let mut point = Point { verdict: Verdict::Reached, ..Point::stopped(method, rung, "") };
-        let experiment = self.subject.experiment(method, rung, *window, *grid);
-        let run = match march(self.subject.fmu, &experiment, Look::Everywhere, self.budget.run) {
-            Ok(run) => run,
-            // A method may refuse a scene.
-            Err(error) => return Ok(Point { verdict: Verdict::Failed(format!("{error:#}")), ..point }),
-        };
-        point.account(&run);
-        match &run.ending {
-            Ending::Reached => {}
-            Ending::Stopped => {
-                let seconds = self.budget.run.as_secs_f64();
-                point.verdict = Verdict::Stopped(format!("{seconds} s did not take it to {window} s"));
-                return Ok(point);
-            }
-            Ending::Failed(why) => {
-                point.verdict = Verdict::Failed(why.clone());
-                return Ok(point);
-            }
-        }
-        let error = self.ruler.error(&run.trajectory, trajectory, *window)?;
-        point.error = Some(error);
+        let mut point = Point::in_window(self.subject, self.ruler, self.reference, method, rung, self.budget.run)?;
+        let Some(error) = point.error else { return Ok(point) };
         let experiment = self.subject.experiment(method, rung, self.span, self.subject.cost_step());
         let fastest = self.repeats().fastest(self.subject.fmu, &experiment, self.budget.run)?;
         point.account(&fastest);

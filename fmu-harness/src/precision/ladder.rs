@@ -42,6 +42,14 @@ impl Rung {
     }
 }
 
+/// `verner7 at tolerance 1e-6`.
+pub fn told(method: Method, rung: Rung) -> String {
+    match rung {
+        Rung::Tolerance(tolerance) => format!("{} at tolerance {tolerance:e}", method.name()),
+        Rung::Step(step) => format!("{} at steps of {} µs", method.name(), step * 1e6),
+    }
+}
+
 /// How the FMU is told.
 pub fn settings(method: Method, rung: Rung) -> Vec<Setting> {
     let set = |name: &str, value: String| Setting { name: name.into(), value };

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod bars;
 pub mod campaign;
 pub mod contest;
+pub mod deadline;
 pub mod dynamics;
 pub mod figure;
 pub mod interactive;

@@ -6,7 +6,7 @@ use super::table::Table;
 use super::units::three_digits;
 use crate::precision::diagram::{Diagram, Point, Verdict};
 use crate::precision::hosts::{HostPoint, METHOD, TOLERANCE};
-use crate::precision::ladder::Rung;
+use crate::precision::ladder::{Rung, told};
 use anyhow::Result;
 use slidercrank::scene::Method;
 use std::path::Path;
@@ -71,7 +71,7 @@ pub fn sentence(diagram: &Diagram) -> String {
         text += &match diagram.cheapest(error) {
             Some(point) => format!(
                 " An error of {error:e} is cheapest with {}: {} s per simulated second, {} times real time.",
-                told(point),
+                told(point.method, point.rung),
                 three_digits(point.cost.unwrap_or_default()),
                 three_digits(1.0 / point.cost.unwrap_or(f64::INFINITY))
             ),
@@ -90,14 +90,6 @@ pub fn sentence(diagram: &Diagram) -> String {
     text
 }
 
-/// `verner7 at tolerance 1e-6`.
-fn told(point: &Point) -> String {
-    match point.rung {
-        Rung::Tolerance(tolerance) => format!("{} at tolerance {tolerance:e}", point.method.name()),
-        Rung::Step(step) => format!("{} at steps of {} µs", point.method.name(), step * 1e6),
-    }
-}
-
 /// The cheapest way to every error.
 pub fn cheapest(diagrams: &[Diagram]) -> Table {
     let mut table = Table::default();
@@ -111,7 +103,7 @@ pub fn cheapest(diagrams: &[Diagram]) -> Table {
         let mut line =
             vec![diagram.scene.clone(), three_digits(diagram.window * 1e3), format!("{:.0e}", diagram.floor)];
         for error in ERRORS {
-            let run = diagram.cheapest(error).and_then(|point| Some((point.cost?, told(point))));
+            let run = diagram.cheapest(error).and_then(|point| Some((point.cost?, told(point.method, point.rung))));
             line.extend(match run {
                 Some((cost, told)) => [three_digits(cost), three_digits(1.0 / cost), told],
                 None => ["–", "–", "not reached"].map(String::from),

@@ -38,7 +38,7 @@ pub fn table(timings: &[Timing]) -> Table {
 }
 
 /// A time as a share of the step.
-fn percent(seconds: f64) -> String {
+pub(super) fn percent(seconds: f64) -> String {
     format!("{} %", three_digits(seconds / STEP * 1e2))
 }
 

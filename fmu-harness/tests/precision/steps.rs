@@ -2,6 +2,9 @@
 
 use crate::open;
 use fmu_harness::inputs;
+use fmu_harness::precision::Subject;
+use fmu_harness::precision::ladder::Rung;
+use fmu_harness::realtime::deadline::{TRIED, Trials};
 use fmu_harness::realtime::{STEP, Timing};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
@@ -13,7 +16,7 @@ fn the_steps_add_up_to_the_run() {
     let scenario = Scenario::find("press").expect("a legal scene");
     let fmu = open(&scenario);
     let count = 30;
-    let timing = Timing::of(&scenario.file, &fmu, count, Duration::MAX, |_| {}).expect("a run without trouble");
+    let timing = Timing::of(&scenario.file, &fmu, vec![], count, Duration::MAX, |_| {}).expect("a run without trouble");
     let experiment = Experiment {
         settings: vec![],
         inputs: inputs::of_scene(&scenario.file.inputs),
@@ -43,8 +46,34 @@ fn a_mechanism_that_comes_to_rest_begins_anew_and_a_budget_is_kept() {
     let scenario = Scenario { name: "brake".into(), text: text.into(), file };
     let fmu = open(&scenario);
     // A turn at 100 rad/s takes 63 steps; damping and inertia stop the crank within a few.
-    let timing = Timing::of(&scenario.file, &fmu, 200, Duration::MAX, |_| {}).expect("a run without trouble");
+    let timing = Timing::of(&scenario.file, &fmu, vec![], 200, Duration::MAX, |_| {}).expect("a run without trouble");
     assert_eq!((timing.restarts, timing.steps.len()), (3, 200));
-    let none = Timing::of(&scenario.file, &fmu, 50, Duration::ZERO, |_| {}).expect("nothing to run");
+    let none = Timing::of(&scenario.file, &fmu, vec![], 50, Duration::ZERO, |_| {}).expect("nothing to run");
     assert_eq!((none.steps.len(), none.asked), (0, 50));
+}
+
+#[test]
+fn fixed_steps_cost_the_same_in_every_communication_step() {
+    let scenario = Scenario::find("press").expect("a legal scene");
+    let fmu = open(&scenario);
+    let subject = Subject { file: &scenario.file, fmu: &fmu };
+    let trials = Trials::of(&subject, 30, Duration::MAX, |_, _| {}).expect("runs that can be compared");
+    assert_eq!(trials.trials.len(), TRIED.len());
+    let mut seen = 0;
+    for trial in &trials.trials {
+        let timing = trial.timing.as_ref().expect("a run without trouble");
+        assert_eq!((trial.failure(), timing.steps.len()), (None, 30));
+        if let Rung::Step(step) = trial.point.rung {
+            seen += 1;
+            for own in &timing.steps {
+                // Four in each step; landings on contacts that open or close, and what the communication point cuts off, add few.
+                let plain = (4.0 * STEP / step).round();
+                let more = 16.0 * own.events + 16.0;
+                assert!((plain..=plain + more).contains(&own.evaluations), "{own:?}");
+            }
+        }
+    }
+    assert_eq!(seen, 3);
+    let errors: Vec<f64> = trials.trials.iter().map(|trial| trial.point.error.expect("an error")).collect();
+    assert!(errors[0] < errors[2] && errors[3] < errors[5], "{errors:?}");
 }

@@ -3,7 +3,9 @@
 //! A step is timed by the clock on the wall, which other programs on the machine lengthen, and by this thread's use of
 //! the processor, which they hardly do: a step that is long by the first and not by the second was interrupted.
 
-use crate::host::{Fmu, Log, Selection};
+pub mod deadline;
+
+use crate::host::{Fmu, Log, Selection, Setting};
 use crate::inputs;
 use crate::run::{ANGLE, Experiment, Runner, Until};
 use anyhow::{Context, Result};
@@ -52,14 +54,21 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Takes `count` steps of the packaged scene, or as many as `budget` allows; `tick` hears of every one,
-    /// how many there are.
+    /// Takes `count` steps of the packaged scene with these settings, or as many as `budget` allows; `tick` hears of
+    /// every one, how many there are.
     ///
     /// # Errors
-    /// If the FMU refuses a step.
-    pub fn of(file: &SceneFile, fmu: &Fmu, count: usize, budget: Duration, tick: impl Fn(usize)) -> Result<Self> {
+    /// If the FMU refuses a setting or a step.
+    pub fn of(
+        file: &SceneFile,
+        fmu: &Fmu,
+        settings: Vec<Setting>,
+        count: usize,
+        budget: Duration,
+        tick: impl Fn(usize),
+    ) -> Result<Self> {
         let experiment = Experiment {
-            settings: vec![],
+            settings,
             inputs: inputs::of_scene(&file.inputs),
             start: 0.0,
             until: Until::Time(f64::MAX),

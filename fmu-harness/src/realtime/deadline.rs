@@ -1,0 +1,96 @@
+//! Settings for a loop that waits for every step: what each takes at worst, and the error that it makes.
+//!
+//! A method with error control spends its evaluations where the motion asks for them, and so most of them in few
+//! communication steps. One with a fixed step spends the same in each, whatever happens, and a few for every contact that
+//! opens or closes.
+
+use super::{STEP, Timing};
+use crate::precision::Subject;
+use crate::precision::diagram::{Point, Verdict};
+use crate::precision::ladder::{Rung, settings};
+use crate::precision::reference::Reference;
+use crate::precision::ruler::Ruler;
+use anyhow::Result;
+use slidercrank::scene::Method;
+use std::time::Duration;
+
+/// What is tried.
+pub const TRIED: [(Method, Rung); 6] = [
+    (Method::Automatic, Rung::Tolerance(1e-6)),
+    (Method::Automatic, Rung::Tolerance(1e-4)),
+    (Method::Automatic, Rung::Tolerance(1e-3)),
+    (Method::Rk4, Rung::Step(1e-6)),
+    (Method::Rk4, Rung::Step(2e-6)),
+    (Method::Rk4, Rung::Step(5e-6)),
+];
+/// Share of a step that a loop can spare for the mechanism.
+pub const SHARE: f64 = 0.5;
+/// A setting with a larger error has lost the motion within the window.
+const LOST: f64 = 0.1;
+/// Of the reference's two runs, and of a run over its window.
+const BUDGET: Duration = Duration::from_secs(8);
+
+/// One setting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// Its error in the window, and what became of that run.
+    pub point: Point,
+    /// Its communication steps, or why they ended before their time.
+    pub timing: Result<Timing, String>,
+}
+
+impl Trial {
+    /// Why it fails, in the window or in a later step.
+    pub fn failure(&self) -> Option<&str> {
+        match &self.point.verdict {
+            Verdict::Failed(why) => Some(why),
+            _ => self.timing.as_ref().err().map(String::as_str),
+        }
+    }
+
+    /// What a step may take at most, as a share of it.
+    pub fn share(&self) -> Option<f64> {
+        Some(self.timing.as_ref().ok()?.bound() / STEP)
+    }
+}
+
+/// All settings of one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trials {
+    /// The scene.
+    pub scene: String,
+    /// [s] The window in which errors are taken, or why there is no reference.
+    pub window: Result<f64, String>,
+    /// In the order of [`TRIED`].
+    pub trials: Vec<Trial>,
+}
+
+impl Trials {
+    /// Takes `count` steps with every setting, or as many as `budget` allows; `tick` hears of every setting.
+    ///
+    /// # Errors
+    /// If a run cannot be compared with the reference.
+    pub fn of(subject: &Subject, count: usize, budget: Duration, tick: impl Fn(Method, Rung)) -> Result<Self> {
+        let ruler = Ruler::of(&subject.file.scene);
+        let reference = Reference::of(subject, &ruler, BUDGET).map_err(|error| format!("{error:#}"));
+        let mut trials = Vec::new();
+        for (method, rung) in TRIED {
+            tick(method, rung);
+            let point = match &reference {
+                Ok(reference) => Point::in_window(subject, &ruler, reference, method, rung, BUDGET)?,
+                Err(why) => Point::stopped(method, rung, why),
+            };
+            let timing = Timing::of(subject.file, subject.fmu, settings(method, rung), count, budget, |_| {});
+            trials.push(Trial { point, timing: timing.map_err(|error| format!("{error:#}")) });
+        }
+        let window = reference.map(|reference| reference.window);
+        Ok(Self { scene: subject.file.name.clone(), window, trials })
+    }
+
+    /// The most accurate setting of those that leave a loop its part of every step and do not lose the motion.
+    pub fn choice(&self) -> Option<&Trial> {
+        let in_time = |trial: &&Trial| trial.failure().is_none() && trial.share().is_some_and(|share| share <= SHARE);
+        let known = self.trials.iter().filter(in_time).filter_map(|trial| Some((trial, trial.point.error?)));
+        known.filter(|(_, error)| *error <= LOST).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(trial, _)| trial)
+    }
+}
