@@ -51,13 +51,12 @@ impl Effort {
 
 /// However long an advance is, its length adds no more evaluations than this.
 const MOST: f64 = 1e11;
-const SAFETY: f64 = 0.9; // Hairer, Nørsett, Wanner I, II.4
+const SAFETY: f64 = 0.95; // for this and MEMORY see `growth`
 /// [s] A first step of a motion without rates.
 const FIRST_STEP: f64 = 1e-4;
 const LEAST_FACTOR: f64 = 0.2;
 const GREATEST_FACTOR: f64 = 5.0;
-/// Share of the last error in the choice of the next step; Hairer, Wanner II, IV.2.
-const MEMORY: f64 = 0.04;
+const MEMORY: f64 = 0.025;
 /// Rates of early stages are of low order: only this many times a tolerable error is suspicious.
 const UNSEEN: f64 = 1e3;
 /// States and rates from here on count as lost.
@@ -98,7 +97,10 @@ pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt
     (0..Extent::of(problem).weighed).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
 }
 
-/// By how much the next step is longer after an accepted one, whose error falls with this `power` of the step.
+/// By how much the next step is longer after an accepted one, whose error falls with this `power` of the step: the
+/// controller of K. Gustafsson as in Hairer, Wanner II, IV.2 (2.43c), where 0.9 and 0.04 are usual. Contacts shorten steps
+/// all the time. One that comes back to its length soon, at the price of more failures, needs fewer evaluations for the
+/// same error, 4 to 9 % of them with `verner7`.
 pub fn growth(error: f64, last_error: f64, power: f64) -> f64 {
     let error = error.max(1e-10);
     let exponent = 1.0 / power - 0.75 * MEMORY;

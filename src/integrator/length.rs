@@ -8,8 +8,10 @@ use super::method::Method;
 use super::problem::Problem;
 use super::step::Integrator;
 
+/// This share of the tolerance is for one step: the errors of many add up. Those in stiff motion fade.
+const SHARE: f64 = 0.4;
 /// The flight after an impact, and every impact after that, make its errors larger than those of a contact that stays:
-/// only this share of the tolerance is for them.
+/// only this share of what else is tolerable is for them.
 const IMPACT_SHARE: f64 = 0.1;
 /// Most times that one step is cut short at a kink.
 const CUTS: usize = 6;
@@ -40,8 +42,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         P: Problem<N, Modes = D> + ?Sized,
     {
         let time = self.memory.start.t;
-        let share = if time < self.memory.start.impact_end { IMPACT_SHARE } else { 1.0 };
-        let tolerance = share * self.settings.tolerance;
+        let share = if self.memory.stiff { 1.0 } else { SHARE };
+        let of_impact = if time < self.memory.start.impact_end { IMPACT_SHARE } else { 1.0 };
+        let tolerance = of_impact * share * self.settings.tolerance;
         let (mut first, mut cuts, mut cut) = (None, 0, false);
         let creeping = self.memory.cuts >= CREEPING;
         let (mut failed, mut failures) = (None, 0);
