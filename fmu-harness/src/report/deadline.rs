@@ -9,6 +9,7 @@ use crate::precision::ladder::told;
 use crate::realtime::deadline::{SHARE, TRIED, Trial, Trials};
 use crate::realtime::{STEP, Timing};
 use anyhow::Result;
+use slidercrank::scene::Method;
 use std::path::Path;
 
 /// What a step of 1 ms takes at most, and the error, with every setting; and the setting to choose.
@@ -76,14 +77,26 @@ pub fn sentence(scene: &Trials) -> String {
 
 /// What a step takes at most against the error.
 pub fn sheet(scenes: &[Trials]) -> Sheet<LogLog> {
-    let place = |trial: &Trial| Some((trial.point.error?.max(f64::EPSILON), trial.share()?));
+    // An exact run has no place on a logarithmic scale.
+    let place = |trial: &&Trial| Some((trial.point.error.filter(|error| *error > 0.0)?, trial.share()?));
     let fails = |trial: &&Trial| trial.failure().is_some();
-    let series = scenes.iter().enumerate().map(|(number, scene)| Series {
-        role: Role::Member(number),
-        points: scene.trials.iter().filter(|trial| !fails(trial)).filter_map(place).collect(),
-        dots: true,
-        odd: scene.trials.iter().filter(fails).map(|trial| (Mark::Failed, trial.share())).collect(),
-    });
+    // Methods with error control and with fixed steps are curves of their own.
+    let curve = |number: usize, scene: &Trials, method: Method| {
+        let (odd, even): (Vec<&Trial>, Vec<&Trial>) =
+            scene.trials.iter().filter(|trial| trial.point.method == method).partition(fails);
+        Series {
+            role: Role::Member(number),
+            points: even.iter().filter_map(place).collect(),
+            dots: true,
+            odd: odd.iter().map(|trial| (Mark::Failed, trial.share())).collect(),
+        }
+    };
+    let mut methods = TRIED.map(|(method, _)| method).to_vec();
+    methods.dedup();
+    let curves = |(number, scene): (usize, &Trials)| -> Vec<Series> {
+        methods.iter().map(|method| curve(number, scene, *method)).collect()
+    };
+    let series = scenes.iter().enumerate().flat_map(curves);
     let choices: Vec<String> =
         scenes.iter().map(|scene| format!("{} {}", scene.scene, scene.choice().map_or("none".into(), name))).collect();
     let panel = LogLog {
@@ -153,7 +166,6 @@ mod tests {
     use crate::precision::diagram::{Point, Verdict};
     use crate::precision::ladder::Rung;
     use crate::realtime::Step;
-    use slidercrank::scene::Method;
 
     /// Steps of 1 µs an evaluation, the second with `most` of them.
     fn trial(method: Method, rung: Rung, error: f64, most: f64) -> Trial {
