@@ -98,9 +98,9 @@ pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt
 }
 
 /// By how much the next step is longer after an accepted one, whose error falls with this `power` of the step: the
-/// controller of K. Gustafsson as in Hairer, Wanner II, IV.2 (2.43c), where 0.9 and 0.04 are usual. Contacts shorten steps
-/// all the time. One that comes back to its length soon, at the price of more failures, needs fewer evaluations for the
-/// same error, 4 to 9 % of them with `verner7`.
+/// controller of K. Gustafsson as in Hairer, Wanner II, IV.2, where 0.9 and 0.04 are usual. Contacts shorten steps all the
+/// time. One that comes back to its length soon, at the price of more failures, needs fewer evaluations for the same
+/// error, up to a tenth of them with `verner7`.
 pub fn growth(error: f64, last_error: f64, power: f64) -> f64 {
     let error = error.max(1e-10);
     let exponent = 1.0 / power - 0.75 * MEMORY;
