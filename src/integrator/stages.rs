@@ -3,6 +3,7 @@
 use super::memory::Front;
 use super::problem::{Extent, Problem};
 use super::tableau::{Explicit, STAGES, Tableau};
+use crate::math::Fused;
 
 /// Up to so many states, what one stage hands on to the next stays in registers, or in places of its own. In an array it
 /// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
@@ -152,12 +153,12 @@ fn combine<const N: usize>(
         let mut slope = 0.0;
         for (weight, k) in weights.iter().zip(&k[..last]) {
             if *weight != 0.0 {
-                slope += weight * k[i];
+                slope = weight.times_plus(k[i], slope);
             }
         }
         let mut change = h * slope;
         if weights[last] != 0.0 {
-            change += weight_of_last * k[last][i];
+            change = weight_of_last.times_plus(k[last][i], change);
         }
         sum[i] = y[i] + change;
     }
@@ -184,14 +185,14 @@ pub(super) fn in_registers<const N: usize, P: Problem<N> + ?Sized>(
         let mut slope = [0.0; N];
         for (weight, k) in weights.iter().zip(k.iter()).take(i - 1) {
             for (slope, rate) in slope.iter_mut().zip(k).take(states) {
-                *slope += weight * rate;
+                *slope = weight.times_plus(*rate, *slope);
             }
         }
         // The last rates are added last, as in `combine`.
         let weight_of_last = h * weights[i - 1];
         let mut at = *y;
         for m in 0..states {
-            at[m] += h * slope[m] + weight_of_last * last[m];
+            at[m] += weight_of_last.times_plus(last[m], h * slope[m]);
         }
         problem.rates(modes, t + tableau.c[i] * h, &at, &mut last);
         k[i] = last;

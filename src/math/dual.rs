@@ -1,7 +1,7 @@
 //! Forward differentiation: numbers that carry their derivatives along (A. Griewank, A. Walther,
 //! Evaluating Derivatives, 2nd ed. 2008, 3.1: tangents, several at a time).
 
-use super::{Real, Vec2};
+use super::{Fused, Real, Vec2};
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -94,6 +94,21 @@ impl<const D: usize> Mul for Dual<D> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.joined(other, self.value * other.value, other.value, self.value)
+    }
+}
+
+impl<const D: usize> Fused for Dual<D> {
+    #[inline(always)]
+    fn times_plus(self, factor: Self, term: Self) -> Self {
+        let product = self.joined(factor, 0.0, factor.value, self.value);
+        Self { value: self.value.times_plus(factor.value, term.value), ..product + term }
+    }
+}
+
+impl<const D: usize> Fused<f64> for Dual<D> {
+    #[inline(always)]
+    fn times_plus(self, factor: f64, term: Self) -> Self {
+        Self { value: self.value.times_plus(factor, term.value), ..self * factor + term }
     }
 }
 

@@ -1,4 +1,5 @@
-//! Numbers, vectors and the elementary functions, in one place: the same bits on every platform.
+//! Numbers, vectors and the elementary functions, in one place: the same bits on every platform, but for what [`Fused`]
+//! tells of processors that multiply and add in one instruction.
 //!
 //! `f64`'s own come from the platform's C library, whose last digits differ. Square roots are exact
 //! by IEEE 754 everywhere and stay `f64::sqrt`.
@@ -11,7 +12,7 @@ mod vec2;
 
 pub use dual::Dual;
 pub(crate) use each::each;
-pub use real::Real;
+pub use real::{Fused, Real};
 pub use vec2::Vec2;
 
 /// (sin x, cos x).

@@ -4,6 +4,23 @@ use super::{Vec2, sin_cos};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+/// a·b + c.
+///
+/// Compiled for processors that do it in one instruction it rounds once, and otherwise the product, too: then it has the
+/// bits of `a * b + c`. Only what takes time is written so. It is called by name, and not left to the compiler to find:
+/// the same expression has the same bits wherever it stands.
+pub trait Fused<F = Self>: Sized {
+    /// `self`·`factor` + `term`.
+    fn times_plus(self, factor: F, term: Self) -> Self;
+}
+
+impl Fused for f64 {
+    #[inline(always)]
+    fn times_plus(self, factor: f64, term: f64) -> f64 {
+        if cfg!(target_feature = "fma") { self.mul_add(factor, term) } else { self * factor + term }
+    }
+}
+
 /// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along.
 ///
 /// Code that is generic over it computes with `f64` what code for `f64` would. Parameters stay `f64`
@@ -26,6 +43,8 @@ pub trait Real:
     + Mul<Vec2<Self>, Output = Vec2<Self>>
     + Div<Output = Self>
     + Div<f64, Output = Self>
+    + Fused
+    + Fused<f64>
 {
     /// It carries no derivatives; loops that are short may then be written out.
     const PLAIN: bool = false;

@@ -1,6 +1,7 @@
 //! Sine and cosine together, without a branch and without a call: from a table of the circle and short series for the
 //! rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
 
+use super::Fused;
 use std::f64::consts::{PI, TAU};
 
 /// Greatest angle that the reduction below takes: its multiple of [`STEP`] has 27 bits.
@@ -86,14 +87,14 @@ fn one_by_one(x: f64) -> (f64, f64) {
 #[inline(always)]
 fn reduced(x: f64) -> (f64, f64) {
     // x = k·STEP + r, |r| ≤ π/PARTS.
-    let shifted = x * (PARTS as f64 / TAU) + ROUNDER;
+    let shifted = x.times_plus(PARTS as f64 / TAU, ROUNDER);
     let k = shifted - ROUNDER;
     let (sin_k, cos_k) = CIRCLE[shifted.to_bits() as usize % PARTS];
-    let r = (x - k * STEP[0]) - k * STEP[1];
+    let r = k.times_plus(-STEP[1], k.times_plus(-STEP[0], x));
     // sin r and cos r − 1; the first terms left out are below 1e-17.
     const { assert!((PI / PARTS as f64) < 0.0062) };
     let z = r * r;
-    let sin_r = r + r * z * (z * (1.0 / 120.0) - 1.0 / 6.0);
-    let less = z * (z * (1.0 / 24.0 - z * (1.0 / 720.0)) - 0.5);
-    (sin_k + (cos_k * sin_r + sin_k * less), cos_k + (cos_k * less - sin_k * sin_r))
+    let sin_r = (r * z).times_plus(z.times_plus(1.0 / 120.0, -1.0 / 6.0), r);
+    let less = z * z.times_plus(z.times_plus(-1.0 / 720.0, 1.0 / 24.0), -0.5);
+    (sin_k + cos_k.times_plus(sin_r, sin_k * less), cos_k + cos_k.times_plus(less, -(sin_k * sin_r)))
 }

@@ -1,6 +1,6 @@
 //! Vectors of the plane over any [`Real`].
 
-use super::Real;
+use super::{Fused, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A vector of the plane, in inertial axes unless said otherwise.
@@ -33,7 +33,16 @@ impl<R: Real> Vec2<R> {
     /// x·x' + y·y'.
     #[inline(always)]
     pub fn dot(self, other: Self) -> R {
-        self.x * other.x + self.y * other.y
+        self.x.times_plus(other.x, self.y * other.y)
+    }
+
+    /// So many times as long, and `other` added.
+    #[inline(always)]
+    pub fn times_plus<S: Copy>(self, factor: S, other: Self) -> Self
+    where
+        R: Fused<S>,
+    {
+        Self { x: self.x.times_plus(factor, other.x), y: self.y.times_plus(factor, other.y) }
     }
 
     /// x² + y².

@@ -115,7 +115,7 @@ pub fn accelerate<R: Real>(
     let square = turning.speed.map(|speed| speed * speed);
     let mut q = loads.couples();
     let mut result = Accelerations::default();
-    let fall = Vec2::new(0.0, -gravity);
+    let fall = Vec2::constant(Vec2::new(0.0, -gravity));
 
     // Generalized forces: each chain handed down from its end to its root.
     let rail_rod = c && t;
@@ -140,11 +140,11 @@ pub fn accelerate<R: Real>(
             if c {
                 q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
             }
-            result.roots.rod = total * chains.per_mass[ROD] + fall;
+            result.roots.rod = total.times_plus(chains.per_mass[ROD], fall);
         }
         if !c && !t {
             q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), loads.pin);
-            result.roots.slider = loads.pin * chains.per_mass[SLIDER] + fall;
+            result.roots.slider = loads.pin.times_plus(chains.per_mass[SLIDER], fall);
         }
         let on_crank_pin = if b { on_rod } else { loads.crank_pin };
         if !a || !speed {
@@ -159,7 +159,7 @@ pub fn accelerate<R: Real>(
             if b && c {
                 q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
             }
-            result.roots.crank = total * chains.per_mass[CRANK] + fall;
+            result.roots.crank = total.times_plus(chains.per_mass[CRANK], fall);
         }
     }
     if rail_rod && !b {
@@ -168,7 +168,7 @@ pub fn accelerate<R: Real>(
         if !a {
             let total = loads.crank_pin + loads.crank;
             q[CRANK] += cross(rotation[CRANK].apply(chains.anchor[CRANK]), total);
-            result.roots.crank = total * chains.per_mass[CRANK] + fall;
+            result.roots.crank = total.times_plus(chains.per_mass[CRANK], fall);
         }
     }
 
@@ -179,12 +179,12 @@ pub fn accelerate<R: Real>(
     for pair in 0..3 {
         if linked[pair] {
             let (k, l) = PAIRS[pair];
-            let cos = rotation[k].cos * rotation[l].cos + rotation[k].sin * rotation[l].sin;
-            let sin = rotation[l].sin * rotation[k].cos - rotation[l].cos * rotation[k].sin;
-            m[pair] = cos * chains.cos[pair] + sin * chains.sin[pair];
-            let centrifugal = sin * chains.cos[pair] - cos * chains.sin[pair];
-            early[k] += centrifugal * square[l];
-            early[l] -= centrifugal * square[k];
+            let cos = rotation[k].cos.times_plus(rotation[l].cos, rotation[k].sin * rotation[l].sin);
+            let sin = rotation[l].sin.times_plus(rotation[k].cos, -(rotation[l].cos * rotation[k].sin));
+            m[pair] = cos.times_plus(chains.cos[pair], sin * chains.sin[pair]);
+            let centrifugal = sin.times_plus(chains.cos[pair], -(cos * chains.sin[pair]));
+            early[k] = centrifugal.times_plus(square[l], early[k]);
+            early[l] = (-centrifugal).times_plus(square[k], early[l]);
         }
     }
     let mut d = chains.diagonal.map(R::constant);
@@ -195,7 +195,7 @@ pub fn accelerate<R: Real>(
     for k in 0..3 {
         if rooted[k] {
             first_moment[k] = rotation[k].apply(chains.moment[k]);
-            early[k] -= first_moment[k].x * gravity;
+            early[k] = first_moment[k].x.times_plus(-gravity, early[k]);
         }
         q[k] += early[k];
     }
@@ -204,7 +204,7 @@ pub fn accelerate<R: Real>(
     if t {
         for (k, on) in [(CRANK, rail_crank), (ROD, rail_rod)] {
             if on {
-                along += square[k] * first_moment[k].x;
+                along = square[k].times_plus(first_moment[k].x, along);
             }
         }
     }
@@ -259,8 +259,8 @@ fn solve<R: Real>(topology: Topology, d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R;
 
 #[inline(always)]
 fn solve_two<R: Real>(d: [R; 2], m: R, q: [R; 2]) -> [R; 2] {
-    let per_determinant = (d[0] * d[1] - m * m).recip();
-    [(q[0] * d[1] - m * q[1]) * per_determinant, (q[1] * d[0] - m * q[0]) * per_determinant]
+    let per_determinant = d[0].times_plus(d[1], -(m * m)).recip();
+    [q[0].times_plus(d[1], -(m * q[1])) * per_determinant, q[1].times_plus(d[0], -(m * q[0])) * per_determinant]
 }
 
 /// By L·D·Lᵀ without pivoting: a mass matrix is positive definite.
@@ -269,9 +269,12 @@ fn solve_three<R: Real>(d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R; 3] {
     let [crank_rod, rod_slider, crank_slider] = *m;
     let per_first = d[0].recip();
     let (l1, l2) = (crank_rod * per_first, crank_slider * per_first);
-    let d1 = d[1] - l1 * crank_rod;
-    let off = rod_slider - l1 * crank_slider;
-    let q1 = q[1] - l1 * q[0];
-    let [rod, slider] = solve_two([d1, d[2] - l2 * crank_slider], off, [q1, q[2] - l2 * q[0]]);
-    [(q[0] - crank_rod * rod - crank_slider * slider) * per_first, rod, slider]
+    let (per_rod, per_slider) = (-l1, -l2);
+    let d1 = per_rod.times_plus(crank_rod, d[1]);
+    let off = per_rod.times_plus(crank_slider, rod_slider);
+    let q1 = per_rod.times_plus(q[0], q[1]);
+    let d2 = per_slider.times_plus(crank_slider, d[2]);
+    let [rod, slider] = solve_two([d1, d2], off, [q1, per_slider.times_plus(q[0], q[2])]);
+    let first = (-crank_rod).times_plus(rod, q[0]);
+    [(-crank_slider).times_plus(slider, first) * per_first, rod, slider]
 }

@@ -92,7 +92,7 @@ impl<R: Real> Turn<R> for Acceleration<'_, R> {
     fn arm(&self, k: usize, arm: Vec2) -> Vec2<R> {
         let arm = self.0.rotation[k].apply(arm);
         let speed = self.0.speed[k];
-        self.1[k] * perp(arm) - speed * speed * arm
+        arm.times_plus(-(speed * speed), self.1[k] * perp(arm))
     }
     #[inline(always)]
     fn axis(&self, k: usize, length: f64) -> Vec2<R> {

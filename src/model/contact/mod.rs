@@ -66,7 +66,7 @@ pub struct Undamped;
 impl Damped for Hysteresis {
     #[inline(always)]
     fn factor<R: Real>(parameters: &ContactParameters, rate: R, per_approach: f64) -> R {
-        (rate * per_approach).min(parameters.ratio_limit) * parameters.damping + 1.0
+        (rate * per_approach).min(parameters.ratio_limit).times_plus(parameters.damping, R::ONE)
     }
 }
 

@@ -100,12 +100,12 @@ impl<R: Real, const P: usize> Centre<R, P> {
         let across = perp(arm);
         let mut slope = self.slope;
         each!(R::PLAIN, k < P => {
-            slope[k] += heading.slope[k].times(across);
+            slope[k] = heading.slope[k].times_vector_plus(across, slope[k]);
         });
         Self {
             place: self.place + arm,
-            velocity: self.velocity + heading.speed * across,
-            bias: self.bias + heading.bias * across - heading.speed * heading.speed * arm,
+            velocity: across.times_plus(heading.speed, self.velocity),
+            bias: arm.times_plus(-(heading.speed * heading.speed), across.times_plus(heading.bias, self.bias)),
             slope,
         }
     }

@@ -5,7 +5,7 @@
 
 use super::configuration::{Centre, Configuration, Heading};
 use super::sparse::Sparse;
-use crate::math::{Real, each};
+use crate::math::{Fused, Real, each};
 use crate::model::dynamics::Loads;
 use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Vec2, cross, perp};
@@ -35,7 +35,7 @@ impl<R: Real, const P: usize> Places<R, P> {
     #[inline(always)]
     fn twist(&mut self, heading: &Heading<R, P>, couple: R) {
         each!(R::PLAIN, k < P => {
-            self.right[k] += heading.slope[k] * couple;
+            self.right[k] = heading.slope[k].times_plus(couple, self.right[k]);
         });
     }
 
@@ -50,7 +50,7 @@ impl<R: Real, const P: usize> Places<R, P> {
         heading: &Heading<R, P>,
     ) {
         each!(R::PLAIN, j < i + 1 => {
-            self.matrix[i][j] += push.with(centre.slope[j]) + twist * heading.slope[j];
+            self.matrix[i][j] += twist.times_plus(heading.slope[j], push.with(centre.slope[j]));
         });
     }
 
@@ -119,7 +119,7 @@ impl<R: Real, const S: usize> Equations<R, S> {
         let m = beam.mass();
         each!(R::PLAIN, i < P => {
             let (slope, turn) = (big_end.slope[i], heading.slope[i]);
-            let twist = slope.with(lever) + turn * inertia.about_origin;
+            let twist = turn.times_plus(inertia.about_origin, slope.with(lever));
             places.add_row(i, slope.scaled(m) + turn.times(lever), twist, big_end, heading);
         });
         // Right side: loads less what the biases ask for.
@@ -142,18 +142,20 @@ impl<R: Real, const S: usize> Equations<R, S> {
         let mut by_chord = [Sparse::Zero; K];
         each!(const { R::PLAIN && K <= FEW_MODES }, a < n => {
             let (slope, turning) = (heading.rotation.apply(inertia.first_slope[a]), inertia.turning[a]);
-            let with = |i: usize| big_end.slope[i].with(slope) + heading.slope[i] * turning;
+            let with = |i: usize| heading.slope[i].times_plus(turning, big_end.slope[i].with(slope));
             let chord = shape.chord_slope[a];
             each!(R::PLAIN, i < rigid => {
-                all.matrix[i][rigid + a] = (with(i) + of_chord[i] * chord).value();
+                all.matrix[i][rigid + a] = of_chord[i].times_plus(chord, with(i)).value();
             });
             by_chord[a] = with(rigid);
             each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1 => {
                 let other = shape.chord_slope[b];
-                let shifted = of_chord[rigid] * (chord * other) + by_chord[b] * chord + by_chord[a] * other;
+                let shifted = of_chord[rigid] * (chord * other);
+                let shifted = by_chord[a].times_plus(other, by_chord[b].times_plus(chord, shifted));
                 all.matrix[rigid + b][rigid + a] = shifted.added_to(inertia.modal[a][b]);
             });
-            let force = modal_force[a] - slope.dot(bias) - turning * heading.bias - inertia.modal_force[a];
+            let force = (-turning).times_plus(heading.bias, modal_force[a] - slope.dot(bias));
+            let force = force - inertia.modal_force[a];
             all.right[rigid + a] = (places.right[rigid] * chord).added_to(force);
         });
         all

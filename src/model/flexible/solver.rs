@@ -48,14 +48,14 @@ impl<R: Real, const S: usize> Equations<R, S> {
         let Self { matrix, right, .. } = self;
         let (one, two, x) = (matrix[k], matrix[k + 1], [right[k], right[k + 1]]);
         let (a, b, d) = (one[k], one[k + 1], two[k + 1]);
-        let per = (a * d - b * b).recip();
+        let per = a.times_plus(d, -(b * b)).recip();
         for i in k + 2..size {
             // What the division is not needed for comes first.
-            let (p, q) = (d * one[i] - b * two[i], a * two[i] - b * one[i]);
+            let (p, q) = (d.times_plus(one[i], -(b * two[i])), a.times_plus(two[i], -(b * one[i])));
             for j in i..size {
-                matrix[i][j] -= (p * one[j] + q * two[j]) * per;
+                matrix[i][j] = p.times_plus(one[j], q * two[j]).times_plus(-per, matrix[i][j]);
             }
-            right[i] -= (p * x[0] + q * x[1]) * per;
+            right[i] = p.times_plus(x[0], q * x[1]).times_plus(-per, right[i]);
         }
         per
     }
@@ -76,11 +76,11 @@ impl<R: Real, const S: usize> Equations<R, S> {
         let (a, b, d) = (one[k], one[k + 1], two[k + 1]);
         let [mut first, mut second] = [right[k], right[k + 1]];
         for j in (k + 2..size).rev() {
-            first -= one[j] * right[j];
-            second -= two[j] * right[j];
+            first = (-one[j]).times_plus(right[j], first);
+            second = (-two[j]).times_plus(right[j], second);
         }
-        right[k] = (d * first - b * second) * per;
-        right[k + 1] = (a * second - b * first) * per;
+        right[k] = d.times_plus(first, -(b * second)) * per;
+        right[k + 1] = a.times_plus(second, -(b * first)) * per;
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Where the frame is a constant, so is which numbers those are, and nothing of them is compiled.
 
-use crate::math::{Real, Vec2};
+use crate::math::{Fused, Real, Vec2};
 use std::ops::{Add, AddAssign, Mul};
 
 /// A number that may be known to be zero.
@@ -52,6 +52,12 @@ impl<R: Real> Sparse<R> {
     pub fn times(self, v: Vec2<R>) -> Vec2<Self> {
         Vec2::new(self * v.x, self * v.y)
     }
+
+    /// The same, and `other` added.
+    #[inline(always)]
+    pub fn times_vector_plus(self, v: Vec2<R>, other: Vec2<Self>) -> Vec2<Self> {
+        Vec2::new(self.times_plus(v.x, other.x), self.times_plus(v.y, other.y))
+    }
 }
 
 impl<R: Real> Vec2<Sparse<R>> {
@@ -68,9 +74,9 @@ impl<R: Real> Vec2<Sparse<R>> {
     #[inline(always)]
     pub fn with<S>(self, other: Vec2<S>) -> Sparse<R>
     where
-        Sparse<R>: Mul<S, Output = Sparse<R>>,
+        Sparse<R>: Mul<S, Output = Sparse<R>> + Fused<S>,
     {
-        self.x * other.x + self.y * other.y
+        self.x.times_plus(other.x, self.y * other.y)
     }
 }
 
@@ -102,6 +108,27 @@ impl<R: Real> Mul<R> for Sparse<R> {
     #[inline(always)]
     fn mul(self, other: R) -> Self {
         self.map(|value| value * other)
+    }
+}
+
+impl<R: Real> Fused for Sparse<R> {
+    #[inline(always)]
+    fn times_plus(self, factor: Self, term: Self) -> Self {
+        match factor {
+            Zero => term,
+            Is(factor) => self.times_plus(factor, term),
+        }
+    }
+}
+
+impl<R: Real> Fused<R> for Sparse<R> {
+    #[inline(always)]
+    fn times_plus(self, factor: R, term: Self) -> Self {
+        match (self, term) {
+            (Is(value), Is(term)) => Is(value.times_plus(factor, term)),
+            (Is(value), Zero) => Is(value * factor),
+            (Zero, term) => term,
+        }
     }
 }
 

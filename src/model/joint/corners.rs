@@ -3,7 +3,7 @@
 use super::guide::{CORNERS, Guide, SliderPose, Surface};
 use super::revolute::guard;
 use crate::integrator::Guard;
-use crate::math::{self, Real};
+use crate::math::{self, Fused, Real};
 use crate::model::contact::{ContactMode, ContactParameters};
 use crate::model::plane::Vec2;
 use std::ops::Mul;
@@ -42,14 +42,18 @@ impl Mark {
 
     /// The contact of the point at another `offset` [m] with the same line.
     #[inline(always)]
-    pub fn touch_at<R: Real + Mul<S, Output = R>, S: Copy>(&self, offset: Vec2<S>, pose: &SliderPose<R>) -> Touch<R> {
+    pub fn touch_at<R: Real + Mul<S, Output = R> + Fused<S>, S: Copy>(
+        &self,
+        offset: Vec2<S>,
+        pose: &SliderPose<R>,
+    ) -> Touch<R> {
         let arm = pose.rotation.apply(offset);
         Touch {
             arm,
             normal: self.normal,
             depth: (-(pose.pin.y + arm.y) + self.line) * self.normal,
-            rate: (pose.pin_velocity.y + pose.speed * arm.x) * -self.normal,
-            sliding: pose.pin_velocity.x - pose.speed * arm.y,
+            rate: pose.speed.times_plus(arm.x, pose.pin_velocity.y) * -self.normal,
+            sliding: (-pose.speed).times_plus(arm.y, pose.pin_velocity.x),
         }
     }
 }

@@ -177,7 +177,8 @@ impl Revolute {
     /// [m/s] v_t at the contact point, ε from the bearing's centre along the normal of tangent `t`.
     #[inline(always)]
     pub(super) fn sliding<R: Real>(&self, play: &Play<R>, epsilon: R, t: Vec2<R>) -> R {
-        play.rate.dot(t) + (-epsilon + self.radius) * play.journal_speed - play.bearing_speed * self.radius
+        let journal = (-epsilon + self.radius).times_plus(play.journal_speed, play.rate.dot(t));
+        (-play.bearing_speed).times_plus(self.radius, journal)
     }
 
     /// Energy and losses of the closed contact with its bristles deflected by `z` [m].
@@ -205,7 +206,7 @@ impl Revolute {
                 let Vec2 { x: normal, y: tangential } =
                     force(&self.contact, mode.per_approach, depth, rate, sliding, z, &mut bristle_rate);
                 Load {
-                    force: -normal * n - tangential * t,
+                    force: n.times_plus(-normal, -tangential * t),
                     journal_couple: (epsilon - self.radius) * tangential,
                     bearing_couple: tangential * self.radius,
                     bristle_rate,

@@ -52,7 +52,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             each!(FEW, row < rows.end => {
                 if row >= rows.start {
                     for (sum, &number) in sum.iter_mut().zip(&table[row][lanes.clone()]) {
-                        *sum += factors[row] * number;
+                        *sum = factors[row].times_plus(number, *sum);
                     }
                 }
             });
@@ -85,7 +85,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         let mut twist = none;
         each!(FEW, i < shortening => {
             each!(FEW, j < i => {
-                twist[i * (i - 1) / 2 + j] = q[j] * dq[i] - q[i] * dq[j];
+                twist[i * (i - 1) / 2 + j] = q[j].times_plus(dq[i], -(q[i] * dq[j]));
             });
         });
         let twists = counts.pairs() - shortening;
@@ -109,27 +109,27 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         let mut first_rate = Vec2::new(moving[n], R::ZERO);
         let mut spreading = R::ZERO;
         for k in 0..functions {
-            inertia.about_origin += xi[k] * spread[k];
-            spreading += xi_rate[k] * spread[k];
+            inertia.about_origin = xi[k].times_plus(spread[k], inertia.about_origin);
+            spreading = xi_rate[k].times_plus(spread[k], spreading);
             // What the accelerations of x at q̈ = 0 ask of each function.
-            asked[k] -= square * spread[k];
+            asked[k] = (-square).times_plus(spread[k], asked[k]);
         }
         for i in 0..n {
             let (m, moment) = (self.modal_mass[i], self.moment[i]);
             let weighted = q[i] * m;
-            inertia.first.y += q[i] * moment;
-            first_rate.y += dq[i] * moment;
-            inertia.about_origin += weighted * q[i];
-            spreading += weighted * dq[i];
-            inertia.couple -= q[i] * bias[i];
+            inertia.first.y = q[i].times_plus(moment, inertia.first.y);
+            first_rate.y = dq[i].times_plus(moment, first_rate.y);
+            inertia.about_origin = weighted.times_plus(q[i], inertia.about_origin);
+            spreading = weighted.times_plus(dq[i], spreading);
+            inertia.couple = (-q[i]).times_plus(bias[i], inertia.couple);
             inertia.first_slope[i] = Vec2::new(first_slope[i], R::constant(moment));
             inertia.turning[i] = place[i];
-            inertia.modal_force[i] = twice * moving[i] - square * weighted;
+            inertia.modal_force[i] = twice.times_plus(moving[i], -(square * weighted));
             inertia.modal[i][i] = R::constant(m);
         }
         each!(FEW, i < shortening => {
             each!(FEW, k < n => {
-                inertia.modal_force[i] += q[k] * -2.0 * asked[counts.pair(i, k)];
+                inertia.modal_force[i] = (q[k] * -2.0).times_plus(asked[counts.pair(i, k)], inertia.modal_force[i]);
             });
             each!(FEW, j < i + 1 => {
                 inertia.modal[i][j] += products[counts.pair(i, j) - 1 - axial];
@@ -141,12 +141,13 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             inertia.first_slope[a] = Vec2::constant(Vec2::new(with_modes[n], 0.0));
             inertia.modal_force[a] = asked[function];
             for i in 0..n {
-                inertia.turning[a] -= q[i] * with_modes[i];
-                inertia.modal_force[a] -= twice * with_modes[i] * dq[i];
+                inertia.turning[a] = (-q[i]).times_plus(with_modes[i], inertia.turning[a]);
+                inertia.modal_force[a] = (-(twice * with_modes[i])).times_plus(dq[i], inertia.modal_force[a]);
             }
             each!(FEW, i < shortening => {
                 each!(FEW, k < n => {
-                    inertia.modal[a][i] += q[k] * -2.0 * self.tables.second[counts.pair(i, k)][function];
+                    let number = self.tables.second[counts.pair(i, k)][function];
+                    inertia.modal[a][i] = (q[k] * -2.0).times_plus(number, inertia.modal[a][i]);
                 });
             });
             for i in 0..=j {

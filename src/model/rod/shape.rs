@@ -61,20 +61,20 @@ impl<const K: usize, const F: usize> Modes<K, F> {
                 let place = counts.pair(i, j);
                 let twice = if i == j { 1.0 } else { 2.0 };
                 xi[place] = eta[i] * -twice * eta[j];
-                xi_rate[place] = (eta[i] * rate[j] + rate[i] * eta[j]) * -twice;
+                xi_rate[place] = eta[i].times_plus(rate[j], rate[i] * eta[j]) * -twice;
                 xi_bias[place] = rate[i] * (-2.0 * twice) * rate[j];
                 let end = self.end[place];
-                chord_slope[i] -= eta[j] * (end * twice);
-                chord_slope[j] -= eta[i] * (end * twice);
-                chord.stretch += xi[place] * end;
-                chord.rate += xi_rate[place] * end;
-                chord.bias += xi_bias[place] * end;
+                chord_slope[i] = eta[j].times_plus(-(end * twice), chord_slope[i]);
+                chord_slope[j] = eta[i].times_plus(-(end * twice), chord_slope[j]);
+                chord.stretch = xi[place].times_plus(end, chord.stretch);
+                chord.rate = xi_rate[place].times_plus(end, chord.rate);
+                chord.bias = xi_bias[place].times_plus(end, chord.bias);
             });
         });
         chord.length = chord.stretch + self.length;
         for i in 0..bending {
             for (end, slope) in slope_rate.iter_mut().zip(&self.slope) {
-                *end += rate[i] * slope[i];
+                *end = rate[i].times_plus(slope[i], *end);
             }
         }
         shape
