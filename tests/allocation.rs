@@ -3,7 +3,7 @@
 #![allow(unsafe_code, reason = "a counting allocator, and calls of the C functions")]
 
 use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::exports::{co_simulation::*, variables::*, *};
+use slidercrank::fmi::abi::functions::{co_simulation::*, variables::*, *};
 use slidercrank::fmi::abi::types::*;
 use slidercrank::fmi::variables::{Access, VARIABLES};
 use slidercrank::scene::slot;

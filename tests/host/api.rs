@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "the names are the standard's")]
 
 use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::exports::{self, co_simulation, model_exchange, states, variables};
+use slidercrank::fmi::abi::functions::{self, co_simulation, model_exchange, states, variables};
 use slidercrank::fmi::abi::types::*;
 use std::ffi::c_char;
 
@@ -13,16 +13,16 @@ pub type S = fmi2FMUstate;
 macro_rules! functions {
     ($of:ident) => {
         $of! {
-            GetTypesPlatform = exports::fmi2GetTypesPlatform: fn() -> fmi2String;
-            GetVersion = exports::fmi2GetVersion: fn() -> fmi2String;
-            SetDebugLogging = exports::fmi2SetDebugLogging: fn(C, fmi2Boolean, usize, *const fmi2String) -> Status;
-            Instantiate = exports::fmi2Instantiate: fn(fmi2String, fmi2Type, fmi2String, fmi2String, *const fmi2CallbackFunctions, fmi2Boolean, fmi2Boolean) -> C;
-            FreeInstance = exports::fmi2FreeInstance: fn(C) -> ();
-            SetupExperiment = exports::fmi2SetupExperiment: fn(C, fmi2Boolean, f64, f64, fmi2Boolean, f64) -> Status;
-            EnterInitializationMode = exports::fmi2EnterInitializationMode: fn(C) -> Status;
-            ExitInitializationMode = exports::fmi2ExitInitializationMode: fn(C) -> Status;
-            Terminate = exports::fmi2Terminate: fn(C) -> Status;
-            Reset = exports::fmi2Reset: fn(C) -> Status;
+            GetTypesPlatform = functions::fmi2GetTypesPlatform: fn() -> fmi2String;
+            GetVersion = functions::fmi2GetVersion: fn() -> fmi2String;
+            SetDebugLogging = functions::fmi2SetDebugLogging: fn(C, fmi2Boolean, usize, *const fmi2String) -> Status;
+            Instantiate = functions::fmi2Instantiate: fn(fmi2String, fmi2Type, fmi2String, fmi2String, *const fmi2CallbackFunctions, fmi2Boolean, fmi2Boolean) -> C;
+            FreeInstance = functions::fmi2FreeInstance: fn(C) -> ();
+            SetupExperiment = functions::fmi2SetupExperiment: fn(C, fmi2Boolean, f64, f64, fmi2Boolean, f64) -> Status;
+            EnterInitializationMode = functions::fmi2EnterInitializationMode: fn(C) -> Status;
+            ExitInitializationMode = functions::fmi2ExitInitializationMode: fn(C) -> Status;
+            Terminate = functions::fmi2Terminate: fn(C) -> Status;
+            Reset = functions::fmi2Reset: fn(C) -> Status;
             GetReal = variables::fmi2GetReal: fn(C, *const u32, usize, *mut f64) -> Status;
             SetReal = variables::fmi2SetReal: fn(C, *const u32, usize, *const f64) -> Status;
             GetInteger = variables::fmi2GetInteger: fn(C, *const u32, usize, *mut i32) -> Status;

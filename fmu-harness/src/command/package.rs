@@ -1,11 +1,11 @@
 //! `package`: a scene as an FMU.
 
 use super::{out_directory, shown};
-use crate::package;
+use crate::package::{self, Stock};
 use crate::scenes::Scenario;
 use anyhow::Result;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Packages a scene as an FMU.
 #[derive(Args)]
@@ -16,6 +16,9 @@ pub struct Package {
     /// The FMU to write [default: target/out/SCENE.fmu]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Leaves the library for newer processors out: the same bits on every machine, for a seventh more time
+    #[arg(long)]
+    portable: bool,
 }
 
 impl Package {
@@ -23,13 +26,18 @@ impl Package {
     pub fn execute(&self) -> Result<()> {
         let scenario = Scenario::find(&self.scene)?;
         let file = self.output.clone().unwrap_or_else(|| out_directory().join(format!("{}.fmu", scenario.name)));
-        write(&scenario, &file)
+        let stock = Stock::build()?;
+        let stock = if self.portable { stock.portable() } else { stock };
+        save(&stock.package(&scenario)?, &file)
     }
 }
 
 /// Builds, packages, writes, and says what came of it.
-pub fn write(scenario: &Scenario, file: &std::path::Path) -> Result<()> {
-    let package = package::Package::make(scenario)?;
+pub fn write(scenario: &Scenario, file: &Path) -> Result<()> {
+    save(&package::Package::make(scenario)?, file)
+}
+
+fn save(package: &package::Package, file: &Path) -> Result<()> {
     package.save(file)?;
     let needs = package.glibc.as_ref().map(|version| format!(", needs glibc {version} or newer")).unwrap_or_default();
     println!("{} ({} kB{needs})", shown(file), package.bytes.len().div_ceil(1000));

@@ -1,10 +1,11 @@
 //! The FMU's library, built by cargo so that its bytes do not tell where it was built.
 
 use anyhow::{Context, Result, ensure};
+use slidercrank::fmi::abi::newer;
 use std::env;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 
 /// The old Linux that zig links for: CentOS 7's.
 const OLD_LINUX: &str = "x86_64-unknown-linux-gnu";
@@ -23,27 +24,62 @@ pub fn cargo() -> Command {
     command
 }
 
-/// Builds the library in its release form and returns its path. cargo's own words go to standard error.
-pub fn library() -> Result<PathBuf> {
+/// The library in its release form.
+pub struct Libraries {
+    /// For every processor of this platform.
+    pub every: PathBuf,
+    /// For newer ones, where the platform has levels of them; see [`newer`].
+    pub newer: Option<PathBuf>,
+}
+
+/// Builds the libraries, side by side. cargo's own words go to standard error.
+pub fn libraries() -> Result<Libraries> {
     let workspace = workspace();
     let manifest = workspace.join("Cargo.toml");
     ensure!(manifest.is_file(), "the sources are gone: no {}", manifest.display());
-    let target = workspace.join("target").join("library");
     let zig = zig_is_here();
+    let levels = cfg!(all(target_os = "linux", target_arch = "x86_64"));
+    let every = Build::start(&workspace, zig, None)?;
+    let newer = levels.then(|| Build::start(&workspace, zig, Some(newer::LEVEL))).transpose();
+    let every = every.finish();
+    let newer = newer?.map(Build::finish).transpose();
+    Ok(Libraries { every: every?, newer: newer? })
+}
 
-    let mut command = cargo();
-    command.arg(if zig { "zigbuild" } else { "build" });
-    command.args(["--profile", "fmu", "--lib", "--package", "slidercrank", "--target-dir"]).arg(&target);
-    if zig {
-        command.arg("--target").arg(format!("{OLD_LINUX}.{OLD_GLIBC}"));
+/// cargo at work.
+struct Build {
+    cargo: Child,
+    library: PathBuf,
+}
+
+impl Build {
+    /// Starts it, for the processors of a `level` alone if one is told.
+    fn start(workspace: &Path, zig: bool, level: Option<&str>) -> Result<Self> {
+        let suffix = level.map(|level| format!("-{level}")).unwrap_or_default();
+        let target = workspace.join("target").join(format!("library{suffix}"));
+        let triple = if zig { OLD_LINUX } else { env!("TARGET_TRIPLE") };
+        let mut command = cargo();
+        command.arg(if zig { "zigbuild" } else { "build" });
+        command.args(["--profile", "fmu", "--lib", "--package", "slidercrank", "--target-dir"]).arg(&target);
+        // With a target, flags are not for what runs here.
+        command.arg("--target").arg(if zig { format!("{triple}.{OLD_GLIBC}") } else { triple.into() });
+        let mut flags = remapped(workspace);
+        if let Some(level) = level {
+            flags.push(format!("\u{1f}-Ctarget-cpu={level}"));
+        }
+        command.env("CARGO_ENCODED_RUSTFLAGS", flags).env_remove("CARGO_BUILD_TARGET");
+        let cargo = command.stdin(Stdio::null()).spawn().context("cargo cannot be started")?;
+        let (prefix, suffix) = (env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+        let library = target.join(triple).join("fmu").join(format!("{prefix}slidercrank{suffix}"));
+        Ok(Self { cargo, library })
     }
-    command.env("CARGO_ENCODED_RUSTFLAGS", remapped(&workspace)).env_remove("CARGO_BUILD_TARGET");
-    let status = command.stdin(Stdio::null()).status().context("cargo cannot be started")?;
-    ensure!(status.success(), "cargo could not build the FMU's library ({status})");
 
-    let directory = if zig { target.join(OLD_LINUX) } else { target }.join("fmu");
-    let (prefix, suffix) = (env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
-    Ok(directory.join(format!("{prefix}slidercrank{suffix}")))
+    /// Waits for it.
+    fn finish(mut self) -> Result<PathBuf> {
+        let status = self.cargo.wait().context("cargo was lost")?;
+        ensure!(status.success(), "cargo could not build the FMU's library ({status})");
+        Ok(self.library)
+    }
 }
 
 /// Flags that replace this machine's paths in panic messages, separated as cargo wants it.

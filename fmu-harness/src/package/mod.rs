@@ -8,6 +8,8 @@ mod licences;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result, bail};
 use archive::Part;
+use build::Libraries;
+use slidercrank::fmi::abi::newer;
 use slidercrank::fmi::description::documentation;
 use slidercrank::model_description::raw::Experiment;
 use slidercrank::model_description::rows::Declaration;
@@ -37,15 +39,23 @@ pub struct Package {
 /// What packages of all scenes have in common.
 pub struct Stock {
     library: Vec<u8>,
+    newer: Option<Vec<u8>>,
     third_party: String,
 }
 
 impl Stock {
-    /// Builds the library.
+    /// Builds the library, and that for newer processors.
     pub fn build() -> Result<Self> {
-        let path = build::library()?;
-        let library = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
-        Ok(Self { library, third_party: licences::third_party()? })
+        let Libraries { every, newer } = build::libraries()?;
+        let read = |path: &Path| fs::read(path).with_context(|| format!("cannot read {}", path.display()));
+        let newer = newer.as_deref().map(read).transpose()?;
+        Ok(Self { library: read(&every)?, newer, third_party: licences::third_party()? })
+    }
+
+    /// The same for packages that compute the same bits on every processor.
+    #[must_use]
+    pub fn portable(self) -> Self {
+        Self { newer: None, ..self }
     }
 
     /// Packages the library with the scenario's values as start values.
@@ -60,18 +70,25 @@ impl Stock {
         let scene = &scenario.file.scene;
         let declaration = model_description::load().context("the declaration of the variables")?;
         let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
-        let mut library = self.library.clone();
-        slot::write(&mut library, scene)?;
+        let with_scene = |library: &[u8]| -> Result<Vec<u8>> {
+            let mut library = library.to_vec();
+            slot::write(&mut library, scene)?;
+            Ok(library)
+        };
         let identifier = &declaration.model.identifier;
         let mut parts = vec![
             Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
             Part::new("model.png", PICTURE),
-            Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), library),
+            Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), with_scene(&self.library)?),
             Part::new("documentation/index.html", page(scenario)?),
             Part::new("documentation/scene.toml", scenario.text.as_str()),
             Part::new("documentation/licenses/license.txt", licences::own()),
             Part::new("documentation/licenses/third-party.txt", self.third_party.as_str()),
         ];
+        if let Some(library) = &self.newer {
+            let name = format!("binaries/{}/{identifier}.{}{DLL_SUFFIX}", platform()?, newer::LEVEL);
+            parts.insert(3, Part::new(name, with_scene(library)?));
+        }
         if let Some(table) = &scene.rod.flexible.table {
             parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
         }

@@ -1,153 +1,103 @@
-//! `fmi2*`: borrow, call, status. One function of the standard each, and nothing else is exported.
+//! What the library exports: the functions of the standard, and nothing else. Each is that of this library or, where the
+//! processor and the package have better, that of the [`newer`] one, the same for all calls of a process.
 //!
 //! # Safety
-//! Of all of them: a component is NULL or was made by `fmi2Instantiate` and not freed since; a
-//! non-NULL pointer points to as many entries as the standard says, and a string ends in a zero byte.
+//! Of all of them: as of the [`functions`] of the same names.
 #![allow(clippy::missing_safety_doc, reason = "said above, once")]
 
-pub mod co_simulation;
-pub mod model_exchange;
-pub mod states;
-pub mod variables;
-
-use super::super::error::{ArgumentError, Error};
-use super::super::instance::{Instance, Request};
-use super::super::lifecycle::Call;
-use super::super::logger::Logger;
 use super::super::status::Status;
-use super::borrow::{slice, structure, text};
-use super::call::{call, guarded};
-use super::component::{give, take_back};
-use super::host_logger::HostLogger;
+use super::functions::{self, co_simulation, model_exchange, states, variables};
+use super::newer;
 use super::types::*;
-use std::ffi::CString;
-use std::ptr::null_mut;
+use std::mem::transmute;
+use std::sync::OnceLock;
 
-/// "default": the types are those of the standard's header.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetTypesPlatform() -> fmi2String {
-    c"default".as_ptr()
-}
+/// The functions in use. They are chosen once, when the first of them is called, and never again.
+static FACE: OnceLock<Face> = OnceLock::new();
 
-/// Version of the standard.
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetVersion() -> fmi2String {
-    c"2.0".as_ptr()
-}
-
-/// Makes an instance; NULL, and one line in the log, if that cannot be.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Instantiate(
-    instance_name: fmi2String,
-    fmu_type: fmi2Type,
-    guid: fmi2String,
-    resource_location: fmi2String,
-    functions: *const fmi2CallbackFunctions,
-    _visible: fmi2Boolean,
-    logging_on: fmi2Boolean,
-) -> fmi2Component {
-    // SAFETY: the importer vouches for a non-null structure.
-    let Ok(functions) = (unsafe { structure("functions", functions) }) else {
-        // Not even a logger to complain to.
-        return null_mut();
-    };
-    // SAFETY: the importer vouches for its logger and its strings.
-    let request = unsafe {
-        Request {
-            name: text(instance_name),
-            fmu_type,
-            guid: text(guid),
-            resource_location: text(resource_location),
-            host: HostLogger::new(functions),
-            logging_on: logging_on != FMI2_FALSE,
+/// Declares a table of functions, that of this library, and exports that call the one in use.
+macro_rules! face {
+    ($($module:ident::$name:ident($($argument:ident: $type:ty),*) -> $result:ty;)+) => {
+        /// All functions of the standard by their names.
+        #[allow(non_snake_case, reason = "the names are the standard's")]
+        struct Face {
+            $($name: unsafe extern "C" fn($($type),*) -> $result,)+
         }
-    };
-    guarded(|| instantiate(&request)).unwrap_or(null_mut())
-}
 
-fn instantiate(request: &Request<'_>) -> fmi2Component {
-    let outcome = guarded(|| Instance::instantiate(request)).unwrap_or_else(|fault| Err(Error::Panic(fault)));
-    match outcome {
-        Ok(instance) => give(instance),
-        Err(error) => {
-            // Nobody is left to ask why, so this is said whether logging is on or not.
-            let name = request.name.map(CString::from).unwrap_or_default();
-            Logger::new(request.host, name, true).say(error.status(), Call::Instantiate, &error);
-            null_mut()
+        impl Face {
+            /// Of this library.
+            const OWN: Self = Self { $($name: $module::$name,)+ };
+
+            /// Of another build of it, if it has them all.
+            fn of(library: &newer::Library) -> Option<Self> {
+                Some(Self {
+                    $($name: {
+                        let found = library.find(stringify!($name))?;
+                        // SAFETY: built from the same sources, it has a function of this type under this name.
+                        unsafe { transmute::<*const (), unsafe extern "C" fn($($type),*) -> $result>(found) }
+                    },)+
+                })
+            }
         }
-    }
-}
 
-/// Frees an instance with all that belongs to it; NULL is allowed.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
-    // SAFETY: the importer vouches for `c` and gives it up.
-    let instance = unsafe { take_back(c) };
-    // What a panic in a destructor leaves behind is a leak at worst.
-    let _ = guarded(|| drop(instance));
-}
-
-/// Chooses the log categories that the importer hears.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetDebugLogging(
-    c: fmi2Component,
-    logging_on: fmi2Boolean,
-    n_categories: usize,
-    categories: *const fmi2String,
-) -> Status {
-    let set = |instance: &mut Instance| {
-        // SAFETY: the importer vouches for the array and its strings.
-        let names: Option<Vec<_>> = unsafe {
-            let pointers = slice("categories", categories, n_categories)?;
-            pointers.iter().map(|&pointer| text(pointer)).collect()
-        };
-        instance
-            .set_debug_logging(logging_on != FMI2_FALSE, &names.ok_or(ArgumentError::Null("an entry of categories"))?)
+        $(
+            #[doc = concat!("`", stringify!($name), "`, as chosen.")]
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn $name($($argument: $type),*) -> $result {
+                // SAFETY: passed on; every component was made by the same library.
+                unsafe { (FACE.get_or_init(choose).$name)($($argument),*) }
+            }
+        )+
     };
-    // SAFETY: the importer vouches for `c`.
-    unsafe { call(c, Call::SetDebugLogging, set) }
 }
 
-/// Tells tolerance and times of the experiment.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetupExperiment(
-    c: fmi2Component,
-    tolerance_defined: fmi2Boolean,
-    tolerance: fmi2Real,
-    start_time: fmi2Real,
-    stop_time_defined: fmi2Boolean,
-    stop_time: fmi2Real,
-) -> Status {
-    let tolerance = (tolerance_defined != FMI2_FALSE).then_some(tolerance);
-    let stop_time = (stop_time_defined != FMI2_FALSE).then_some(stop_time);
-    // SAFETY: the importer vouches for `c`.
-    unsafe { call(c, Call::SetupExperiment, |instance| instance.setup_experiment(tolerance, start_time, stop_time)) }
+fn choose() -> Face {
+    newer::open().and_then(|library| Face::of(&library)).unwrap_or(Face::OWN)
 }
 
-/// From now on outputs follow start values.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> Status {
-    // SAFETY: the importer vouches for `c`.
-    unsafe { call(c, Call::EnterInitializationMode, Instance::enter_initialization_mode) }
-}
-
-/// Fixes the parameters; the first step can follow.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> Status {
-    // SAFETY: the importer vouches for `c`.
-    unsafe { call(c, Call::ExitInitializationMode, Instance::exit_initialization_mode) }
-}
-
-/// Ends the run; values can still be read.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> Status {
-    // SAFETY: the importer vouches for `c`.
-    unsafe { call(c, Call::Terminate, Instance::terminate) }
-}
-
-/// Back to the state after instantiation.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> Status {
-    // SAFETY: the importer vouches for `c`.
-    unsafe { call(c, Call::Reset, Instance::reset) }
+face! {
+    functions::fmi2GetTypesPlatform() -> fmi2String;
+    functions::fmi2GetVersion() -> fmi2String;
+    functions::fmi2Instantiate(instance_name: fmi2String, fmu_type: fmi2Type, guid: fmi2String, resource_location: fmi2String, functions: *const fmi2CallbackFunctions, visible: fmi2Boolean, logging_on: fmi2Boolean) -> fmi2Component;
+    functions::fmi2FreeInstance(c: fmi2Component) -> ();
+    functions::fmi2SetDebugLogging(c: fmi2Component, logging_on: fmi2Boolean, n_categories: usize, categories: *const fmi2String) -> Status;
+    functions::fmi2SetupExperiment(c: fmi2Component, tolerance_defined: fmi2Boolean, tolerance: fmi2Real, start_time: fmi2Real, stop_time_defined: fmi2Boolean, stop_time: fmi2Real) -> Status;
+    functions::fmi2EnterInitializationMode(c: fmi2Component) -> Status;
+    functions::fmi2ExitInitializationMode(c: fmi2Component) -> Status;
+    functions::fmi2Terminate(c: fmi2Component) -> Status;
+    functions::fmi2Reset(c: fmi2Component) -> Status;
+    co_simulation::fmi2DoStep(c: fmi2Component, current_communication_point: fmi2Real, communication_step_size: fmi2Real, no_set_fmu_state_prior_to_current_point: fmi2Boolean) -> Status;
+    co_simulation::fmi2CancelStep(c: fmi2Component) -> Status;
+    co_simulation::fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut i32) -> Status;
+    co_simulation::fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> Status;
+    co_simulation::fmi2GetIntegerStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Integer) -> Status;
+    co_simulation::fmi2GetBooleanStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Boolean) -> Status;
+    co_simulation::fmi2GetStringStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> Status;
+    variables::fmi2GetReal(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Real) -> Status;
+    variables::fmi2SetReal(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Real) -> Status;
+    variables::fmi2GetInteger(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Integer) -> Status;
+    variables::fmi2SetInteger(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Integer) -> Status;
+    variables::fmi2GetBoolean(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Boolean) -> Status;
+    variables::fmi2SetBoolean(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Boolean) -> Status;
+    variables::fmi2GetString(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2String) -> Status;
+    variables::fmi2SetString(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2String) -> Status;
+    variables::fmi2GetDirectionalDerivative(c: fmi2Component, unknown: *const fmi2ValueReference, n_unknown: usize, known: *const fmi2ValueReference, n_known: usize, dv_known: *const fmi2Real, dv_unknown: *mut fmi2Real) -> Status;
+    variables::fmi2SetRealInputDerivatives(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, order: *const fmi2Integer, value: *const fmi2Real) -> Status;
+    variables::fmi2GetRealOutputDerivatives(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, order: *const fmi2Integer, value: *mut fmi2Real) -> Status;
+    model_exchange::fmi2EnterEventMode(c: fmi2Component) -> Status;
+    model_exchange::fmi2NewDiscreteStates(c: fmi2Component, event_info: *mut fmi2EventInfo) -> Status;
+    model_exchange::fmi2EnterContinuousTimeMode(c: fmi2Component) -> Status;
+    model_exchange::fmi2CompletedIntegratorStep(c: fmi2Component, no_set_fmu_state_prior_to_current_point: fmi2Boolean, enter_event_mode: *mut fmi2Boolean, terminate_simulation: *mut fmi2Boolean) -> Status;
+    model_exchange::fmi2SetTime(c: fmi2Component, time: fmi2Real) -> Status;
+    model_exchange::fmi2SetContinuousStates(c: fmi2Component, x: *const fmi2Real, nx: usize) -> Status;
+    model_exchange::fmi2GetDerivatives(c: fmi2Component, derivatives: *mut fmi2Real, nx: usize) -> Status;
+    model_exchange::fmi2GetEventIndicators(c: fmi2Component, event_indicators: *mut fmi2Real, ni: usize) -> Status;
+    model_exchange::fmi2GetContinuousStates(c: fmi2Component, x: *mut fmi2Real, nx: usize) -> Status;
+    model_exchange::fmi2GetNominalsOfContinuousStates(c: fmi2Component, x_nominal: *mut fmi2Real, nx: usize) -> Status;
+    states::fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> Status;
+    states::fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> Status;
+    states::fmi2FreeFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> Status;
+    states::fmi2SerializedFMUstateSize(c: fmi2Component, state: fmi2FMUstate, size: *mut usize) -> Status;
+    states::fmi2SerializeFMUstate(c: fmi2Component, state: fmi2FMUstate, bytes: *mut fmi2Byte, size: usize) -> Status;
+    states::fmi2DeSerializeFMUstate(c: fmi2Component, bytes: *const fmi2Byte, size: usize, state: *mut fmi2FMUstate) -> Status;
 }

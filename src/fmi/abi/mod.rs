@@ -10,5 +10,7 @@ pub mod borrow;
 pub mod call;
 pub mod component;
 pub mod exports;
+pub mod functions;
 pub mod host_logger;
+pub mod newer;
 pub mod types;

@@ -12,7 +12,6 @@ macro_rules! refused {
     ($($export:ident = $call:ident ($($argument:ident: $type:ty),*);)+) => {
         $(
             /// Refused: of model exchange.
-            #[unsafe(no_mangle)]
             pub unsafe extern "C" fn $export(c: fmi2Component $(, $argument: $type)*) -> Status {
                 $(let _ = $argument;)*
                 // SAFETY: the importer vouches for `c`.

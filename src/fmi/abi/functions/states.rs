@@ -10,7 +10,6 @@ use super::super::types::*;
 use std::ptr::{null_mut, without_provenance_mut};
 
 /// Saves the instance: under the state given, or a new one if that is NULL.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> Status {
     let get = |instance: &mut Instance| {
         // SAFETY: the importer vouches for the place.
@@ -23,14 +22,12 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUst
 }
 
 /// Makes the instance what it was when the state was saved.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> Status {
     // SAFETY: the importer vouches for `c`; the state is looked up, not followed.
     unsafe { call(c, Call::SetFMUstate, |instance| instance.set_fmu_state(state.addr())) }
 }
 
 /// Forgets a state and sets it to NULL; NULL, and NULL for the place, are allowed.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> Status {
     let free = |instance: &mut Instance| {
         if state.is_null() {
@@ -47,7 +44,6 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, state: *mut fmi2FMUs
 }
 
 /// Number of bytes that the state takes.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: fmi2Component, state: fmi2FMUstate, size: *mut usize) -> Status {
     let tell = |instance: &mut Instance| {
         // SAFETY: the importer vouches for the place.
@@ -60,7 +56,6 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: fmi2Component, state: fmi
 }
 
 /// Writes the state as bytes.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializeFMUstate(
     c: fmi2Component,
     state: fmi2FMUstate,
@@ -77,7 +72,6 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 }
 
 /// Reads bytes as a state: into the state given, or a new one if that is NULL.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     c: fmi2Component,
     bytes: *const fmi2Byte,

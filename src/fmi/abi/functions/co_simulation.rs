@@ -11,7 +11,6 @@ use super::super::types::*;
 
 /// Moves the instance from the communication point by one step. The step is over when the call
 /// returns, so nothing need be kept for a later question about an earlier point.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(
     c: fmi2Component,
     current_communication_point: fmi2Real,
@@ -23,7 +22,6 @@ pub unsafe extern "C" fn fmi2DoStep(
 }
 
 /// No step is ever under way, so none can be canceled: the lifecycle refuses this in every state.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> Status {
     // SAFETY: the importer vouches for `c`.
     unsafe { call(c, Call::CancelStep, |_| Ok(())) }
@@ -51,7 +49,6 @@ unsafe fn query<T: AnyBits>(
 }
 
 /// Status of the last step.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut i32) -> Status {
     let ask = |instance: &Instance, kind| instance.step_status(kind).map(|status| status as i32);
     // SAFETY: passed on.
@@ -59,21 +56,18 @@ pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, valu
 }
 
 /// The time that the last step reached.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> Status {
     // SAFETY: passed on.
     unsafe { query(c, Call::GetRealStatus, s, value, Instance::real_status) }
 }
 
 /// The standard has no integer status.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetIntegerStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Integer) -> Status {
     // SAFETY: passed on.
     unsafe { query(c, Call::GetIntegerStatus, s, value, |instance, kind| instance.no_status(kind)) }
 }
 
 /// Whether the instance wants the simulation to end.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBooleanStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Boolean) -> Status {
     let ask = |instance: &Instance, kind| instance.boolean_status(kind).map(fmi2Boolean::from);
     // SAFETY: passed on.
@@ -81,7 +75,6 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(c: fmi2Component, s: fmi2StatusKin
 }
 
 /// The standard's only string status is about a step under way, and none ever is.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStringStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> Status {
     // SAFETY: passed on.
     unsafe { query(c, Call::GetStringStatus, s, value, |instance, kind| instance.no_status(kind)) }

@@ -9,7 +9,6 @@ use super::super::call::call;
 use super::super::types::*;
 
 /// Reads reals.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetReal(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -24,7 +23,6 @@ pub unsafe extern "C" fn fmi2GetReal(
 }
 
 /// Sets reals, all or none.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetReal(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -39,7 +37,6 @@ pub unsafe extern "C" fn fmi2SetReal(
 }
 
 /// Reads integers and enumerations.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetInteger(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -55,7 +52,6 @@ pub unsafe extern "C" fn fmi2GetInteger(
 }
 
 /// Sets integers and enumerations, all or none.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetInteger(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -70,7 +66,6 @@ pub unsafe extern "C" fn fmi2SetInteger(
 }
 
 /// Reads Booleans.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBoolean(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -86,7 +81,6 @@ pub unsafe extern "C" fn fmi2GetBoolean(
 }
 
 /// Sets Booleans, all or none.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetBoolean(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -101,7 +95,6 @@ pub unsafe extern "C" fn fmi2SetBoolean(
 }
 
 /// No variable is a string, so only an empty list is right.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetString(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -115,7 +108,6 @@ pub unsafe extern "C" fn fmi2GetString(
 }
 
 /// No variable is a string, so only an empty list is right.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetString(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -129,7 +121,6 @@ pub unsafe extern "C" fn fmi2SetString(
 }
 
 /// Derivatives of real outputs along a direction of real inputs.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     c: fmi2Component,
     unknown: *const fmi2ValueReference,
@@ -153,7 +144,6 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 }
 
 /// Sets first time derivatives of real inputs, all or none.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
@@ -170,7 +160,6 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 }
 
 /// Reads first time derivatives of real outputs.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     c: fmi2Component,
     vr: *const fmi2ValueReference,

@@ -1,0 +1,70 @@
+//! The library for newer processors: used where it can be, done without where it cannot, and the same motion.
+#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
+
+use fmu_harness::host::{Archive, Fmu, Kind};
+use fmu_harness::package::archive::{Part, write};
+use fmu_harness::package::{Package, Stock};
+use fmu_harness::run::{Experiment, Until, run};
+use fmu_harness::scenes::Scenario;
+use slidercrank::fmi::abi::newer;
+use std::fs;
+use tempfile::TempDir;
+
+/// Every output at every communication point, a tenth of a turn long: those that measure, and those that count.
+fn outputs(directory: &TempDir, package: &[u8]) -> [Vec<Vec<f64>>; 2] {
+    let file = directory.path().join("scene.fmu");
+    fs::write(&file, package).expect("written");
+    let fmu = Fmu::open(&file).expect("an FMU");
+    let until = Until::Turns { turns: 0.1, latest: 1.0 };
+    let experiment = Experiment { settings: vec![], inputs: vec![], start: 0.0, until, step: 1e-5, tolerance: None };
+    let recording = run(&fmu, &experiment, |line| assert!(line.message.is_empty(), "{}", line.message), |_| {});
+    let recording = recording.expect("a run");
+    let outputs = fmu.description().variables.iter().filter(|variable| variable.causality() == "output");
+    let (measures, counts): (Vec<_>, Vec<_>) = outputs.partition(|variable| variable.kind == Kind::Real);
+    let found = [measures, counts].map(|variables| -> Vec<Vec<f64>> {
+        variables.iter().map(|variable| recording.column(&variable.name).expect("recorded").to_vec()).collect()
+    });
+    assert!(found[0].len() > 20 && found[1].len() > 3 && found[0][0].len() > 100);
+    found
+}
+
+/// The package with other bytes in place of its second library.
+fn damaged(directory: &TempDir, package: &[u8], bytes: &[u8]) -> Vec<u8> {
+    let (file, unpacked) = (directory.path().join("whole.fmu"), directory.path().join("whole"));
+    fs::write(&file, package).expect("written");
+    let mut archive = Archive::open(&file).expect("an archive");
+    archive.unpack(&unpacked).expect("unpacked");
+    let is_newer = |name: &str| name.contains(newer::LEVEL);
+    assert_eq!(archive.names().iter().filter(|name| is_newer(name)).count(), 1);
+    let content =
+        |name: &str| if is_newer(name) { bytes.to_vec() } else { fs::read(unpacked.join(name)).expect("read") };
+    let parts: Vec<Part> = archive.names().iter().map(|name| Part::new(name.as_str(), content(name))).collect();
+    write(&parts).expect("an archive")
+}
+
+#[test]
+fn the_processor_chooses_the_library_and_the_motion_stays_the_same() {
+    let directory = TempDir::new().expect("a directory");
+    let stock = Stock::build().expect("libraries");
+    let scenario = Scenario::find("press").expect("a shipped scene");
+    let package = |stock: &Stock| -> Vec<u8> {
+        let Package { bytes, .. } = stock.package(&scenario).expect("a package");
+        bytes
+    };
+    let both = package(&stock);
+    let portable = package(&stock.portable());
+    let (found, wanted) = (outputs(&directory, &both), outputs(&directory, &portable));
+    // The other library rounds otherwise, and nothing more.
+    let has_level = std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma");
+    assert_eq!(found != wanted, has_level, "the library that computes");
+    for (found, wanted) in found[0].iter().zip(&wanted[0]) {
+        let amplitude = wanted.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() <= 1e-4 * amplitude, "{found} is not {wanted}, of {amplitude}");
+        }
+    }
+    // One that does not load is done without.
+    for bytes in [&b"no library"[..], b""] {
+        assert!(outputs(&directory, &damaged(&directory, &both, bytes)) == wanted);
+    }
+}
