@@ -41,8 +41,10 @@ pub fn series(task: &Task, ruler: &Ruler, progress: &impl Fn(&str)) -> Result<Ve
         all.push(Series { peer: "SliderCrank".into(), method: name.into(), rigid: false, points, notes: vec![] });
     }
     progress("SliderCrank FMU");
-    let through = through_fmu(task, &all[0])?;
-    all.insert(1, through);
+    let stock = Stock::build()?;
+    let packaged = through_fmu(task, &all[0], &stock, "packaged FMU")?;
+    let portable = through_fmu(task, &all[0], &stock.portable(), "portable FMU")?;
+    all.splice(1..1, [packaged, portable]);
     Ok(all)
 }
 
@@ -69,11 +71,12 @@ fn point(task: &Task, ruler: &Ruler, method: Method, tolerance: f64) -> Result<P
     Ok(Point { tolerance, error, cost: seconds / task.span, evaluations: evaluations / task.span })
 }
 
-/// The default method in the packaged FMU: its steps, and so its errors, are those of `core`.
-fn through_fmu(task: &Task, core: &Series) -> Result<Series> {
+/// The default method in an FMU with the libraries of `stock`: its steps, and so its errors, are those of `core`, but for
+/// what a library for newer processors rounds otherwise.
+fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<Series> {
     let directory = tempfile::tempdir()?;
     let file = directory.path().join("peers.fmu");
-    Stock::build()?.package(&task.scenario)?.save(&file)?;
+    stock.package(&task.scenario)?.save(&file)?;
     let fmu = Fmu::open(&file)?;
     let mut points = vec![];
     for point in &core.points {
@@ -92,7 +95,7 @@ fn through_fmu(task: &Task, core: &Series) -> Result<Series> {
         })?;
         points.push(Point { cost: seconds / task.span, ..*point });
     }
-    let method = format!("{}, packaged FMU", core.method);
+    let method = format!("{}, {name}", core.method);
     let notes = vec![format!("communication steps of {:.0} µs", STEP * 1e6)];
     Ok(Series { peer: "SliderCrank".into(), method, rigid: false, points, notes })
 }
