@@ -6,6 +6,7 @@
 #![allow(clippy::missing_safety_doc, reason = "said above, once")]
 
 use super::super::status::Status;
+use super::call::guarded;
 use super::functions::{self, co_simulation, model_exchange, states, variables};
 use super::newer;
 use super::types::*;
@@ -45,14 +46,15 @@ macro_rules! face {
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn $name($($argument: $type),*) -> $result {
                 // SAFETY: passed on; every component was made by the same library.
-                unsafe { (FACE.get_or_init(choose).$name)($($argument),*) }
+                unsafe { (face().$name)($($argument),*) }
             }
         )+
     };
 }
 
-fn choose() -> Face {
-    newer::open().and_then(|library| Face::of(&library)).unwrap_or(Face::OWN)
+fn face() -> &'static Face {
+    let choose = || newer::open().and_then(|library| Face::of(&library));
+    FACE.get_or_init(|| guarded(choose).ok().flatten().unwrap_or(Face::OWN))
 }
 
 face! {
