@@ -28,16 +28,18 @@ fn outputs(directory: &TempDir, package: &[u8]) -> [Vec<Vec<f64>>; 2] {
     found
 }
 
-/// The package with other bytes in place of its second library.
-fn damaged(directory: &TempDir, package: &[u8], bytes: &[u8]) -> Vec<u8> {
+/// The package with what `damage` leaves of its second library.
+fn damaged(directory: &TempDir, package: &[u8], damage: fn(Vec<u8>) -> Vec<u8>) -> Vec<u8> {
     let (file, unpacked) = (directory.path().join("whole.fmu"), directory.path().join("whole"));
     fs::write(&file, package).expect("written");
     let mut archive = Archive::open(&file).expect("an archive");
     archive.unpack(&unpacked).expect("unpacked");
     let is_newer = |name: &str| name.contains(newer::LEVEL);
     assert_eq!(archive.names().iter().filter(|name| is_newer(name)).count(), 1);
-    let content =
-        |name: &str| if is_newer(name) { bytes.to_vec() } else { fs::read(unpacked.join(name)).expect("read") };
+    let content = |name: &str| {
+        let bytes = fs::read(unpacked.join(name)).expect("read");
+        if is_newer(name) { damage(bytes) } else { bytes }
+    };
     let parts: Vec<Part> = archive.names().iter().map(|name| Part::new(name.as_str(), content(name))).collect();
     write(&parts).expect("an archive")
 }
@@ -63,8 +65,12 @@ fn the_processor_chooses_the_library_and_the_motion_stays_the_same() {
             assert!((found - wanted).abs() <= 1e-4 * amplitude, "{found} is not {wanted}, of {amplitude}");
         }
     }
-    // One that does not load is done without.
-    for bytes in [&b"no library"[..], b""] {
-        assert!(outputs(&directory, &damaged(&directory, &both, bytes)) == wanted);
+    // One that does not load, or was cut short, is done without.
+    let foreign = |_: Vec<u8>| b"no library".to_vec();
+    let empty = |_: Vec<u8>| vec![];
+    let half = |library: Vec<u8>| library[..library.len() / 2].to_vec();
+    let nearly_whole = |library: Vec<u8>| library[..library.len() - 1].to_vec();
+    for damage in [foreign as fn(Vec<u8>) -> Vec<u8>, empty, half, nearly_whole] {
+        assert!(outputs(&directory, &damaged(&directory, &both, damage)) == wanted);
     }
 }

@@ -15,7 +15,10 @@ pub use none::{Library, open};
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma")))]
 mod beside {
-    use std::ffi::{CStr, CString, c_void};
+    use std::ffi::{CStr, CString, OsStr, c_void};
+    use std::fs::File;
+    use std::io::Read;
+    use std::os::unix::ffi::OsStrExt;
 
     /// A loaded library. It stays for as long as the process.
     pub struct Library(*mut c_void);
@@ -37,10 +40,25 @@ mod beside {
         }
         let own = own_path()?;
         let beside = [own.to_bytes().strip_suffix(b".so")?, b".", super::LEVEL.as_bytes(), b".so"].concat();
+        if !is_whole(OsStr::from_bytes(&beside))? {
+            return None;
+        }
         let beside = CString::new(beside).ok()?;
         // SAFETY: what lies there under this name the package has put there; its initialisers are Rust's.
         let library = unsafe { libc::dlopen(beside.as_ptr(), libc::RTLD_NOW | libc::RTLD_LOCAL) };
         if library.is_null() { None } else { Some(Library(library)) }
+    }
+
+    /// Whether an ELF file was not cut short: the loader maps what is not there, and the process ends where it looks at
+    /// it. The table of sections comes last (System V ABI, ELF header: e_shoff, e_shentsize, e_shnum).
+    fn is_whole(path: &OsStr) -> Option<bool> {
+        let mut file = File::open(path).ok()?;
+        let mut header = [0; 64];
+        file.read_exact(&mut header).ok()?;
+        let number =
+            |at: usize, bytes: usize| header[at..at + bytes].iter().rev().fold(0, |n, &b| n << 8 | u64::from(b));
+        let end = number(0x28, 8).checked_add(number(0x3A, 2) * number(0x3C, 2))?;
+        Some(header.starts_with(b"\x7fELF") && file.metadata().ok()?.len() >= end)
     }
 
     fn processor_has_level() -> bool {
