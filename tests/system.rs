@@ -15,7 +15,7 @@ fn shipped() -> [(&'static str, Scene); 5] {
         ("wornpin", scene(include_str!("../fmu-harness/scenes/peers/wornpin.toml"))),
         ("ideal", scene(include_str!("../fmu-harness/scenes/peers/ideal.toml"))),
         ("guideplay", scene(include_str!("../fmu-harness/scenes/peers/guideplay.toml"))),
-        ("allplay", scene(include_str!("../fmu-harness/scenes/peers/allplay.toml"))),
+        ("press", scene(include_str!("../fmu-harness/scenes/press.toml"))),
         ("lugre, elastic rod, audit", scene(include_str!("../fmu-harness/scenes/effects/11-audit.toml"))),
     ]
 }

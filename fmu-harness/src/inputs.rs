@@ -2,6 +2,7 @@
 
 use crate::trajectory::Trajectory;
 use anyhow::Result;
+use slidercrank::model::signals::Inputs;
 use slidercrank::scene::profile::{Against, Profile, Profiles};
 
 /// One input variable and its profile.
@@ -14,6 +15,13 @@ pub struct Input {
 }
 
 impl Input {
+    /// Inputs that keep their values.
+    pub fn constant(inputs: Inputs) -> Vec<Self> {
+        let Inputs { crank_torque, slider_load } = inputs;
+        let input = |name: &str, value| Self { name: name.into(), profile: Profile::Constant(value) };
+        vec![input("crank.torque", crank_torque), input("slider.load", slider_load)]
+    }
+
     /// Whether it needs the crank's angle.
     pub fn wants_angle(&self) -> bool {
         matches!(self.profile, Profile::Points { against: Against::CrankAngle, .. })

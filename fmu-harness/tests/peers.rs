@@ -1,8 +1,8 @@
 //! The table of what others need: interpolation between runs, ratios, and what is missing.
 
-use fmu_harness::peers::{Contest, Point, Series, Task};
-use fmu_harness::report::contest::{Reached, cost_at, sentence, sheet, table};
-use fmu_harness::scenes::contests;
+use fmu_harness::peers::{Contest, Point, Ruler, Series, Task, scenes};
+use fmu_harness::report::contest::{Reached, cost_at, sentence, sheet, summary, table};
+use slidercrank::scene::Method;
 
 fn points(runs: &[(f64, f64)]) -> Vec<Point> {
     runs.iter().map(|&(error, cost)| Point { tolerance: error, error, cost, evaluations: 1.0 }).collect()
@@ -19,7 +19,7 @@ fn contest() -> Contest {
         series("slow", &[(1e-1, 1.0), (1e-5, 16.0)], Some("a remark")),
         series("absent", &[], Some("not installed: apt-get install absent")),
     ];
-    Contest { scene: "scene".into(), series, reference_error: 1e-10 }
+    Contest { scene: "scene".into(), series, span: 0.02, reference_error: 1e-10 }
 }
 
 fn cost(runs: &[(f64, f64)], error: f64) -> f64 {
@@ -91,11 +91,42 @@ fn the_sentence_and_the_drawing_come_from_the_runs() {
 }
 
 #[test]
+fn the_summary_has_the_cheapest_of_the_others() {
+    let mut contest = contest();
+    contest.series.push(series("cheaper", &[(1e-1, 0.5), (1e-3, 50.0)], None));
+    contest.series.push(Series { rigid: true, ..series("rigid", &[(1e-1, 1e-3), (1e-9, 1e-3)], None) });
+    let text = summary(&[contest]).markdown();
+    // 1e-2: 0.5·√100 against 1·√2; 1e-4: 0.5·100 is not as accurate, 8 is.
+    let row = "| scene | 20.0 | 0.0141 | 70.7 | slow method | 141 | 0.0283 | 35.4 | slow method | 283 | 0.0566 | 17.7 | – | – |";
+    assert_eq!(text.lines().last(), Some(row), "{text}");
+}
+
+#[test]
 fn every_scene_of_the_contest_can_be_run() {
-    assert_eq!(contests(), ["peers/allplay", "peers/guideplay", "peers/ideal", "peers/wornpin"]);
-    for name in contests() {
+    let all = scenes();
+    assert_eq!(
+        all,
+        ["peers/guideplay", "peers/ideal", "peers/wornpin", "press", "allplay", "flexrod", "seed"],
+        "those made for it, and what else there is"
+    );
+    for name in all {
         let task = Task::of(&name).expect("a scene");
         let step = task.span / task.points as f64;
         assert!((step / task.scenario.file.run.step - 1.0).abs() < 1e-9, "{name}: whole steps");
     }
+}
+
+#[test]
+fn a_run_ends_where_its_motion_is_not_known_any_longer() {
+    let mut long = Task::of("wornpin").expect("a scene");
+    let (span, step) = (long.span, long.span / long.points as f64);
+    let ruler = Ruler::new(&mut long).expect("a reference");
+    // Two of its motions part after 18 ms (README, `precision`), of 240.
+    assert!(long.span > 0.01 && long.span < 0.5 * span, "{} s", long.span);
+    assert!((long.span / long.points as f64 / step - 1.0).abs() < 1e-9, "whole steps");
+    assert!(ruler.own_error > 0.0 && ruler.own_error <= 5e-8, "{:e}", ruler.own_error);
+    let own = ruler.solve(&long, Method::Verner7, 1e-12).expect("a run");
+    assert_eq!((own.len(), ruler.error(&own)), (long.points, ruler.own_error));
+    let coarse = ruler.error(&ruler.solve(&long, Method::Verner7, 1e-6).expect("a run"));
+    assert!(coarse > 1e-6 && coarse < 1e-2, "{coarse:e}");
 }

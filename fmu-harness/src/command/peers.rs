@@ -1,9 +1,8 @@
 //! `peers`: the same scene in what people use instead.
 
 use super::{out_directory, shown};
-use crate::peers::{Contest, Task, contest};
-use crate::report::contest::{sentence, sheet, table, write_csv};
-use crate::scenes::{contests, directory};
+use crate::peers::{Contest, Task, contest, scene, scenes};
+use crate::report::contest::{sentence, sheet, summary, table, write_csv};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::fs;
@@ -14,12 +13,12 @@ use std::time::Duration;
 ///
 /// Every method of every competitor runs a ladder of tolerances or steps, ours too, one after the other on one thread.
 /// The table tells CPU seconds per simulated second at equal error, interpolated between runs, and the ratio to our
-/// default method. The error is the largest difference from a reference solution of every joint's eccentricity over its
-/// clearance. Python packages are installed under target/peers; what else is missing is named, with the command that
+/// packaged FMU. The error is the largest difference from a reference solution of every joint's eccentricity over its
+/// clearance. Inputs keep the values of the start; a run ends where two reference solutions part. Python packages are installed under target/peers; what else is missing is named, with the command that
 /// installs it. Writes peers.csv, peers.md and peers.svg.
 #[derive(Args)]
 pub struct Peers {
-    /// A scene of fmu-harness/scenes/peers, or a scene file [default: all of them]
+    /// A shipped scene, or a scene file [default: those of fmu-harness/scenes/peers, and the others of `precision`]
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
     /// Longest time on the clock for one method of one competitor, in seconds
@@ -35,18 +34,12 @@ impl Peers {
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
-        let scenes = match &self.scene {
-            None => contests(),
-            Some(name) if directory().join("peers").join(format!("{name}.toml")).is_file() => {
-                vec![format!("peers/{name}")]
-            }
-            Some(name) => vec![name.clone()],
-        };
+        let scenes = self.scene.as_ref().map_or_else(scenes, |name| vec![scene(name)]);
         let mut done = vec![];
         for scene in &scenes {
             let task = Task::of(scene)?;
             let progress = |what: &str| eprintln!("{scene}: {what}");
-            let found = contest(&task, Duration::from_secs(self.budget), progress).with_context(|| scene.clone())?;
+            let found = contest(task, Duration::from_secs(self.budget), progress).with_context(|| scene.clone())?;
             println!("{}\n{}\n", table(&found).print(), sentence(&found));
             done.push(found);
         }
@@ -57,8 +50,10 @@ impl Peers {
 fn report(contests: &[Contest], out: &Path) -> Result<()> {
     let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("peers.{ending}")));
     write_csv(contests, &csv)?;
-    let text: Vec<String> =
-        contests.iter().map(|contest| table(contest).markdown() + "\n" + &sentence(contest)).collect();
+    let summary = summary(contests);
+    println!("{}", summary.print());
+    let tables = contests.iter().map(|contest| table(contest).markdown() + "\n" + &sentence(contest));
+    let text: Vec<String> = std::iter::once(summary.markdown()).chain(tables).collect();
     for (file, text) in [(&page, text.join("\n\n") + "\n"), (&drawing, sheet(contests).svg()?)] {
         fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
     }

@@ -12,7 +12,8 @@ mod tools;
 
 pub use ruler::Ruler;
 
-use crate::scenes::Scenario;
+use crate::precision;
+use crate::scenes::{Scenario, contests};
 use anyhow::Result;
 use child::Answer;
 use programs::Program;
@@ -56,8 +57,11 @@ pub struct Point {
 pub struct Contest {
     /// The scene.
     pub scene: String,
-    /// Ours first; the first one is what the others are compared with, those with rigid contacts with the first of them.
+    /// Ours first, in the packaged FMU: that is what the others are compared with, those with rigid contacts with the
+    /// first of them.
     pub series: Vec<Series>,
+    /// [s] Length of a run.
+    pub span: f64,
     /// By how much two reference solutions of different methods differ.
     pub reference_error: f64,
 }
@@ -75,13 +79,20 @@ pub struct Task {
 }
 
 impl Task {
-    /// The whole run of a scene, its error measured at the scene's step.
+    /// The whole run of a scene under the inputs of its start, its error measured at the scene's step.
     pub fn of(name: &str) -> Result<Self> {
         let scenario = Scenario::find(name)?;
-        let span = scenario.file.run.stop(&scenario.file.scene);
-        let points = (span / scenario.file.run.step).round() as usize;
+        let run = &scenario.file.run;
+        let points = (run.stop(&scenario.file.scene) / run.step).round();
+        let (span, points) = (points * run.step, points as usize);
         let file = crate::scenes::file(name)?;
         Ok(Self { scenario, file, span, points })
+    }
+
+    /// Keeps the first `points` of its instants.
+    fn shorten(&mut self, points: usize) {
+        self.span *= points as f64 / self.points as f64;
+        self.points = points;
     }
 
     /// Everything that a Python peer is told, as JSON.
@@ -109,11 +120,29 @@ impl Task {
     }
 }
 
-/// Runs all competitors that know the scene, one after the other. `budget` is the longest time on the clock that one
-/// method of one of them may take; `progress` is told who is next.
-pub fn contest(task: &Task, budget: Duration, progress: impl Fn(&str)) -> Result<Contest> {
+/// Where it is to be known: the scenes made for a contest, and those of `precision` that none of them stands for.
+pub fn scenes() -> Vec<String> {
+    let mut all = contests();
+    let others = precision::SCENES.into_iter().filter(|name| !made_for_contest(name));
+    all.extend(others.map(str::to_owned));
+    all
+}
+
+/// A shipped scene by its name, where there are two of a name the one for the contest; or a file.
+pub fn scene(name: &str) -> String {
+    if made_for_contest(name) { format!("peers/{name}") } else { name.to_owned() }
+}
+
+fn made_for_contest(name: &str) -> bool {
+    contests().contains(&format!("peers/{name}"))
+}
+
+/// Runs all competitors that know the scene, one after the other, for as long as its motion is known. `budget` is the
+/// longest time on the clock that one method of one of them may take; `progress` is told who is next.
+pub fn contest(mut task: Task, budget: Duration, progress: impl Fn(&str)) -> Result<Contest> {
     progress("reference");
-    let ruler = Ruler::new(task)?;
+    let ruler = Ruler::new(&mut task)?;
+    let task = &task;
     let mut series = ours::series(task, &ruler, &progress)?;
     let system = System::start(&task.scenario.file.scene, 0.0, crate::effects::inputs_at_start(&task.scenario.file))?;
     let tools = Tools::new(&progress);
@@ -131,7 +160,8 @@ pub fn contest(task: &Task, budget: Duration, progress: impl Fn(&str)) -> Result
         let ruler = rigid.as_ref().filter(|_| program.rigid).unwrap_or(&ruler);
         series.push(compete(task, ruler, &system, &tools, program, budget)?);
     }
-    Ok(Contest { scene: task.scenario.name.clone(), series, reference_error: ruler.own_error })
+    let scene = task.scenario.name.clone();
+    Ok(Contest { scene, series, span: task.span, reference_error: ruler.own_error })
 }
 
 /// One method of one competitor.

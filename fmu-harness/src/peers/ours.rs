@@ -4,7 +4,7 @@ use super::ruler::choose;
 use super::{Point, Ruler, Series, Task};
 use crate::effects::inputs_at_start;
 use crate::host::Fmu;
-use crate::inputs;
+use crate::inputs::Input;
 use crate::package::Stock;
 use crate::run::{Ending, Experiment, Look, March, Until, march};
 use anyhow::{Result, ensure};
@@ -44,7 +44,8 @@ pub fn series(task: &Task, ruler: &Ruler, progress: &impl Fn(&str)) -> Result<Ve
     let stock = Stock::build()?;
     let packaged = through_fmu(task, &all[0], &stock, "packaged FMU")?;
     let portable = through_fmu(task, &all[0], &stock.portable(), "portable FMU")?;
-    all.splice(1..1, [packaged, portable]);
+    all.splice(0..0, [packaged]);
+    all.splice(2..2, [portable]);
     Ok(all)
 }
 
@@ -82,7 +83,7 @@ fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<
     for point in &core.points {
         let experiment = Experiment {
             settings: vec![],
-            inputs: inputs::of_scene(&task.scenario.file.inputs),
+            inputs: Input::constant(inputs_at_start(&task.scenario.file)),
             start: 0.0,
             until: Until::Time(task.span),
             step: STEP,

@@ -1,5 +1,6 @@
 //! Who competes on which scene, with which ladder of tolerances or steps.
 
+use slidercrank::model::rod::Rod;
 use slidercrank::scene::{DriveMode, JointModel, Scene};
 
 /// What a competitor runs on.
@@ -98,6 +99,9 @@ pub fn of(scene: &Scene) -> Vec<&'static Program> {
         [joint.a.model, joint.b.model, joint.c.model, joint.t.model].map(|model| model == JointModel::Clearance);
     let speed = scene.drive.mode == DriveMode::Speed;
     let mut all: Vec<&Program> = SUNDIALS.iter().collect();
+    if Rod::new(scene).is_some() {
+        return all;
+    }
     if clear == [false, false, true, false] && speed {
         all.extend(&SCIPY);
         all.extend(&EXUDYN);

@@ -90,6 +90,43 @@ pub fn table(contest: &Contest) -> Table {
     table
 }
 
+/// A row for each contest: what an error costs us, and the cheapest of the others with the same contacts.
+pub fn summary(contests: &[Contest]) -> Table {
+    let mut table = Table::default();
+    let mut head = vec!["scene".into(), "window [ms]".into()];
+    for error in ERRORS {
+        head.extend([format!("error {}: CPU s/s", power(error)), "× real time".into()]);
+        head.extend(["cheapest other".into(), "× ours".into()]);
+    }
+    table.line(head);
+    for contest in contests {
+        let mut line = vec![contest.scene.clone(), three_digits(1e3 * contest.span)];
+        for error in ERRORS {
+            let reached = contest.series.first().map_or(Reached::Missing, |ours| cost_at(&ours.points, error));
+            let speed = match reached {
+                Reached::Cost(cost) => three_digits(1.0 / cost),
+                Reached::AtMost(cost) => format!("≥ {}", three_digits(1.0 / cost)),
+                Reached::Not(_) | Reached::Missing => "–".into(),
+            };
+            let (other, ratio) = match reached.cost().zip(best_other(contest, error)) {
+                Some((own, (cost, other))) => (name(other), three_digits(cost / own)),
+                None => ("–".into(), "–".into()),
+            };
+            line.extend([reached.print(), speed, other, ratio]);
+        }
+        table.line(line);
+    }
+    table
+}
+
+/// The cheapest of those that are not ours and have the contacts that the first of ours has, with its cost.
+fn best_other(contest: &Contest, error: f64) -> Option<(f64, &Series)> {
+    let ours = contest.series.first()?;
+    let others = contest.series.iter().filter(|series| series.peer != ours.peer && series.rigid == ours.rigid);
+    let costs = others.filter_map(|series| Some((cost_at(&series.points, error).cost()?, series)));
+    costs.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
 /// What a series is compared with: the first one of the same contacts.
 fn rival<'a>(contest: &'a Contest, series: &Series) -> Option<&'a Series> {
     contest.series.iter().find(|ours| ours.rigid == series.rigid)
@@ -176,12 +213,10 @@ fn power(number: f64) -> String {
 /// One sentence on the contest: how far the best of the others is from ours.
 pub fn sentence(contest: &Contest) -> String {
     let Some(ours) = contest.series.first() else { return String::new() };
-    let others = || contest.series.iter().filter(|series| series.peer != ours.peer && series.rigid == ours.rigid);
     let mut parts = vec![];
     for error in ERRORS {
         let Some(own) = cost_at(&ours.points, error).cost() else { continue };
-        let costs = others().filter_map(|series| Some((cost_at(&series.points, error).cost()?, series)));
-        if let Some((cost, best)) = costs.min_by(|a, b| a.0.total_cmp(&b.0)) {
+        if let Some((cost, best)) = best_other(contest, error) {
             parts.push(format!("{} {} times at {}", name(best), significant(cost / own), power(error)));
         }
     }
