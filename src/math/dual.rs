@@ -1,7 +1,7 @@
 //! Forward differentiation: numbers that carry their derivatives along (A. Griewank, A. Walther,
 //! Evaluating Derivatives, 2nd ed. 2008, 3.1: tangents, several at a time).
 
-use super::{Fused, Real, Vec2};
+use super::{Fused, LANES, Real, Vec2};
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -176,6 +176,8 @@ impl<const D: usize> SubAssign for Dual<D> {
 }
 
 impl<const D: usize> Real for Dual<D> {
+    type Lanes = [Self; LANES];
+
     const ZERO: Self = Self { value: 0.0, slope: [0.0; D] };
     const ONE: Self = Self { value: 1.0, slope: [0.0; D] };
 

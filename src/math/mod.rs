@@ -6,12 +6,14 @@
 
 mod dual;
 mod each;
+mod lanes;
 mod real;
 mod sin_cos;
 mod vec2;
 
 pub use dual::Dual;
 pub(crate) use each::each;
+pub use lanes::{LANES, Lanes};
 pub use real::{Fused, Real};
 pub use vec2::Vec2;
 

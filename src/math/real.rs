@@ -1,6 +1,6 @@
 //! The numbers that the equations of motion are computed with.
 
-use super::{Vec2, sin_cos};
+use super::{Lanes, Vec2, sin_cos};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -48,6 +48,8 @@ pub trait Real:
 {
     /// It carries no derivatives; loops that are short may then be written out.
     const PLAIN: bool = false;
+    /// Four of them side by side.
+    type Lanes: Lanes<Self>;
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -87,6 +89,8 @@ pub trait Real:
 
 impl Real for f64 {
     const PLAIN: bool = true;
+    type Lanes = wide::f64x4;
+
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
 

@@ -10,6 +10,7 @@ pub mod beam;
 mod inertia;
 mod modes;
 mod shape;
+mod sums;
 mod tables;
 
 pub use inertia::Inertia;
@@ -18,7 +19,7 @@ pub use shape::{Chord, Shape};
 
 use super::mechanism::Body;
 use super::plane::Vec2;
-use crate::math::Real;
+use crate::math::{LANES, Real};
 use crate::scene::modal::{MOST_MODES, ModalTable, pairs};
 use crate::scene::{Flexible, Scene};
 
@@ -28,7 +29,7 @@ pub const FEW_MODES: usize = 4;
 /// Number of functions along x that `modes` modes may need at most, in whole lanes.
 pub const fn most_functions(modes: usize) -> usize {
     let functions = if modes <= MOST_MODES { 1 + pairs(modes) } else { 1 + modes - MOST_MODES + pairs(MOST_MODES) };
-    functions.next_multiple_of(inertia::LANES)
+    functions.next_multiple_of(LANES)
 }
 
 /// The rod's modes, as the scene calls for them.

@@ -41,6 +41,12 @@ impl Counts {
         (0..self.shortening).flat_map(move |i| (i..self.shortening).map(move |j| (i, j)))
     }
 
+    /// Number of pairs j < k of the first `bending` bending modes.
+    #[inline(always)]
+    pub const fn twists(self, bending: usize) -> usize {
+        bending * (bending.saturating_sub(1)) / 2
+    }
+
     /// Place among the functions of the foreshortening of the bending modes `i` and `j`.
     #[inline(always)]
     pub const fn pair(self, i: usize, j: usize) -> usize {

@@ -3,6 +3,7 @@
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
 use super::modes::{Counts, Modes};
+use super::sums::add_rows;
 use crate::math::{Real, each};
 
 /// The deformed rod, and how it deforms; with room for `K` modes and `F` functions.
@@ -48,30 +49,34 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         };
         let Shape { chord, chord_slope, slope_rate, xi, xi_rate, xi_bias } = &mut shape;
         let (eta, rate) = (&eta[..counts.modes()], &rate[..counts.modes()]);
+        // Foreshortening is quadratic in the bending modes, and so is half of what its slope has with them.
+        let mut with_rate = [R::ZERO; K];
+        let lists = [&mut *chord_slope, &mut with_rate];
+        add_rows::<R, FEW, _, _>(lists, &self.tables.shortening, 0..shortening, [eta, rate], bending);
+        each!(FEW, i < shortening => {
+            chord.stretch = (eta[i] * 0.5).times_plus(chord_slope[i], chord.stretch);
+            chord.rate = rate[i].times_plus(chord_slope[i], chord.rate);
+            chord.bias = rate[i].times_plus(with_rate[i], chord.bias);
+        });
         xi[0] = R::ONE;
         for j in 0..axial {
             let (place, end) = (1 + j, self.end[1 + j]);
             (xi[place], xi_rate[place]) = (eta[bending + j], rate[bending + j]);
             chord_slope[bending + j] = R::constant(end);
-            chord.stretch += xi[place] * end;
-            chord.rate += xi_rate[place] * end;
+            chord.stretch = xi[place].times_plus(end, chord.stretch);
+            chord.rate = xi_rate[place].times_plus(end, chord.rate);
         }
+        chord.length = chord.stretch + self.length;
         each!(FEW, i < shortening => {
-            each!(FEW, j < i + 1 => {
-                let place = counts.pair(i, j);
+            let first = counts.pair(i, i);
+            each!(FEW, further < shortening - i => {
+                let (j, place) = (i + further, first + further);
                 let twice = if i == j { 1.0 } else { 2.0 };
                 xi[place] = eta[i] * -twice * eta[j];
                 xi_rate[place] = eta[i].times_plus(rate[j], rate[i] * eta[j]) * -twice;
                 xi_bias[place] = rate[i] * (-2.0 * twice) * rate[j];
-                let end = self.end[place];
-                chord_slope[i] = eta[j].times_plus(-(end * twice), chord_slope[i]);
-                chord_slope[j] = eta[i].times_plus(-(end * twice), chord_slope[j]);
-                chord.stretch = xi[place].times_plus(end, chord.stretch);
-                chord.rate = xi_rate[place].times_plus(end, chord.rate);
-                chord.bias = xi_bias[place].times_plus(end, chord.bias);
             });
         });
-        chord.length = chord.stretch + self.length;
         for i in 0..bending {
             for (end, slope) in slope_rate.iter_mut().zip(&self.slope) {
                 *end = rate[i].times_plus(slope[i], *end);

@@ -9,6 +9,7 @@ use super::Rod;
 /// The tables, each with a row for a factor and a column for a result; with room for `K` modes and `F` functions. Their
 /// units are such that a factor [1, m, m² and their rates] makes of a row what stands with it.
 #[derive(Clone, Debug)]
+#[repr(align(32))] // so are its rows: four numbers of one come out of one line of the cache
 pub struct Tables<const K: usize, const F: usize> {
     /// ∫B·Bᵀ dm; of a product of two factors [kg·m²].
     pub second: [[f64; F]; F],
@@ -24,6 +25,10 @@ pub struct Tables<const K: usize, const F: usize> {
     pub products: [[f64; F]; F],
     /// From q: ∫∂x/∂q_i dm [kg].
     pub shifting: [[f64; F]; K],
+    /// From q, for every axial mode j: ∫B_j·∂x/∂q_i dm [kg].
+    pub stretching: [[[f64; K]; K]; K],
+    /// From q: ∂x/∂q_i at the small end.
+    pub shortening: [[f64; K]; K],
 }
 
 impl<const K: usize, const F: usize> Tables<K, F> {
@@ -40,8 +45,11 @@ impl<const K: usize, const F: usize> Tables<K, F> {
             twisting: none,
             products: none,
             shifting: [[0.0; F]; K],
+            stretching: [[[0.0; K]; K]; K],
+            shortening: [[0.0; K]; K],
         };
-        let Self { second, with_modes, placing, moving, twisting, products, shifting } = &mut tables;
+        let Self { second, with_modes, placing, moving, twisting, products, shifting, stretching, shortening } =
+            &mut tables;
         for p in 0..count {
             second[p][..count].copy_from_slice(&rod.second[p * count..][..count]);
             with_modes[p][..n].copy_from_slice(&rod.coupling[p * n..][..n]);
@@ -64,9 +72,13 @@ impl<const K: usize, const F: usize> Tables<K, F> {
                 products[row][pair(i, j) - 1 - axial] = -2.0 * product;
             }
         }
-        for (j, row) in shifting.iter_mut().enumerate().take(counts.shortening) {
+        for k in 0..counts.shortening {
             for i in 0..n {
-                row[i] = -2.0 * with_modes[pair(i, j)][n];
+                shifting[k][i] = -2.0 * with_modes[pair(i, k)][n];
+                shortening[k][i] = -2.0 * rod.end[pair(i, k)];
+                for j in 0..axial {
+                    stretching[j][k][i] = -2.0 * second[pair(i, k)][1 + j];
+                }
             }
         }
         tables

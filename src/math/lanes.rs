@@ -1,0 +1,53 @@
+//! Four numbers side by side.
+
+use super::Fused;
+use std::array;
+
+/// How many there are.
+pub const LANES: usize = 4;
+
+/// Four numbers that are computed together: in one register, where the processor has such. The compiler does not come
+/// upon that by itself in sums that it has written out.
+pub trait Lanes<R>: Copy {
+    /// These.
+    fn of(numbers: [R; LANES]) -> Self;
+    /// Adds `factor` times each number.
+    fn add(&mut self, factor: R, numbers: &[f64; LANES]);
+    /// Them.
+    fn numbers(self) -> [R; LANES];
+}
+
+impl Lanes<f64> for wide::f64x4 {
+    #[inline(always)]
+    fn of(numbers: [f64; LANES]) -> Self {
+        numbers.into()
+    }
+
+    #[inline(always)]
+    fn add(&mut self, factor: f64, numbers: &[f64; LANES]) {
+        let (factor, numbers) = (Self::splat(factor), Self::from(*numbers));
+        *self = if cfg!(target_feature = "fma") { factor.mul_add(numbers, *self) } else { factor * numbers + *self };
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f64; LANES] {
+        self.to_array()
+    }
+}
+
+impl<R: Copy + Fused<f64>> Lanes<R> for [R; LANES] {
+    #[inline(always)]
+    fn of(numbers: Self) -> Self {
+        numbers
+    }
+
+    #[inline(always)]
+    fn add(&mut self, factor: R, numbers: &[f64; LANES]) {
+        *self = array::from_fn(|i| factor.times_plus(numbers[i], self[i]));
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> Self {
+        self
+    }
+}
