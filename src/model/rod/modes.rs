@@ -163,9 +163,12 @@ const fn all<const BENDING: usize, const AXIAL: usize>() -> Counts {
     Counts { bending: BENDING, axial: AXIAL, shortening: BENDING }
 }
 
-/// The functions for `counts`: compiled for them where they are small and usual.
+/// The functions for `counts`: compiled for them where they are small and usual, and so are the arrays.
 fn by_counts<const K: usize, const F: usize>(counts: Counts) -> Functions<f64, K, F> {
     const { assert!(K >= FEW_MODES, "room for every counts below") };
+    if const { K > FEW_MODES } {
+        return Functions::ANY;
+    }
     /// Chooses among the listed numbers of bending and axial modes.
     macro_rules! compiled {
         ($(($bending:literal, $axial:literal))*) => {

@@ -18,16 +18,17 @@ pub fn add_rows<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize
     columns: usize,
 ) {
     const { assert!(WIDTH.is_multiple_of(LANES)) };
-    let (fours, most) = (columns.div_ceil(LANES), (FOURS / LISTS).min(4));
-    each!(FEW, round < fours.div_ceil(most) => {
-        let (first, rows, sums) = (most * round, rows.clone(), &mut sums);
+    let fours = columns.div_ceil(LANES);
+    let most = if R::PLAIN { (FOURS / LISTS).min(4) } else { 1 };
+    for first in (0..fours).step_by(most) {
+        let (rows, sums) = (rows.clone(), &mut sums);
         match (fours - first).min(most) {
-            1 => add_fours::<R, FEW, WIDTH, LISTS, 1>(sums, table, rows, factors, first),
-            2 => add_fours::<R, FEW, WIDTH, LISTS, 2>(sums, table, rows, factors, first),
-            3 => add_fours::<R, FEW, WIDTH, LISTS, 3>(sums, table, rows, factors, first),
-            _ => add_fours::<R, FEW, WIDTH, LISTS, 4>(sums, table, rows, factors, first),
+            2 if R::PLAIN => add_fours::<R, FEW, WIDTH, LISTS, 2>(sums, table, rows, factors, first),
+            3 if R::PLAIN => add_fours::<R, FEW, WIDTH, LISTS, 3>(sums, table, rows, factors, first),
+            4 if R::PLAIN => add_fours::<R, FEW, WIDTH, LISTS, 4>(sums, table, rows, factors, first),
+            _ => add_fours::<R, FEW, WIDTH, LISTS, 1>(sums, table, rows, factors, first),
         }
-    });
+    }
 }
 
 /// The same for `COUNT` fours of columns from the `first` on, side by side: a sum waits for itself alone.
