@@ -16,7 +16,7 @@ pub struct Package {
     /// The FMU to write [default: target/out/SCENE.fmu]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Leaves the library for newer processors out: the same bits on every machine, for a sixth more time
+    /// Leaves the library for newer processors out: the same bits on every machine, for up to a third more time
     #[arg(long)]
     portable: bool,
 }
