@@ -120,7 +120,7 @@ impl Task {
     }
 }
 
-/// Where it is to be known: the scenes made for a contest, and those of `precision` that none of them stands for.
+/// The usual ones: the scenes made for a contest, and those of `precision` that none of them stands for.
 pub fn scenes() -> Vec<String> {
     let mut all = contests();
     let others = precision::SCENES.into_iter().filter(|name| !made_for_contest(name));
