@@ -65,7 +65,7 @@ fn add_fours<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize, c
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Dual, Fused};
+    use crate::math::Dual;
 
     const WIDTH: usize = 28;
     const ROWS: usize = 12;
