@@ -18,8 +18,8 @@ impl Input {
     /// Inputs that keep their values.
     pub fn constant(inputs: Inputs) -> Vec<Self> {
         let Inputs { crank_torque, slider_load } = inputs;
-        let input = |name: &str, value| Self { name: name.into(), profile: Profile::Constant(value) };
-        vec![input("crank.torque", crank_torque), input("slider.load", slider_load)]
+        let [crank_torque, slider_load] = [crank_torque, slider_load].map(Profile::Constant);
+        of_scene(&Profiles { crank_torque, slider_load })
     }
 
     /// Whether it needs the crank's angle.

@@ -14,8 +14,9 @@ use std::time::Duration;
 /// Every method of every competitor runs a ladder of tolerances or steps, ours too, one after the other on one thread.
 /// The table tells CPU seconds per simulated second at equal error, interpolated between runs, and the ratio to our
 /// packaged FMU. The error is the largest difference from a reference solution of every joint's eccentricity over its
-/// clearance. Inputs keep the values of the start; a run ends where two reference solutions part. Python packages are installed under target/peers; what else is missing is named, with the command that
-/// installs it. Writes peers.csv, peers.md and peers.svg.
+/// clearance. Inputs keep the values of the start; a run ends where two reference solutions part. Python packages are
+/// installed under target/peers; what else is missing is named, with the command that installs it. Writes peers.csv,
+/// peers.md and peers.svg.
 #[derive(Args)]
 pub struct Peers {
     /// A shipped scene, or a scene file [default: those of fmu-harness/scenes/peers, and the others of `precision`]

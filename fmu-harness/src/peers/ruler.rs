@@ -7,6 +7,7 @@
 use super::Task;
 use super::child::Found;
 use crate::effects::inputs_at_start;
+use crate::precision::reference::AGREEMENT;
 use anyhow::{Result, ensure};
 use slidercrank::model::signals::Outputs;
 use slidercrank::scene::{JointModel, Method, Scene};
@@ -23,8 +24,6 @@ pub fn choose(scene: &mut Scene, method: Method, tolerance: f64) {
 
 /// Tolerance of the reference solutions.
 const REFERENCE: f64 = 1e-12;
-/// Where they part by more, the motion is not known any longer: a twentieth of the least error that is asked for.
-const AGREEMENT: f64 = 5e-8;
 /// [s] Step of the rigid one.
 const RIGID_STEP: f64 = 5e-8;
 

@@ -15,7 +15,7 @@ const METHODS: [Method; 2] = [Method::Dop853, Method::Verner7];
 /// Below this, rounding takes the place of what a shorter step gains.
 const TOLERANCE: f64 = 1e-12;
 /// The two agree to this within the window: a twentieth of the finest error that the tables ask for.
-const AGREEMENT: f64 = 5e-8;
+pub const AGREEMENT: f64 = 5e-8;
 /// [s] Between grid points, for windows up to [`MOST_POINTS`] of them.
 const GRID: f64 = 1e-5;
 const MOST_POINTS: f64 = 40_000.0;
