@@ -3,7 +3,7 @@
 use super::memory::Front;
 use super::problem::{Extent, Problem};
 use super::tableau::{Explicit, STAGES, Tableau};
-use crate::math::Fused;
+use crate::math::{Fused, each};
 
 /// Up to so many states, what one stage hands on to the next stays in registers, or in places of its own. In an array it
 /// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
@@ -178,22 +178,21 @@ pub(super) fn in_registers<const N: usize, P: Problem<N> + ?Sized>(
     if N > IN_REGISTERS {
         return; // nothing is compiled
     }
-    let states = Extent::of(problem).states;
     let mut last = k[0];
     for i in 1..tableau.stages.min(STAGES) {
         let weights = &tableau.a[i];
         let mut slope = [0.0; N];
         for (weight, k) in weights.iter().zip(k.iter()).take(i - 1) {
-            for (slope, rate) in slope.iter_mut().zip(k).take(states) {
-                *slope = weight.times_plus(*rate, *slope);
-            }
+            each!(N <= IN_REGISTERS, m < N => {
+                slope[m] = weight.times_plus(k[m], slope[m]);
+            });
         }
         // The last rates are added last, as in `combine`.
         let weight_of_last = h * weights[i - 1];
         let mut at = *y;
-        for m in 0..states {
+        each!(N <= IN_REGISTERS, m < N => {
             at[m] += weight_of_last.times_plus(last[m], h * slope[m]);
-        }
+        });
         problem.rates(modes, t + tableau.c[i] * h, &at, &mut last);
         k[i] = last;
     }

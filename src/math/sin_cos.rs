@@ -1,7 +1,7 @@
 //! Sine and cosine together, without a branch and without a call: from a table of the circle and short series for the
 //! rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
 
-use super::Fused;
+use super::{Fused, each};
 use std::f64::consts::{PI, TAU};
 
 /// Greatest angle that the reduction below takes: its multiple of [`STEP`] has 27 bits.
@@ -69,12 +69,18 @@ const fn series(part: usize) -> (f64, f64) {
 #[inline(always)]
 pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
     let mut found = [(0.0, 0.0); K];
-    if x.iter().all(|x| x.abs() < GREATEST) {
-        for (found, &x) in found.iter_mut().zip(&x) {
-            *found = reduced(x);
-        }
+    let mut within_reach = true;
+    each!(true, k < K => {
+        within_reach &= x[k].abs() < GREATEST;
+    });
+    if within_reach {
+        each!(true, k < K => {
+            found[k] = reduced(x[k]);
+        });
     } else {
-        found = x.map(one_by_one);
+        each!(true, k < K => {
+            found[k] = one_by_one(x[k]);
+        });
     }
     found
 }

@@ -12,6 +12,7 @@ use super::rigid;
 use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
 use crate::integrator::{ContactLaw, Crossed, GUARDS, Guard, Kinks, Reset};
+use crate::math::each;
 use crate::scene::Scene;
 
 /// The joints of a scene as contacts.
@@ -51,11 +52,12 @@ impl Clearances {
         loads: &mut Loads<R>,
     ) {
         let z = self.deflections(deflections);
-        for (joint, revolute) in self.revolute.iter().enumerate() {
+        each!(true, joint < 3 => {
             if clear[joint] && contacts[joint].closed {
-                loads.add_contact(joint, &revolute.load(&contacts[joint], &pose.play(joint), z.revolute[joint]));
+                let load = self.revolute[joint].load(&contacts[joint], &pose.play(joint), z.revolute[joint]);
+                loads.add_contact(joint, &load);
             }
-        }
+        });
         if clear[3] {
             // On its own: a reference into the loads would keep them all in memory.
             let mut bristle_rate = [R::ZERO; GUIDE_CONTACTS];
@@ -138,9 +140,11 @@ impl Clearances {
     /// Writes the event functions.
     #[inline(always)]
     pub fn guards(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
-        for joint in (0..3).filter(|&joint| clear[joint]) {
-            guards[guard_place(clear, joint)] = self.revolute[joint].guard(&contacts[joint], &pose.play(joint));
-        }
+        each!(true, joint < 3 => {
+            if clear[joint] {
+                guards[guard_place(clear, joint)] = self.revolute[joint].guard(&contacts[joint], &pose.play(joint));
+            }
+        });
         if clear[3] {
             let place = guard_place(clear, 3);
             guards[place..place + CORNERS].copy_from_slice(&self.guide.guards(&contacts[3..], &pose.slider()));

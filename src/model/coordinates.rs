@@ -8,7 +8,7 @@
 use super::kinematics::Roots;
 use super::mechanism::{CRANK, ROD, SLIDER, Topology};
 use super::plane::Vec2;
-use crate::math::Real;
+use crate::math::{Real, each};
 
 /// Places of the coordinates among the positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,25 +72,25 @@ impl Layout {
     #[inline(always)]
     pub fn set_roots<R: Real>(&self, roots: &Roots<R>, list: &mut [R]) {
         if self.topology.crank_floats() {
-            list[..2].copy_from_slice(&<[R; 2]>::from(roots.crank));
+            (list[0], list[1]) = (roots.crank.x, roots.crank.y);
         }
         if self.topology.rod_floats() {
-            list[self.rod..self.rod + 2].copy_from_slice(&<[R; 2]>::from(roots.rod));
+            (list[self.rod], list[self.rod + 1]) = (roots.rod.x, roots.rod.y);
         }
         if self.topology.t {
             list[self.slider] = roots.slider.x;
         } else if self.topology.slider_floats() {
-            list[self.slider..self.slider + 2].copy_from_slice(&<[R; 2]>::from(roots.slider));
+            (list[self.slider], list[self.slider + 1]) = (roots.slider.x, roots.slider.y);
         }
     }
 
     /// Writes the angles (or their rates or accelerations) into such a list.
     #[inline(always)]
     pub fn set_angles<R: Real>(&self, angles: &[R; 3], list: &mut [R]) {
-        for (k, &angle) in angles.iter().enumerate() {
+        each!(true, k < 3 => {
             if let Some(place) = self.angle(k) {
-                list[place] = angle;
+                list[place] = angles[k];
             }
-        }
+        });
     }
 }

@@ -5,7 +5,7 @@ use super::joint::{guide, revolute};
 use super::kinematics::{Roots, Turning};
 use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology};
 use super::plane::{Vec2, cross};
-use crate::math::Real;
+use crate::math::{Real, each};
 
 /// Loads on the bodies but for gravity and the reactions of ideal joints: forces at the joint
 /// centres and couples.
@@ -176,7 +176,7 @@ pub fn accelerate<R: Real>(
     let linked = [b, c && !t, b && c && !t];
     let mut m = [R::ZERO; 3];
     let mut early = [R::ZERO; 3];
-    for pair in 0..3 {
+    each!(true, pair < 3 => {
         if linked[pair] {
             let (k, l) = PAIRS[pair];
             let cos = rotation[k].cos.times_plus(rotation[l].cos, rotation[k].sin * rotation[l].sin);
@@ -186,19 +186,19 @@ pub fn accelerate<R: Real>(
             early[k] = centrifugal.times_plus(square[l], early[k]);
             early[l] = (-centrifugal).times_plus(square[k], early[l]);
         }
-    }
+    });
     let mut d = chains.diagonal.map(R::constant);
 
     // Gravity on the chains that do not float, and the coupling with the pin on an ideal guide.
     let rooted = [a || rail_crank, (b && a) || rail_rod, b && c && a && !t];
     let mut first_moment = [Vec2::<R>::ZERO; 3];
-    for k in 0..3 {
+    each!(true, k < 3 => {
         if rooted[k] {
             first_moment[k] = rotation[k].apply(chains.moment[k]);
             early[k] = first_moment[k].x.times_plus(-gravity, early[k]);
         }
         q[k] += early[k];
-    }
+    });
     let per_mass = chains.per_mass[SLIDER];
     let mut along = on_rail.x;
     if t {

@@ -7,11 +7,11 @@ use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
 use super::kinematics::{JointCentres, Turning};
-use super::mechanism::{CRANK, ROD, SLIDER};
+use super::mechanism::{CRANK, SLIDER};
 use super::plane::Rotation;
 use super::reactions::Demand;
 use super::rod::Elastic;
-use crate::math::Real;
+use crate::math::{Real, each};
 
 /// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.
 pub const CONTACTS: usize = 3 + CORNERS;
@@ -98,11 +98,11 @@ pub struct FlexibleInstant<R = f64> {
 #[inline(always)]
 pub fn turning_at<R: Real>(layout: &Layout, rotor: &Rotor, t: R, positions: &[R], rates: &[R]) -> Turning<R> {
     let (mut angle, mut speed) = ([R::ZERO; 3], [R::ZERO; 3]);
-    for k in [CRANK, ROD, SLIDER] {
+    each!(true, k < 3 => {
         if let Some(place) = layout.angle(k) {
             (angle[k], speed[k]) = (positions[place], rates[place]);
         }
-    }
+    });
     if layout.angle(CRANK).is_none() {
         (angle[CRANK], speed[CRANK]) = (rotor.at(t), R::constant(rotor.speed));
     }

@@ -189,11 +189,13 @@ impl Revolute {
     /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
     pub fn load<R: Scalar>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Load<R> {
-        let epsilon = play.eccentricity.norm();
-        if epsilon <= 0.0 {
+        let square = play.eccentricity.norm_squared();
+        if square < f64::MIN_POSITIVE {
             return Load::default(); // n is undefined
         }
-        let n = play.eccentricity / epsilon;
+        // Root and reciprocal do not wait for one another.
+        let epsilon = square.sqrt();
+        let n = (epsilon * square.recip()) * play.eccentricity;
         let (depth, rate) = (epsilon - self.clearance, play.rate.dot(n));
         match R::kernel(&self.kernels).force {
             ForceKernel::Smooth(force) => {
