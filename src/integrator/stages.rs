@@ -183,14 +183,14 @@ pub(super) fn in_registers<const N: usize, P: Problem<N> + ?Sized>(
         let weights = &tableau.a[i];
         let mut slope = [0.0; N];
         for (weight, k) in weights.iter().zip(k.iter()).take(i - 1) {
-            each!(N <= IN_REGISTERS, m < N => {
+            each!(true, m < N => {
                 slope[m] = weight.times_plus(k[m], slope[m]);
             });
         }
         // The last rates are added last, as in `combine`.
         let weight_of_last = h * weights[i - 1];
         let mut at = *y;
-        each!(N <= IN_REGISTERS, m < N => {
+        each!(true, m < N => {
             at[m] += weight_of_last.times_plus(last[m], h * slope[m]);
         });
         problem.rates(modes, t + tableau.c[i] * h, &at, &mut last);

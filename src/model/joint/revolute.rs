@@ -26,6 +26,20 @@ pub struct Play<R = f64> {
     pub bearing_speed: R,
 }
 
+impl<R: Real> Play<R> {
+    /// ε [m] and n; none where the journal is centred and n undefined.
+    #[inline(always)]
+    pub(super) fn distance_and_normal(&self) -> Option<(R, Vec2<R>)> {
+        let square = self.eccentricity.norm_squared();
+        if square < f64::MIN_POSITIVE {
+            return None;
+        }
+        // Root and reciprocal do not wait for one another.
+        let epsilon = square.sqrt();
+        Some((epsilon, (epsilon * square.recip()) * self.eccentricity))
+    }
+}
+
 /// What the contact does to both bodies: a force on the journal at its centre, the opposite force on
 /// the bearing at its centre, and a couple on each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -116,11 +130,9 @@ fn account<R: Real, E: Elastic, D: Damped, F: Friction>(
     play: &Play<R>,
     z: R,
 ) -> Account<R> {
-    let epsilon = play.eccentricity.norm();
-    if epsilon == 0.0 {
+    let Some((epsilon, n)) = play.distance_and_normal() else {
         return Account::default();
-    }
-    let n = play.eccentricity / epsilon;
+    };
     let sliding = joint.sliding(play, epsilon, perp(n));
     let (depth, rate) = (epsilon - joint.clearance, play.rate.dot(n));
     contact::account::<R, E, D, F>(&joint.contact, per_approach, depth, rate, z, sliding)
@@ -189,13 +201,9 @@ impl Revolute {
     /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
     pub fn load<R: Scalar>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Load<R> {
-        let square = play.eccentricity.norm_squared();
-        if square < f64::MIN_POSITIVE {
-            return Load::default(); // n is undefined
-        }
-        // Root and reciprocal do not wait for one another.
-        let epsilon = square.sqrt();
-        let n = (epsilon * square.recip()) * play.eccentricity;
+        let Some((epsilon, n)) = play.distance_and_normal() else {
+            return Load::default();
+        };
         let (depth, rate) = (epsilon - self.clearance, play.rate.dot(n));
         match R::kernel(&self.kernels).force {
             ForceKernel::Smooth(force) => {

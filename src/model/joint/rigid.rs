@@ -11,21 +11,17 @@ use crate::model::plane::{Vec2, cross, perp};
 impl Revolute {
     /// [m/s] Rate of the gap, and v_t; 0 where the journal is centred and n undefined.
     pub fn contact_velocity(&self, play: &Play) -> [f64; 2] {
-        let epsilon = play.eccentricity.norm();
-        if epsilon == 0.0 {
+        let Some((epsilon, n)) = play.distance_and_normal() else {
             return [0.0; 2];
-        }
-        let n = play.eccentricity / epsilon;
+        };
         [-play.rate.dot(n), self.sliding(play, epsilon, perp(n))]
     }
 
     /// The load of the forces `normal` and `tangential` [N] on the journal at the contact point.
     pub fn rigid_load(&self, play: &Play, [normal, tangential]: [f64; 2]) -> revolute::Load {
-        let epsilon = play.eccentricity.norm();
-        if epsilon == 0.0 {
+        let Some((epsilon, n)) = play.distance_and_normal() else {
             return revolute::Load::default();
-        }
-        let n = play.eccentricity / epsilon;
+        };
         revolute::Load {
             force: tangential * perp(n) - normal * n,
             journal_couple: (self.radius - epsilon) * tangential,
