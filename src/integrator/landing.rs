@@ -62,9 +62,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                 self.refresh(problem);
                 break;
             }
-            self.attempt(problem, t - start.t);
-            problem.guards(&start.modes, t, &self.made.y, &mut self.guards);
-            let Guard { value, rate } = self.guards[guard];
+            self.attempt_to(problem, t);
+            if !self.gives_end() {
+                problem.guards(&start.modes, t, &self.made.y, &mut self.made.guards);
+            }
+            let Guard { value, rate } = self.made.guards[guard];
             let better = t - value / rate;
             let useful = rate < 0.0 && better < start.t + h && better != t;
             if landing == LANDINGS || value.abs() <= close || !useful {

@@ -14,6 +14,8 @@ pub struct Character {
     pub interpolates: bool,
     /// Evaluations of the rates in an attempt.
     pub evaluations: u64,
+    /// An attempt gives rates and guards at its end.
+    pub gives_end: bool,
 }
 
 /// A one-step method, or two of them that take turns as the motion is stiff or not.
@@ -26,8 +28,6 @@ pub trait Method: Send + Sync + 'static {
     const ADAPTIVE: bool;
     /// There is a second, lower-order estimate.
     const COARSE: bool;
-    /// An attempt gives the rates at its end.
-    const GIVES_RATES: bool;
     /// Events are located and landed on; otherwise they are noticed at the end of a step.
     const LOCATES: bool;
     /// What is particular to its steps.

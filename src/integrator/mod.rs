@@ -21,6 +21,7 @@ pub mod methods;
 mod moreau;
 mod problem;
 mod regime;
+mod rewind;
 pub mod root;
 pub mod rosenbrock;
 pub mod stages;

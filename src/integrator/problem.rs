@@ -110,8 +110,8 @@ pub trait Problem<const N: usize> {
     /// rates of first-order states.
     fn rates(&self, modes: &Self::Modes, t: f64, y: &[f64; N], rates: &mut [f64; N]);
 
-    /// Writes the rates at the stages of a method after its first into their places in `k`, for a step of `h` from the
-    /// state `y` at time `t`; `k[0]` has the rates there. Compiled for a problem of at most
+    /// Writes the rates at the stages of a method after its first and before its end is known into their places in `k`,
+    /// for a step of `h` from the state `y` at time `t`; `k[0]` has the rates there. Compiled for a problem of at most
     /// [`IN_REGISTERS`](super::stages::IN_REGISTERS) states, with its rates inside; larger ones are not asked.
     fn stages(&self, tableau: &Tableau, modes: &Self::Modes, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
         in_registers(self, tableau, modes, t, y, h, k);

@@ -71,13 +71,13 @@ impl<R: Rosenbrock> Method for Implicit<R> {
     const ORDER: u32 = R::COEFFICIENTS.order;
     const ADAPTIVE: bool = true;
     const COARSE: bool = false;
-    const GIVES_RATES: bool = false;
     const LOCATES: bool = true;
     const CHARACTER: Character = Character {
         error_power: R::COEFFICIENTS.order as f64,
         interpolates: false,
         // The Jacobian counts as one.
         evaluations: STAGES as u64,
+        gives_end: false,
     };
     type Room<const N: usize> = Workspace<N>;
 

@@ -1,7 +1,7 @@
 //! The stages of one step: k_i = f(t + c_i·h, y + h·Σ a_ij·k_j).
 
 use super::memory::Front;
-use super::problem::{Extent, Problem};
+use super::problem::{Extent, GUARDS, Guard, Problem};
 use super::tableau::{Explicit, STAGES, Tableau};
 use crate::math::{Fused, each};
 
@@ -17,6 +17,8 @@ pub struct Attempt<const N: usize> {
     pub y: [f64; N],
     /// Its rates, where the last stage gives them; see [`Tableau::first_same_as_last`].
     pub rates: [f64; N],
+    /// The guards there, where it gives the rates.
+    pub guards: [Guard; GUARDS],
     /// The step's error in every state.
     pub error: [f64; N],
     /// A second estimate, where the method has one.
@@ -32,6 +34,7 @@ impl<const N: usize> Attempt<N> {
         k: [[0.0; N]; STAGES],
         y: [0.0; N],
         rates: [0.0; N],
+        guards: [Guard { value: 0.0, rate: 0.0 }; GUARDS],
         error: [0.0; N],
         coarse_error: [0.0; N],
         unseen: [0.0; N],
@@ -91,7 +94,7 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     #[inline(always)]
     fn evaluate<E: Explicit, const I: usize>(&mut self) {
         let tableau = const { &E::TABLEAU };
-        if I < tableau.stages {
+        if I < tableau.inner_stages() {
             let Self { problem, start, h, states, made } = self;
             let (earlier, later) = made.k.split_at_mut(I);
             combine(&mut made.y, &start.y, *h, &tableau.a[I], earlier, *states);
@@ -102,15 +105,17 @@ impl<const N: usize, P: Problem<N> + ?Sized> Stages<'_, N, P> {
     #[inline(always)]
     fn finish<E: Explicit>(&mut self) {
         let tableau = const { &E::TABLEAU };
-        let Self { start, h, states, made, .. } = self;
+        let Self { problem, start, h, states, made } = self;
+        let Attempt { k, y, rates, guards, .. } = &mut **made;
+        combine(y, &start.y, *h, &tableau.b, &k[..tableau.inner_stages()], *states);
+        if tableau.first_same_as_last {
+            problem.rates_and_guards(&start.modes, start.t + *h, y, rates, guards);
+            k[tableau.stages - 1] = *rates;
+        }
         let k = &made.k[..tableau.stages];
-        combine(&mut made.y, &start.y, *h, &tableau.b, k, *states);
         combine(&mut made.error, &[0.0; N], *h, &tableau.error, k, *states);
         if let Some(weights) = &tableau.coarse_error {
             combine(&mut made.coarse_error, &[0.0; N], *h, weights, k, *states);
-        }
-        if tableau.first_same_as_last {
-            made.rates = made.k[tableau.stages - 1];
         }
         self.see::<E>();
     }
@@ -179,7 +184,7 @@ pub(super) fn in_registers<const N: usize, P: Problem<N> + ?Sized>(
         return; // nothing is compiled
     }
     let mut last = k[0];
-    for i in 1..tableau.stages.min(STAGES) {
+    for i in 1..tableau.inner_stages().min(STAGES) {
         let weights = &tableau.a[i];
         let mut slope = [0.0; N];
         for (weight, k) in weights.iter().zip(k.iter()).take(i - 1) {

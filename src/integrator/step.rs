@@ -146,47 +146,6 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         (step.state((t - step.t) / step.h, correction), start.modes)
     }
 
-    /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
-    /// step of its own. To be called with the problem that made the step.
-    pub fn rewind<P>(&mut self, problem: &P, t: f64)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        let start = self.memory.start;
-        if t >= self.memory.front.t {
-            return;
-        }
-        self.memory.statistics = self.memory.statistics_at(t);
-        self.memory.statistics.steps -= 1;
-        self.memory.cuts = 0;
-        if t <= start.t {
-            self.memory.crossings = 0;
-            self.memory.front = start;
-            self.memory.end = start;
-        } else {
-            self.attempt(problem, t - start.t);
-            self.keep(problem, t);
-            self.commit(problem, t);
-        }
-    }
-
-    /// A shorter step to `t` was not judged. Where it is lost, what was told of this instant takes its place, and where
-    /// that is lost, too, the straight line between the longer step's ends, which are not.
-    fn keep<P>(&mut self, problem: &P, t: f64)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
-        if controller::lost_state(problem, &self.made.y).is_none() {
-            return;
-        }
-        self.made.y = self.state_at(problem, t).0;
-        if controller::lost_state(problem, &self.made.y).is_some() {
-            let Memory { start, end, .. } = &self.memory;
-            let share = (t - start.t) / (end.t - start.t);
-            self.made.y = std::array::from_fn(|i| (1.0 - share) * start.y[i] + share * end.y[i]);
-        }
-    }
-
     /// Attempts a step of `h` from the start of the last one.
     pub(super) fn attempt<P>(&mut self, problem: &P, h: f64)
     where
@@ -268,20 +227,30 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         Err(IntegrationError::NotFinite { time: start.t, component })
     }
 
+    /// An attempt has given rates and guards at its end.
+    pub(super) fn gives_end(&self) -> bool {
+        M::character(self.memory.stiff).gives_end
+    }
+
+    /// Takes rates and guards at the end of the attempt, at `t`.
+    pub(super) fn look_at_end<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P, t: f64) {
+        let Attempt { y, rates, guards, .. } = &mut self.made;
+        problem.rates_and_guards(&self.memory.start.modes, t, y, rates, guards);
+        self.memory.statistics.evaluations += 1;
+    }
+
     /// Makes the attempt the step that ends at `t`.
     pub(super) fn commit<P>(&mut self, problem: &P, t: f64)
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Front { modes, impact_end, .. } = self.memory.start;
-        let Attempt { y, rates, .. } = &mut self.made;
-        if M::GIVES_RATES {
-            problem.guards(&modes, t, y, &mut self.guards);
-        } else {
-            problem.rates_and_guards(&modes, t, y, rates, &mut self.guards);
-            self.memory.statistics.evaluations += 1;
+        if !self.gives_end() {
+            self.look_at_end(problem, t);
         }
+        let Front { modes, impact_end, .. } = self.memory.start;
+        let Attempt { y, rates, guards, .. } = &self.made;
         let end = Front { t, y: *y, rates: *rates, modes, impact_end };
+        self.guards = *guards;
         self.memory.statistics.steps += 1;
         self.memory.end = end;
         self.memory.front = end;

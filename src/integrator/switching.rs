@@ -31,7 +31,6 @@ impl<S: Pair> Method for Switching<S> {
     const ORDER: u32 = <S::Loose as Method>::ORDER;
     const ADAPTIVE: bool = true;
     const COARSE: bool = false;
-    const GIVES_RATES: bool = false;
     const LOCATES: bool = true;
     const CHARACTER: Character = <S::Loose as Method>::CHARACTER;
     const IN_STIFF: Option<Character> = Some(<Implicit<S::Stiff> as Method>::CHARACTER);

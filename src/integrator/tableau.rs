@@ -28,7 +28,7 @@ pub struct Tableau {
     pub coarse_error: Option<[f64; STAGES]>,
     /// The power of the step with which the error estimate falls.
     pub error_power: f64,
-    /// The last stage is the rate at the step's end.
+    /// The last stage is at the step's end: its weights are those of the solution, its rates the next step's first.
     pub first_same_as_last: bool,
 }
 
@@ -47,12 +47,12 @@ impl<E: Explicit> Method for E {
     const ORDER: u32 = E::TABLEAU.order;
     const ADAPTIVE: bool = E::TABLEAU.first_weighed_stage() != 0;
     const COARSE: bool = E::TABLEAU.coarse_error.is_some();
-    const GIVES_RATES: bool = E::TABLEAU.first_same_as_last;
     const LOCATES: bool = E::LOCATES;
     const CHARACTER: Character = Character {
         error_power: E::TABLEAU.error_power,
         interpolates: true,
         evaluations: E::TABLEAU.stages as u64 - 1,
+        gives_end: E::TABLEAU.first_same_as_last,
     };
     type Room<const N: usize> = ();
 
@@ -100,6 +100,11 @@ impl Tableau {
             j += 1;
         }
         full
+    }
+
+    /// Number of stages before the step's end is known.
+    pub const fn inner_stages(&self) -> usize {
+        if self.first_same_as_last { self.stages - 1 } else { self.stages }
     }
 
     /// The first stage after the first of all that an error estimate weighs; 0 without an estimate.

@@ -1,7 +1,7 @@
 //! When the integrator gives up: the right error, at the right time, with the state intact.
 
 use super::free::Free;
-use slidercrank::integrator::methods::{Dopri5, Rk4, Rk4Unlocated, Verner7};
+use slidercrank::integrator::methods::{Bs3, Dopri5, Rk4, Rk4Unlocated, Verner7};
 use slidercrank::integrator::{
     Crossed, Effort, GUARDS, Guard, IntegrationError, Integrator, Jacobian, Memory, Problem, Reset, Settings,
 };
@@ -263,6 +263,27 @@ fn a_step_that_is_lost_when_it_is_shortened_leaves_a_state_between_its_ends() {
     let [position, speed] = [0.25 - 62.0 / 6.0, -124.0 / 6.0];
     assert!((front.y[0] - 0.5 * (0.25 + position)).abs() < 1e-12, "{front:?}");
     assert!((front.y[1] - 0.5 * speed).abs() < 1e-12, "{front:?}");
+}
+
+/// The same with a method whose attempts give the rates at their ends, too.
+#[test]
+fn a_state_that_is_kept_has_its_own_rates() {
+    let falling = Free { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = -2.0 };
+    let mut integrator = Integrator::<2, (), Bs3>::start(&falling, SETTINGS, 0.0, [0.0, 0.0], ());
+    integrator.advance(&falling, 4.0).expect("nothing is in the way");
+    let [start, end] = [integrator.memory().start.t, integrator.memory().end.t];
+    assert_eq!(end - start, 1.0);
+    // The whole step looked at ½, ¾ and 1; one of half its length looks at ¼.
+    let hollow = Free {
+        accelerations: move |t: f64, _: &[f64], _: &[f64], a: &mut [f64]| {
+            a[0] = if (t - start - 0.25).abs() < 0.1 { 1e30 } else { -2.0 };
+        },
+    };
+    let t = start + 0.5;
+    integrator.rewind(&hollow, t);
+    let front = integrator.memory().front;
+    assert!((front.y[0] + t * t).abs() < 1e-12 && (front.y[1] + 2.0 * t).abs() < 1e-12, "{front:?}");
+    assert_eq!(front.rates, [front.y[1], -2.0]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The integrator on problems with known answers.
 
 mod complementarity;
+mod conditions;
 mod dense_output;
 mod dual;
 mod events;
