@@ -15,9 +15,9 @@ pub struct Attempt<const N: usize> {
     k: [[f64; N]; STAGES],
     /// The state at the step's end.
     pub y: [f64; N],
-    /// Its rates, where the last stage gives them; see [`Tableau::first_same_as_last`].
+    /// Its rates, where the last stage gives them (see [`Tableau::first_same_as_last`]); otherwise once they are taken.
     pub rates: [f64; N],
-    /// The guards there, where it gives the rates.
+    /// The guards there, as the rates.
     pub guards: [Guard; GUARDS],
     /// The step's error in every state.
     pub error: [f64; N],
