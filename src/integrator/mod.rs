@@ -40,5 +40,5 @@ pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM
 pub use regime::Regime;
 pub use statistics::Statistics;
 pub use step::Integrator;
-pub use tableau::{Explicit, Tableau};
+pub use tableau::{Explicit, STAGES, Tableau};
 pub use unilateral::{ContactLaw, Impulses, Relative, Unilateral};

@@ -114,7 +114,7 @@ pub trait Problem<const N: usize> {
     /// for a step of `h` from the state `y` at time `t`; `k[0]` has the rates there. Compiled for a problem of at most
     /// [`IN_REGISTERS`](super::stages::IN_REGISTERS) states, with its rates inside; larger ones are not asked.
     fn stages(&self, tableau: &Tableau, modes: &Self::Modes, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
-        in_registers(self, tableau, modes, t, y, h, k);
+        in_registers(tableau, t, y, h, k, |t, y, rates| self.rates(modes, t, y, rates));
     }
 
     /// Writes the exact derivatives of the rates at `t` and `y` into the rows and columns of the

@@ -169,16 +169,15 @@ fn combine<const N: usize>(
     }
 }
 
-/// See [`Problem::stages`].
+/// [`Problem::stages`] of a problem with these `rates` of a state at a time, which are compiled into the loop over stages.
 #[inline(always)]
-pub(super) fn in_registers<const N: usize, P: Problem<N> + ?Sized>(
-    problem: &P,
+pub fn in_registers<const N: usize>(
     tableau: &Tableau,
-    modes: &P::Modes,
     t: f64,
     y: &[f64; N],
     h: f64,
     k: &mut [[f64; N]; STAGES],
+    rates: impl Fn(f64, &[f64; N], &mut [f64; N]),
 ) {
     if N > IN_REGISTERS {
         return; // nothing is compiled
@@ -198,7 +197,7 @@ pub(super) fn in_registers<const N: usize, P: Problem<N> + ?Sized>(
         each!(true, m < N => {
             at[m] += weight_of_last.times_plus(last[m], h * slope[m]);
         });
-        problem.rates(modes, t + tableau.c[i] * h, &at, &mut last);
+        rates(t + tableau.c[i] * h, &at, &mut last);
         k[i] = last;
     }
 }

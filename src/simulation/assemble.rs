@@ -55,13 +55,21 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
         }
         let audit = if scene.energy.audit { audit::STATES } else { 0 };
         let (modes, states) = (rod.modes(), state_count(scene, &rod) + audit);
-        return if modes <= FEW_MODES && states <= ROOM {
-            flexible!(ROOM, FEW_MODES)
-        } else if modes <= MOST_MODES {
-            flexible!(LARGE, MOST_MODES)
-        } else {
-            flexible!(LARGE, 2 * MOST_MODES)
-        };
+        if modes > MOST_MODES {
+            return flexible!(LARGE, 2 * MOST_MODES);
+        } else if modes > FEW_MODES || states > ROOM {
+            return flexible!(LARGE, MOST_MODES);
+        }
+        /// In arrays of so many states where there are exactly as many.
+        macro_rules! few {
+            ($($states:literal)*) => {
+                match states {
+                    $($states if !has_extra_states(scene) => flexible!($states, FEW_MODES),)*
+                    _ => flexible!(ROOM, FEW_MODES),
+                }
+            };
+        }
+        return few!(2 4 6 8 10 12 14);
     }
     let Topology { a, b, c, t, speed } = Topology::of(scene);
     match (a, b, c, t) {

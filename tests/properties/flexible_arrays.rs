@@ -1,15 +1,18 @@
 //! A flexible rod's motion does not depend on what it is compiled for: the number of modes and the joints, any of them
-//! in larger arrays, or any in numbers with derivatives.
+//! in larger arrays, or any in numbers with derivatives; nor a step on whether its stages are compiled with it.
 
 use super::chance::Chance;
 use super::scenes::{all_plays, contacts, crooked, letters, with_play};
-use slidercrank::integrator::Extent;
+use slidercrank::integrator::Front;
+use slidercrank::integrator::methods::Verner7;
+use slidercrank::integrator::stages::{Attempt, IN_REGISTERS};
 use slidercrank::math::Real;
-use slidercrank::model::flexible::{Flexible, most_equations};
+use slidercrank::model::flexible::{Flexible, most_equations, state_count};
 use slidercrank::model::plant::Plant;
 use slidercrank::model::rod::{Rod, most_functions};
 use slidercrank::model::scalar::Tangent;
 use slidercrank::model::start::StartPose;
+use slidercrank::model::state::Contacts;
 use slidercrank::scene::{DriveMode, FrictionLaw, Scene};
 
 /// Room for every state.
@@ -19,10 +22,10 @@ type Few = In<4, { most_equations(4) }, { most_functions(4) }>;
 type Many = In<8, { most_equations(8) }, { most_functions(8) }>;
 type Most = In<16, { most_equations(16) }, { most_functions(16) }>;
 
-/// The rates of a motion that leaves nothing out, in plain numbers and in those with derivatives, which are put at 0.
-fn rates<P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Vec<f64>; 2] {
+/// A mechanism, and a state of a motion that leaves nothing out.
+fn moving<const N: usize, P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> (P, [f64; N], Contacts) {
     let plant = assemble(scene, 0.0, Rod::new(scene).expect("a flexible rod"));
-    let Extent { positions, states, .. } = plant.extent();
+    let positions = plant.extent().positions;
     let mut y = plant.start(&StartPose::of(scene).expect("the loop closes"));
     let mut chance = Chance(5);
     for (i, state) in y.iter_mut().enumerate().take(2 * positions) {
@@ -30,6 +33,13 @@ fn rates<P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Ve
         *state += if i < positions { chance.between(-8e-4, 8e-4) } else { chance.between(-2.0, 2.0) };
     }
     let contacts = plant.start_contacts(0.0, &y);
+    (plant, y, contacts)
+}
+
+/// Its rates, in plain numbers and in those with derivatives, which are put at 0.
+fn rates<P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Vec<f64>; 2] {
+    let (plant, y, contacts) = moving(scene, assemble);
+    let states = plant.extent().states;
     let (mut plain, mut tangent) = ([0.0; N], [Tangent::ZERO; N]);
     plant.rates(&contacts, 0.0, &y, &mut plain);
     plant.tangent_rates(&contacts, Tangent::ZERO, &y.map(Tangent::constant), &mut tangent);
@@ -37,6 +47,35 @@ fn rates<P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Ve
     plant.rates_and_guards(&contacts, 0.0, &y, &mut again, &mut guards);
     assert_eq!(plain, again, "rates with and without event functions");
     [plain[..states].to_vec(), tangent[..states].iter().map(|rate| rate.value()).collect()]
+}
+
+/// The end of a step of that motion, and the step's error.
+fn step<const N: usize, P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Vec<f64>; 2] {
+    let (plant, y, contacts) = moving(scene, assemble);
+    let mut start = Front { t: 0.0, y, rates: [0.0; N], modes: contacts, impact_end: 0.0 };
+    plant.rates(&contacts, 0.0, &y, &mut start.rates);
+    let mut made = Attempt::NONE;
+    made.explicitly::<Verner7, P>(&plant, &start, 1e-6);
+    [made.y, made.error].map(|list| list[..plant.extent().states].to_vec())
+}
+
+/// The same in arrays that fit, where those fit into registers.
+fn fitting_step(scene: &Scene) -> Option<[Vec<f64>; 2]> {
+    type Fitting<const N: usize> = Flexible<N, { most_equations(4) }, 4, { most_functions(4) }>;
+    let rod = Rod::new(scene).expect("a flexible rod");
+    match state_count(scene, &rod) {
+        2 => Some(step(scene, Fitting::<2>::assemble)),
+        4 => Some(step(scene, Fitting::<4>::assemble)),
+        6 => Some(step(scene, Fitting::<6>::assemble)),
+        8 => Some(step(scene, Fitting::<8>::assemble)),
+        10 => Some(step(scene, Fitting::<10>::assemble)),
+        12 => Some(step(scene, Fitting::<12>::assemble)),
+        14 => Some(step(scene, Fitting::<14>::assemble)),
+        more => {
+            assert!(more > IN_REGISTERS, "{more} states");
+            None
+        }
+    }
 }
 
 fn scenes(bending: i32, axial: i32, stiffens: bool) -> Vec<(String, Scene)> {
@@ -74,6 +113,22 @@ fn few_modes_move_alike_in_all_arrays() {
             }
         }
     }
+}
+
+#[test]
+fn a_step_in_arrays_that_fit_has_the_bits_of_one_in_arrays_with_room() {
+    let mut compared = 0;
+    for (bending, axial) in [(1, 0), (2, 0), (3, 0), (2, 1), (3, 1), (0, 1)] {
+        for stiffens in [true, false] {
+            for (name, scene) in scenes(bending, axial, stiffens) {
+                if let Some(fitting) = fitting_step(&scene) {
+                    assert_eq!(fitting, step(&scene, Few::assemble), "{name}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
 }
 
 #[test]

@@ -49,7 +49,7 @@ impl<R: Real, const P: usize> Places<R, P> {
         centre: &Centre<R, P>,
         heading: &Heading<R, P>,
     ) {
-        each!(R::PLAIN, j < i + 1 => {
+        each!(R::PLAIN, j < i + 1, P => {
             self.matrix[i][j] += twist.times_plus(heading.slope[j], push.with(centre.slope[j]));
         });
     }
@@ -131,8 +131,8 @@ impl<R: Real, const S: usize> Equations<R, S> {
         places.twist(heading, loads.end_couple[0] + loads.end_couple[1] - couple);
 
         let mut all = Self { size: rigid + n, matrix: [[R::ZERO; S]; S], right: [R::ZERO; S] };
-        each!(R::PLAIN, i < rigid => {
-            each!(R::PLAIN, j < i + 1 => {
+        each!(R::PLAIN, i < rigid, P => {
+            each!(R::PLAIN, j < i + 1, P => {
                 all.matrix[j][i] = places.matrix[i][j].value();
             });
             all.right[i] = places.right[i].value();
@@ -140,15 +140,15 @@ impl<R: Real, const S: usize> Equations<R, S> {
         // A mode turns and shifts the rod's mass in its frame, and moves the frame through the chord.
         let of_chord = &places.matrix[rigid];
         let mut by_chord = [Sparse::Zero; K];
-        each!(const { R::PLAIN && K <= FEW_MODES }, a < n => {
+        each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
             let (slope, turning) = (heading.rotation.apply(inertia.first_slope[a]), inertia.turning[a]);
             let with = |i: usize| heading.slope[i].times_plus(turning, big_end.slope[i].with(slope));
             let chord = shape.chord_slope[a];
-            each!(R::PLAIN, i < rigid => {
+            each!(R::PLAIN, i < rigid, P => {
                 all.matrix[i][rigid + a] = of_chord[i].times_plus(chord, with(i)).value();
             });
             by_chord[a] = with(rigid);
-            each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1 => {
+            each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
                 let other = shape.chord_slope[b];
                 let shifted = of_chord[rigid] * (chord * other);
                 let shifted = by_chord[a].times_plus(other, by_chord[b].times_plus(chord, shifted));

@@ -4,53 +4,46 @@
 //! coordinates after them. Which coordinates move which point is in the slopes of a
 //! `configuration`; a mechanism's own modes and joints decide how many there are. Those that the joints make
 //! zero are known as such (`sparse`), and with up to eight modes the motion is compiled for each topology:
-//! nothing is computed with them.
+//! nothing is computed with them. With few modes the loop over a step's stages is compiled for each topology and number
+//! of modes, with the whole of the motion in it (`written`).
 
 mod alone;
+mod assembly;
 mod chain;
 mod configuration;
 mod equations;
 mod motion;
 mod solver;
 mod sparse;
+mod written;
 
 use super::bristles::bristled_contacts;
-use super::clearances::Clearances;
 use super::contact::Account;
-use super::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers};
+use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
-use super::joint::Kernels;
-use super::mechanism::{Bodies, CRANK, Topology, bodies};
+use super::mechanism::{CRANK, Topology};
 use super::plant::Plant;
-use super::rod::{Modes, Rod, most_functions};
+use super::rod::{Rod, most_functions};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, Unilateral};
+use crate::integrator::stages::in_registers;
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset};
+use crate::integrator::{STAGES, Tableau, Unilateral};
 use crate::math::Real;
 use crate::scene::Scene;
+use assembly::Assembly;
 use chain::{Frame, PLACES};
-use configuration::Geometry;
-use motion::Functions;
-use solver::Solvers;
+use written::Stages;
 
-/// A mechanism with a flexible rod, in arrays with room for `N` states, `S` equations to solve together, `K` modes and
-/// `F` functions of the rod.
+/// A mechanism with a flexible rod, in arrays with room for `N` states or of exactly `N`, with room for `S` equations to
+/// solve together, `K` modes and `F` functions of the rod.
 #[derive(Clone, Debug)]
 pub struct Flexible<const N: usize, const S: usize, const K: usize, const F: usize> {
-    geometry: Geometry,
-    modes: Modes<K, F>,
-    functions: Functions<Self, N>,
-    solvers: Kernels<Solvers<S>>,
-    bodies: Bodies,
-    gravity: f64,
-    clearances: Clearances,
-    rotary_dampers: Vec<RotaryDamper>,
-    guide_damping: Option<f64>,
-    signal: InputSignal,
-    extent: Extent,
+    all: Assembly<S, K, F>,
+    stages: Option<Stages<Assembly<S, K, F>, N>>,
     scales: [f64; N],
     longest_step: f64,
     guard_scale: f64,
@@ -67,16 +60,17 @@ pub fn state_count(scene: &Scene, rod: &Rod) -> usize {
 }
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
+    /// There is room for other states beside positions and rates.
+    const ROOMY: bool = N >= ROOM;
+
     /// Assembles the mechanism of a scene that starts at `time` [s], with its rod.
     pub fn assemble(scene: &Scene, time: f64, rod: Rod) -> Self {
-        const { assert!(N >= ROOM && S == most_equations(K) && F == most_functions(K)) };
-        let topology = Topology::of(scene);
-        let frame = Frame::new(topology);
-        let geometry = Geometry { frame, ideal: IdealMechanism::new(scene), rotor: Rotor::new(scene, time), rod };
-        let clearances = Clearances::new(scene);
-        let (rigid, modal) = (frame.arrangement.positions, geometry.modes(frame));
-        let positions = modal.end;
-        let states = 2 * positions + clearances.bristles.len();
+        const { assert!(S == most_equations(K) && F == most_functions(K)) };
+        let all = Assembly::new(scene, time, rod);
+        let Extent { positions, states, .. } = all.extent();
+        assert!(states <= N && (Self::ROOMY || states == N), "room for every state, or exactly as many");
+        let (frame, rod) = (all.frame(), &all.geometry.rod);
+        let (rigid, modal) = (frame.arrangement.positions, all.geometry.modes(frame));
         let scale = Scale::of(scene);
         let mut scales = [0.0; N];
         let (of_positions, of_rates) = scales[..2 * positions].split_at_mut(positions);
@@ -85,31 +79,15 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         for (rate, position) in of_rates.iter_mut().zip(of_positions.iter()) {
             *rate = position * scale.frequency;
         }
-        for (k, &frequency) in modal.zip(&geometry.rod.frequency) {
+        for (k, &frequency) in modal.zip(&rod.frequency) {
             of_positions[k] = scale.deflection;
             of_rates[k] = scale.deflection * frequency.max(scale.frequency);
         }
         for (scale, (_, deflection)) in scales[2 * positions..].iter_mut().zip(bristled_contacts(scene)) {
             *scale = deflection;
         }
-        let solved = frame.chain.size + geometry.rod.modes();
-        let (modes, functions) = (Modes::new(&geometry.rod), Self::functions(topology));
-        Self {
-            geometry,
-            modes,
-            functions,
-            solvers: Solvers::of(solved),
-            bodies: bodies(scene),
-            gravity: scene.gravity,
-            clearances,
-            rotary_dampers: rotary_dampers(scene),
-            guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
-            signal: InputSignal::default(),
-            extent: Extent { positions, weighed: states, states },
-            scales,
-            longest_step: scale.longest_step,
-            guard_scale: scale.length,
-        }
+        let stages = written::stages(frame.arrangement.topology, all.modes.counts);
+        Self { all, stages, scales, longest_step: scale.longest_step, guard_scale: scale.length }
     }
 }
 
@@ -117,15 +95,22 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     type Modes = Contacts;
 
     fn extent(&self) -> Extent {
-        self.extent
+        self.all.extent()
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        (self.functions.rates)(self, contacts, t, y, rates);
+        (self.all.functions.rates)(&self.all, contacts, t, y, rates);
+    }
+
+    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
+        match self.stages {
+            Some(stages) => stages(&self.all, tableau, contacts, t, y, h, k),
+            None => in_registers(tableau, t, y, h, k, |t, y, rates| self.rates(contacts, t, y, rates)),
+        }
     }
 
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
-        let Extent { states, .. } = self.extent;
+        let Extent { states, .. } = self.all.extent();
         differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
     }
 
@@ -138,18 +123,18 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn guard_count(&self) -> usize {
-        if self.geometry.frame.arrangement.topology.is_closed() {
+        if self.all.frame().arrangement.topology.is_closed() {
             1
         } else {
-            self.clearances.guard_count(self.geometry.frame.arrangement.clear)
+            self.all.clearances.guard_count(self.all.frame().arrangement.clear)
         }
     }
 
     fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        if self.geometry.frame.arrangement.topology.is_closed() {
-            guards[0] = self.change_point(t, y);
+        if self.all.frame().arrangement.topology.is_closed() {
+            guards[0] = self.all.change_point(t, y);
         } else {
-            self.clearances.guards(self.geometry.frame.arrangement.clear, contacts, &self.pose(t, y), guards);
+            self.all.clearances.guards(self.all.frame().arrangement.clear, contacts, &self.all.pose(t, y), guards);
         }
     }
 
@@ -161,19 +146,19 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
         rates: &mut [f64; N],
         guards: &mut [Guard; GUARDS],
     ) {
-        (self.functions.ends)(self, contacts, t, y, rates, guards);
+        (self.all.functions.ends)(&self.all, contacts, t, y, rates, guards);
     }
 
     fn is_dead_end(&self, _: usize) -> bool {
-        self.geometry.frame.arrangement.topology.is_closed()
+        self.all.frame().arrangement.topology.is_closed()
     }
 
     fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
-        self.clearances.kinks(self.geometry.frame.arrangement.clear, contacts, &self.pose(t, y), kinks);
+        self.all.clearances.kinks(self.all.frame().arrangement.clear, contacts, &self.all.pose(t, y), kinks);
     }
 
     fn guard_scale(&self) -> f64 {
-        if self.geometry.frame.arrangement.topology.is_closed() {
+        if self.all.frame().arrangement.topology.is_closed() {
             IdealMechanism::CHANGE_POINT_SCALE
         } else {
             self.guard_scale
@@ -181,9 +166,9 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
-        let pose = self.pose(t, y);
-        let bristles = &mut y[2 * self.extent.positions..];
-        self.clearances.cross(self.geometry.frame.arrangement.clear, contacts, &pose, crossed, bristles)
+        let pose = self.all.pose(t, y);
+        let bristles = &mut y[2 * self.all.positions..];
+        self.all.clearances.cross(self.all.frame().arrangement.clear, contacts, &pose, crossed, bristles)
     }
 }
 
@@ -191,11 +176,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Unilateral<
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, S, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {
-        let layout = &self.geometry.frame.arrangement.layout;
-        let p = self.extent.positions;
+        let layout = &self.all.frame().arrangement.layout;
+        let p = self.all.positions;
         let mut y = [0.0; N];
         let (positions, rates) = y[..2 * p].split_at_mut(p);
-        if self.geometry.frame.arrangement.topology.is_closed() {
+        if self.all.frame().arrangement.topology.is_closed() {
             if let (Some(angle), Some(speed)) = (layout.angle(CRANK), layout.angle(CRANK)) {
                 (positions[angle], rates[speed]) = (pose.angle[CRANK], pose.speed[CRANK]);
             }
@@ -210,43 +195,43 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
-        self.clearances.start(self.geometry.frame.arrangement.clear, &self.pose(t, y))
+        self.all.clearances.start(self.all.frame().arrangement.clear, &self.all.pose(t, y))
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
-        self.signal = signal;
+        self.all.signal = signal;
     }
 
     fn signal(&self) -> &InputSignal {
-        &self.signal
+        &self.all.signal
     }
 
     fn start_time(&self) -> f64 {
-        self.geometry.rotor.start_time
+        self.all.geometry.rotor.start_time
     }
 
     fn set_start_time(&mut self, time: f64) {
-        self.geometry.rotor.start_time = time;
+        self.all.geometry.rotor.start_time = time;
     }
 
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        (self.functions.instant)(self, contacts, t, y, &mut [0.0; N])
+        self.rates_and_instant(contacts, t, y, &mut [0.0; N])
     }
 
     fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
-        (self.functions.instant)(self, contacts, t, y, rates)
+        (self.all.functions.instant)(&self.all, contacts, t, y, rates)
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
-        self.clearances.depths(self.geometry.frame.arrangement.clear, pose)
+        self.all.clearances.depths(self.all.frame().arrangement.clear, pose)
     }
 
     fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
-        self.clearances.account(self.geometry.frame.arrangement.clear, contacts, pose, &y[2 * self.extent.positions..])
+        self.all.clearances.account(self.all.frame().arrangement.clear, contacts, pose, &y[2 * self.all.positions..])
     }
 
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
-        self.tangent_motion(contacts, t, y, rates);
+        self.all.tangent_motion(contacts, t, y, rates);
     }
 
     fn tangent_instant(
@@ -256,10 +241,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
         y: &[Tangent; N],
     ) -> (Instant<Tangent>, Account<Tangent>) {
         let mut rates = [Tangent::ZERO; N];
-        let motion = self.tangent_motion(contacts, t, y, &mut rates);
-        let instant = self.instant_of(self.geometry.frame, motion, y, &rates);
-        let bristles = &y[2 * self.extent.positions..];
-        let account = self.clearances.account(self.geometry.frame.arrangement.clear, contacts, &instant.pose, bristles);
+        let motion = self.all.tangent_motion(contacts, t, y, &mut rates);
+        let instant = self.all.instant_of(self.all.frame(), motion, y, &rates);
+        let bristles = &y[2 * self.all.positions..];
+        let account =
+            self.all.clearances.account(self.all.frame().arrangement.clear, contacts, &instant.pose, bristles);
         (instant, account)
     }
 }

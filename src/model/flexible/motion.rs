@@ -1,11 +1,12 @@
 //! The motion of a mechanism with a flexible rod, in any number: loads on its configuration, inertia,
 //! accelerations.
 
-use super::Flexible;
 use super::alone;
+use super::assembly::Assembly;
 use super::chain::{Frame, PLACES};
 use super::configuration::{Configuration, Geometry};
 use super::equations::{Equations, Moving, Places};
+use super::written;
 use crate::integrator::{GUARDS, Guard};
 use crate::math::each;
 use crate::model::drive::{add_viscous, viscous_guide};
@@ -13,24 +14,27 @@ use crate::model::dynamics::Loads;
 use crate::model::linkage::Arrangement;
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2};
-use crate::model::rod::{FEW_MODES, Inertia, Shape};
+use crate::model::rod::{Counts, FEW_MODES, Inertia, Shape};
 use crate::model::scalar::{Scalar, Tangent};
 use crate::model::state::{Contacts, FlexibleInstant, Instant, Pose};
 use crate::scene::modal::MOST_MODES;
 
-type Ends<M, const N: usize> = fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N], &mut [Guard; GUARDS]);
+/// Writes the rates of a state at a time.
+pub type Rates<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64]);
 
-/// The motion of `N` states in plain numbers, compiled for its frame.
+type Ends<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
+
+/// The motion in plain numbers, compiled for its frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Functions<M, const N: usize> {
+pub struct Functions<M> {
     /// Writes the rates of a state.
-    pub rates: fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N]),
+    pub rates: Rates<M>,
     /// Writes the rates of a state, and its event functions.
-    pub ends: Ends<M, N>,
+    pub ends: Ends<M>,
     /// Tells places and velocities of a state.
-    pub pose: fn(&M, f64, &[f64; N]) -> Pose,
+    pub pose: fn(&M, f64, &[f64]) -> Pose,
     /// Writes the rates of a state, and tells everything about that instant.
-    pub instant: fn(&M, &Contacts, f64, &[f64; N], &mut [f64; N]) -> Instant,
+    pub instant: fn(&M, &Contacts, f64, &[f64], &mut [f64]) -> Instant,
 }
 
 /// The motion at one instant.
@@ -42,9 +46,29 @@ pub(super) struct Motion<R, const P: usize, const K: usize, const F: usize> {
     loads: Loads<R>,
 }
 
-impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
+/// Chooses among all topologies: hands joints and drive of a [`Topology`] to a macro, as literals.
+macro_rules! by_topology {
+    ($topology:expr, $compiled:ident) => {
+        by_topology!(
+            @ $topology, $compiled,
+            (true true true true)    (true true true false)    (true true false true)    (true true false false)
+            (true false true true)   (true false true false)   (true false false true)   (true false false false)
+            (false true true true)   (false true true false)   (false true false true)   (false true false false)
+            (false false true true)  (false false true false)  (false false false true)  (false false false false)
+        )
+    };
+    (@ $topology:expr, $compiled:ident, $(($a:literal $b:literal $c:literal $t:literal))*) => {
+        match ($topology.a, $topology.b, $topology.c, $topology.t) {
+            $(($a, $b, $c, $t) if $topology.speed => $compiled!($a $b $c $t true),
+            ($a, $b, $c, $t) => $compiled!($a $b $c $t false),)*
+        }
+    };
+}
+pub(super) use by_topology;
+
+impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
     /// The functions for a topology; with many modes those for any, since it is they that take the time.
-    pub(super) fn functions(topology: Topology) -> Functions<Self, N> {
+    pub(super) fn functions(topology: Topology, counts: Counts) -> Functions<Self> {
         /// Those for a frame, with so many places.
         macro_rules! compiled {
             ($places:expr, $all:ident => $frame:expr) => {
@@ -78,41 +102,30 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
                 compiled!(FRAME.places(), all => FRAME)
             }};
         }
-        /// Chooses among all.
-        macro_rules! choose {
-            ($($a:literal $b:literal $c:literal $t:literal)*) => {
-                match (topology.a, topology.b, topology.c, topology.t) {
-                    $(($a, $b, $c, $t) if topology.speed => joined!($a $b $c $t true),
-                    ($a, $b, $c, $t) => joined!($a $b $c $t false),)*
-                }
-            };
-        }
-        choose!(
-            true true true true    true true true false    true true false true    true true false false
-            true false true true   true false true false   true false false true   true false false false
-            false true true true   false true true false   false true false true   false true false false
-            false false true true  false false true false  false false false true  false false false false
-        )
+        let functions: Functions<Self> = by_topology!(topology, joined);
+        Functions { rates: written::rates(topology, counts).unwrap_or(functions.rates), ..functions }
     }
 
     /// Places and velocities of the state `y` at `t`.
-    pub(super) fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
+    pub(super) fn pose(&self, t: f64, y: &[f64]) -> Pose {
         (self.functions.pose)(self, t, y)
     }
 
     #[inline(always)]
-    fn pose_in<const P: usize>(&self, frame: Frame, t: f64, y: &[f64; N]) -> Pose {
+    fn pose_in<const P: usize>(&self, frame: Frame, t: f64, y: &[f64]) -> Pose {
         let (eta, rate) = self.modal(frame, y);
-        let shape = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate);
-        self.configuration::<f64, P>(frame, t, y, &shape).pose(shape.slope_rate)
+        let shape = self.modes.shape_of::<f64, false>(self.modes.counts, eta, rate);
+        let (positions, speeds) = y[..2 * self.positions].split_at(self.positions);
+        let configuration = self.geometry.configuration::<f64, P>(frame, t, positions, speeds, &shape.chord);
+        configuration.pose(shape.slope_rate)
     }
 
     /// The event at which the rod, closed in a loop of ideal joints, stands across the guide.
-    pub(super) fn change_point(&self, t: f64, y: &[f64; N]) -> Guard {
+    pub(super) fn change_point(&self, t: f64, y: &[f64]) -> Guard {
         let Geometry { frame, rotor, ideal, .. } = &self.geometry;
         let (eta, rate) = self.modal(*frame, y);
-        let chord = (self.modes.functions::<f64>().shape)(&self.modes, eta, rate).chord;
-        let p = self.extent.positions;
+        let chord = self.modes.shape_of::<f64, false>(self.modes.counts, eta, rate).chord;
+        let p = self.positions;
         let (angle, speed) =
             frame.arrangement.layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
         ideal.change_point(Rotation::new(angle), speed, chord.length, chord.rate)
@@ -120,32 +133,20 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
 
     /// Modal coordinates and their rates.
     #[inline(always)]
-    fn modal<'a, R>(&self, frame: Frame, y: &'a [R; N]) -> (&'a [R], &'a [R]) {
-        let (modes, p) = (self.geometry.modes(frame), self.extent.positions);
+    fn modal<'a, R>(&self, frame: Frame, y: &'a [R]) -> (&'a [R], &'a [R]) {
+        let (modes, p) = (self.geometry.modes(frame), self.positions);
         (&y[modes.clone()], &y[p + modes.start..p + modes.end])
     }
 
     #[inline(always)]
-    fn configuration<R: Scalar, const P: usize>(
-        &self,
-        frame: Frame,
-        t: R,
-        y: &[R; N],
-        shape: &Shape<R, K, F>,
-    ) -> Configuration<R, P> {
-        let p = self.extent.positions;
-        self.geometry.configuration(frame, t, &y[..p], &y[p..2 * p], &shape.chord)
-    }
-
-    #[inline(always)]
-    fn loads<R: Scalar>(&self, frame: Frame, contacts: &Contacts, t: R, y: &[R; N], pose: &Pose<R>) -> Loads<R> {
+    fn loads<R: Scalar>(&self, frame: Frame, contacts: &Contacts, t: R, bristles: &[R], pose: &Pose<R>) -> Loads<R> {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
         let mut loads = Loads { pin: Vec2::new(slider_load, R::ZERO), slider_load, ..Loads::default() };
         if !frame.arrangement.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
-        self.clearances.add_loads(frame.arrangement.clear, contacts, pose, &y[2 * self.extent.positions..], &mut loads);
+        self.clearances.add_loads(frame.arrangement.clear, contacts, pose, bristles, &mut loads);
         add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
@@ -160,33 +161,49 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         frame: Frame,
         contacts: &Contacts,
         t: R,
-        y: &[R; N],
-        rates: &mut [R; N],
+        y: &[R],
+        rates: &mut [R],
+    ) -> Motion<R, P, K, F> {
+        self.motion_of::<R, P, false>(frame, self.modes.counts, contacts, t, y, rates)
+    }
+
+    /// The same of a rod of these `counts`; with `WRITTEN`, a constant, compiled for them in place.
+    #[inline(always)]
+    pub(super) fn motion_of<R: Scalar, const P: usize, const WRITTEN: bool>(
+        &self,
+        frame: Frame,
+        counts: Counts,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
     ) -> Motion<R, P, K, F> {
         let Frame { arrangement: Arrangement { topology, layout, positions: rigid, .. }, chain } = frame;
-        let p = self.extent.positions;
-        let (eta, rate) = self.modal(frame, y);
-        let rod = self.modes.functions::<R>();
-        let shape = (rod.shape)(&self.modes, eta, rate);
-        let mut configuration = self.configuration::<R, P>(frame, t, y, &shape);
+        let p = rigid + counts.modes();
+        let (positions, speeds) = (&y[..p], &y[p..2 * p]);
+        let (eta, rate) = (&positions[rigid..], &speeds[rigid..]);
+        let shape = self.modes.shape_of::<R, WRITTEN>(counts, eta, rate);
+        let mut configuration = self.geometry.configuration::<R, P>(frame, t, positions, speeds, &shape.chord);
         let pose = configuration.pose(shape.slope_rate);
-        let loads = self.loads(frame, contacts, t, y, &pose);
+        let loads = self.loads(frame, contacts, t, &y[2 * p..], &pose);
         alone::accelerate(topology, &self.bodies, &mut configuration, &loads, self.gravity);
-        let inertia = (rod.inertia)(&self.modes, &shape, eta, rate, configuration.heading[ROD].speed);
+        let turning = configuration.heading[ROD].speed;
+        let inertia = self.modes.inertia_of::<R, WRITTEN>(counts, &shape, eta, rate, turning);
         let mut places = Places::NONE;
         places.add_rigid_bodies(topology, &self.bodies, &configuration, &loads, self.gravity);
         let modal_force = self.modes.forces(eta, rate, &loads.end_couple);
-        let moving = self.moving(frame, &shape, &configuration, &inertia);
-        let found = Equations::new(places, chain.size, &moving, &loads, self.gravity, &modal_force)
-            .solve(*R::kernel(&self.solvers));
-        let (positions, others) = rates.split_at_mut(p);
+        let (rod, modes) = (&self.geometry.rod, rigid..p);
+        let moving = Moving { rod, shape: &shape, inertia: &inertia, configuration: &configuration, modes };
+        let equations = Equations::new(places, chain.size, &moving, &loads, self.gravity, &modal_force);
+        let found = equations.solve::<WRITTEN>(*R::kernel(&self.solvers));
+        let (velocities, others) = rates.split_at_mut(p);
         let (accelerations, bristle_rates) = others.split_at_mut(p);
-        each!(R::PLAIN, k < rigid => {
-            positions[k] = y[p + k];
+        each!(R::PLAIN, k < rigid, 9 => {
+            velocities[k] = speeds[k];
         });
         chain.scatter(&found[..chain.size], accelerations);
-        each!(const { R::PLAIN && K <= FEW_MODES }, mode < (p - rigid).min(K) => {
-            positions[rigid + mode] = y[p + rigid + mode];
+        each!(const { R::PLAIN && K <= FEW_MODES }, mode < counts.modes().min(K), K => {
+            velocities[rigid + mode] = rate[mode];
             accelerations[rigid + mode] = found[chain.size + mode];
         });
         alone::write(topology, &layout, &configuration, accelerations);
@@ -210,8 +227,8 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         &self,
         contacts: &Contacts,
         t: Tangent,
-        y: &[Tangent; N],
-        rates: &mut [Tangent; N],
+        y: &[Tangent],
+        rates: &mut [Tangent],
     ) -> Motion<Tangent, PLACES, K, F> {
         self.motion(self.geometry.frame, contacts, t, y, rates)
     }
@@ -221,11 +238,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         &self,
         frame: Frame,
         motion: Motion<R, P, K, F>,
-        y: &[R; N],
-        rates: &[R; N],
+        y: &[R],
+        rates: &[R],
     ) -> Instant<R> {
         let Motion { shape, configuration, inertia, pose, loads } = motion;
-        let forced = &rates[self.extent.positions..2 * self.extent.positions];
+        let forced = &rates[self.positions..2 * self.positions];
         let moving = self.moving(frame, &shape, &configuration, &inertia);
         let places = self.geometry.accelerations(frame, &shape, forced);
         let (eta, rate) = self.modal(frame, y);

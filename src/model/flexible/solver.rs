@@ -9,54 +9,60 @@ use crate::model::joint::{Kernel, Kernels};
 impl<R: Real, const S: usize> Equations<R, S> {
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite. D is of blocks of two, since
     /// pivots wait for one another, each with a division: there are half as many.
+    ///
+    /// With `WRITTEN`, a constant, they are written out for a size that is known where this is compiled; without, `solver`
+    /// solves them.
     #[inline(always)]
-    pub fn solve(mut self, solver: Solver<R, S>) -> [R; S] {
-        solver(&mut self);
+    pub fn solve<const WRITTEN: bool>(mut self, solver: Solver<R, S>) -> [R; S] {
+        if WRITTEN {
+            self.reduce::<true, true>(self.size)
+        } else {
+            solver(&mut self)
+        }
         self.right
     }
 
     /// For any number of coordinates.
     fn solve_any(&mut self) {
-        let mut per = [R::ZERO; S];
-        let (size, blocks) = (self.size, self.size / 2);
-        for block in 0..blocks {
-            per[block] = self.eliminate(size, 2 * block);
-        }
-        self.divide_last(size);
-        for block in (0..blocks).rev() {
-            self.substitute(size, 2 * block, per[block]);
-        }
+        self.reduce::<false, false>(self.size);
     }
 
     /// For `SIZE` of them.
     fn solve_sized<const SIZE: usize>(&mut self) {
-        let mut per = [R::ZERO; SIZE];
-        each!(true, block < SIZE / 2 => {
-            per[block] = self.eliminate(SIZE, 2 * block);
+        self.reduce::<true, false>(SIZE);
+    }
+
+    /// Puts the solution in place of the right side. With `BLOCKS` the loop over blocks, with `WRITTEN` every loop is
+    /// written out.
+    #[inline(always)]
+    fn reduce<const BLOCKS: bool, const WRITTEN: bool>(&mut self, size: usize) {
+        let (mut per, blocks) = ([R::ZERO; S], size / 2);
+        each!(BLOCKS, block < blocks, S => {
+            per[block] = self.eliminate::<WRITTEN>(size, 2 * block);
         });
-        self.divide_last(SIZE);
-        each!(true, done < SIZE / 2 => {
-            let block = SIZE / 2 - 1 - done;
-            self.substitute(SIZE, 2 * block, per[block]);
+        self.divide_last(size);
+        each!(BLOCKS, done < blocks, S => {
+            let block = blocks - 1 - done;
+            self.substitute::<WRITTEN>(size, 2 * block, per[block]);
         });
     }
 
     /// Takes the coordinates `k` and `k` + 1 out of the equations after them, and returns the reciprocal of their
     /// block's determinant.
     #[inline(always)]
-    fn eliminate(&mut self, size: usize, k: usize) -> R {
+    fn eliminate<const WRITTEN: bool>(&mut self, size: usize, k: usize) -> R {
         let Self { matrix, right, .. } = self;
         let (one, two, x) = (matrix[k], matrix[k + 1], [right[k], right[k + 1]]);
         let (a, b, d) = (one[k], one[k + 1], two[k + 1]);
         let per = a.times_plus(d, -(b * b)).recip();
-        for i in k + 2..size {
+        each!(WRITTEN, i in k + 2..size, S => {
             // What the division is not needed for comes first.
             let (p, q) = (d.times_plus(one[i], -(b * two[i])), a.times_plus(two[i], -(b * one[i])));
-            for j in i..size {
+            each!(WRITTEN, j in i..size, S => {
                 matrix[i][j] = p.times_plus(one[j], q * two[j]).times_plus(-per, matrix[i][j]);
-            }
+            });
             right[i] = p.times_plus(x[0], q * x[1]).times_plus(-per, right[i]);
-        }
+        });
         per
     }
 
@@ -70,15 +76,16 @@ impl<R: Real, const S: usize> Equations<R, S> {
 
     /// Puts the coordinates `k` and `k` + 1 in place of their right sides, those after them being there.
     #[inline(always)]
-    fn substitute(&mut self, size: usize, k: usize, per: R) {
+    fn substitute<const WRITTEN: bool>(&mut self, size: usize, k: usize, per: R) {
         let Self { matrix, right, .. } = self;
         let (one, two) = (matrix[k], matrix[k + 1]);
         let (a, b, d) = (one[k], one[k + 1], two[k + 1]);
         let [mut first, mut second] = [right[k], right[k + 1]];
-        for j in (k + 2..size).rev() {
+        each!(WRITTEN, done < size - (k + 2), S => {
+            let j = size - 1 - done;
             first = (-one[j]).times_plus(right[j], first);
             second = (-two[j]).times_plus(right[j], second);
-        }
+        });
         right[k] = d.times_plus(first, -(b * second)) * per;
         right[k + 1] = a.times_plus(second, -(b * first)) * per;
     }
@@ -143,9 +150,11 @@ mod tests {
     #[test]
     fn every_size_finds_the_solution_that_any_size_finds() {
         for size in 1..=ROOM {
-            let sized = equations(size).solve(Solvers::of(size).value);
-            assert_eq!(sized, equations(size).solve(Equations::solve_any), "{size}");
-            for (k, found) in sized.iter().enumerate().take(size) {
+            let (sized, any) = (Solvers::of(size).value, Equations::solve_any);
+            let found = equations(size).solve::<false>(sized);
+            assert_eq!(found, equations(size).solve::<false>(any), "{size}");
+            assert_eq!(found, equations(size).solve::<true>(any), "{size}");
+            for (k, found) in found.iter().enumerate().take(size) {
                 assert!((found - solution(k)).abs() < 1e-12, "{size}: {found} for {}", solution(k));
             }
         }

@@ -52,13 +52,13 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         let (square, twice) = (speed * speed, speed * 2.0);
         // Of each function, the acceleration along x at q̈ = 0 as seen from the frame's origin.
         let mut asking = none;
-        each!(FEW, k < functions => {
+        each!(FEW, k < functions, F => {
             asking[k] = (-square).times_plus(xi[k], xi_bias[k]);
         });
         let mut twist = none;
-        each!(FEW, i < shortening => {
+        each!(FEW, i < shortening, K => {
             let first = counts.twists(i);
-            each!(FEW, j < i => {
+            each!(FEW, j < i, K => {
                 twist[first + j] = q[j].times_plus(dq[i], -(q[i] * dq[j]));
             });
         });
@@ -86,7 +86,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         };
         let mut first_rate = Vec2::new(moved[n], R::ZERO);
         let mut spreading = R::ZERO;
-        each!(FEW, k < functions => {
+        each!(FEW, k < functions, F => {
             inertia.about_origin = xi[k].times_plus(spread[k], inertia.about_origin);
             spreading = xi_rate[k].times_plus(spread[k], spreading);
         });
@@ -117,9 +117,9 @@ impl<const K: usize, const F: usize> Modes<K, F> {
                 inertia.modal[a][n + i] = R::constant(second[function][1 + i]);
             }
         }
-        each!(FEW, i < shortening => {
+        each!(FEW, i < shortening, K => {
             let first = counts.pair(i, i);
-            each!(FEW, further < shortening - i => {
+            each!(FEW, further < shortening - i, K => {
                 let (k, place) = (i + further, first + further);
                 inertia.modal[k][i] += product[place - 1 - axial];
                 // ∂x/∂q_i has −2·q_k of the foreshortening of i and k.

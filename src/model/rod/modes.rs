@@ -5,6 +5,7 @@ use super::tables::Tables;
 use super::{FEW_MODES, Rod, Shape};
 use crate::math::Real;
 use crate::model::joint::{Kernel, Kernels};
+use crate::model::scalar::Scalar;
 
 /// How many modes there are, in the order of the modal coordinates, and which of them foreshorten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +19,11 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// With geometric stiffness.
+    pub const fn new(bending: usize, axial: usize) -> Self {
+        Self { bending, axial, shortening: bending }
+    }
+
     /// Number of modal coordinates.
     #[inline(always)]
     pub const fn modes(self) -> usize {
@@ -110,10 +116,33 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         modes
     }
 
-    /// The functions of this rod, for a number.
+    /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s]. With `WRITTEN`, a constant, it is compiled in
+    /// place for `counts`, the rod's own.
     #[inline(always)]
-    pub fn functions<R: crate::model::scalar::Scalar>(&self) -> &Functions<R, K, F> {
-        R::kernel(&self.kernels)
+    pub fn shape_of<R: Scalar, const WRITTEN: bool>(&self, counts: Counts, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+        if WRITTEN {
+            self.shape::<R, true>(counts, eta, rate)
+        } else {
+            (R::kernel(&self.kernels).shape)(self, eta, rate)
+        }
+    }
+
+    /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed` [rad/s];
+    /// `WRITTEN` as in [`Modes::shape_of`].
+    #[inline(always)]
+    pub fn inertia_of<R: Scalar, const WRITTEN: bool>(
+        &self,
+        counts: Counts,
+        shape: &Shape<R, K, F>,
+        eta: &[R],
+        rate: &[R],
+        speed: R,
+    ) -> Inertia<R, K> {
+        if WRITTEN {
+            self.inertia::<R, true>(counts, shape, eta, rate, speed)
+        } else {
+            (R::kernel(&self.kernels).inertia)(self, shape, eta, rate, speed)
+        }
     }
 
     /// [N] What elasticity, modal damping and the couples [N·m] on the end sections do to η.
@@ -133,11 +162,9 @@ type InertiaOf<R, const K: usize, const F: usize> = fn(&Modes<K, F>, &Shape<R, K
 
 /// Shape and inertia of a rod, compiled for its counts or for any.
 #[derive(Clone, Copy, Debug)]
-pub struct Functions<R, const K: usize, const F: usize> {
-    /// The shape of the modal coordinates η [m] and their rates [m/s].
-    pub shape: ShapeOf<R, K, F>,
-    /// The inertia of a shape, with η and its rates, whose frame turns at a speed [rad/s].
-    pub inertia: InertiaOf<R, K, F>,
+struct Functions<R, const K: usize, const F: usize> {
+    shape: ShapeOf<R, K, F>,
+    inertia: InertiaOf<R, K, F>,
 }
 
 impl<R: Real, const K: usize, const F: usize> Functions<R, K, F> {
@@ -150,17 +177,12 @@ impl<R: Real, const K: usize, const F: usize> Functions<R, K, F> {
     /// For these counts.
     const fn of<const BENDING: usize, const AXIAL: usize>() -> Self {
         Self {
-            shape: |modes, eta, rate| modes.shape::<R, true>(const { all::<BENDING, AXIAL>() }, eta, rate),
+            shape: |modes, eta, rate| modes.shape::<R, true>(const { Counts::new(BENDING, AXIAL) }, eta, rate),
             inertia: |modes, shape, eta, rate, speed| {
-                modes.inertia::<R, true>(const { all::<BENDING, AXIAL>() }, shape, eta, rate, speed)
+                modes.inertia::<R, true>(const { Counts::new(BENDING, AXIAL) }, shape, eta, rate, speed)
             },
         }
     }
-}
-
-/// With geometric stiffness.
-const fn all<const BENDING: usize, const AXIAL: usize>() -> Counts {
-    Counts { bending: BENDING, axial: AXIAL, shortening: BENDING }
 }
 
 /// The functions for `counts`: compiled for them where they are small and usual, and so are the arrays.
@@ -173,7 +195,7 @@ fn by_counts<const K: usize, const F: usize>(counts: Counts) -> Functions<f64, K
     macro_rules! compiled {
         ($(($bending:literal, $axial:literal))*) => {
             match counts {
-                $(_ if counts == const { all::<$bending, $axial>() } =>
+                $(_ if counts == const { Counts::new($bending, $axial) } =>
                     Functions::of::<$bending, $axial>(),)*
                 _ => Functions::ANY,
             }

@@ -53,7 +53,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         let mut with_rate = [R::ZERO; K];
         let lists = [&mut *chord_slope, &mut with_rate];
         add_rows::<R, FEW, _, _>(lists, &self.tables.shortening, 0..shortening, [eta, rate], bending);
-        each!(FEW, i < shortening => {
+        each!(FEW, i < shortening, K => {
             chord.stretch = (eta[i] * 0.5).times_plus(chord_slope[i], chord.stretch);
             chord.rate = rate[i].times_plus(chord_slope[i], chord.rate);
             chord.bias = rate[i].times_plus(with_rate[i], chord.bias);
@@ -67,9 +67,9 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             chord.rate = xi_rate[place].times_plus(end, chord.rate);
         }
         chord.length = chord.stretch + self.length;
-        each!(FEW, i < shortening => {
+        each!(FEW, i < shortening, K => {
             let first = counts.pair(i, i);
-            each!(FEW, further < shortening - i => {
+            each!(FEW, further < shortening - i, K => {
                 let (j, place) = (i + further, first + further);
                 let twice = if i == j { 1.0 } else { 2.0 };
                 xi[place] = eta[i] * -twice * eta[j];

@@ -1,5 +1,7 @@
 //! Sums over the rows of a table.
 
+#![allow(clippy::needless_range_loop)] // several arrays are read by the number of one four
+
 use crate::math::{LANES, Lanes, Real, each};
 use std::array;
 use std::ops::Range;
@@ -19,15 +21,35 @@ pub fn add_rows<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize
 ) {
     const { assert!(WIDTH.is_multiple_of(LANES)) };
     let fours = columns.div_ceil(LANES);
-    let most = if R::PLAIN { (FOURS / LISTS).min(4) } else { 1 };
+    let (table, factors) = (&table[rows.clone()], factors.map(|factors| &factors[rows.clone()]));
+    let most = const { most_fours(R::PLAIN, WIDTH, LISTS) };
     for first in (0..fours).step_by(most) {
-        let (rows, sums) = (rows.clone(), &mut sums);
+        let sums = &mut sums;
         match (fours - first).min(most) {
-            2 if R::PLAIN => add_fours::<R, FEW, WIDTH, LISTS, 2>(sums, table, rows, factors, first),
-            3 if R::PLAIN => add_fours::<R, FEW, WIDTH, LISTS, 3>(sums, table, rows, factors, first),
-            4 if R::PLAIN => add_fours::<R, FEW, WIDTH, LISTS, 4>(sums, table, rows, factors, first),
-            _ => add_fours::<R, FEW, WIDTH, LISTS, 1>(sums, table, rows, factors, first),
+            2 if const { most_fours(R::PLAIN, WIDTH, LISTS) >= 2 } => {
+                add_fours::<R, FEW, WIDTH, LISTS, 2>(sums, table, factors, first);
+            }
+            3 if const { most_fours(R::PLAIN, WIDTH, LISTS) >= 3 } => {
+                add_fours::<R, FEW, WIDTH, LISTS, 3>(sums, table, factors, first);
+            }
+            4 if const { most_fours(R::PLAIN, WIDTH, LISTS) >= 4 } => {
+                add_fours::<R, FEW, WIDTH, LISTS, 4>(sums, table, factors, first);
+            }
+            _ => add_fours::<R, FEW, WIDTH, LISTS, 1>(sums, table, factors, first),
         }
+    }
+}
+
+/// So many fours of each list are added up at a time.
+const fn most_fours(plain: bool, width: usize, lists: usize) -> usize {
+    let (at_once, there) = (FOURS / lists, width / LANES);
+    let fours = if at_once < there { at_once } else { there };
+    if !plain {
+        1
+    } else if fours < 4 {
+        fours
+    } else {
+        4
     }
 }
 
@@ -36,28 +58,26 @@ pub fn add_rows<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize
 fn add_fours<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize, const COUNT: usize>(
     sums: &mut [&mut [R; WIDTH]; LISTS],
     table: &[[f64; WIDTH]],
-    rows: Range<usize>,
     factors: [&[R]; LISTS],
     first: usize,
 ) {
-    let columns = LANES * first..LANES * (first + COUNT);
     let mut fours: [[R::Lanes; COUNT]; LISTS] = array::from_fn(|list| {
-        let (numbers, _) = sums[list][columns.clone()].as_chunks();
-        array::from_fn(|four| R::Lanes::of(numbers[four]))
+        let (numbers, _) = sums[list].as_chunks();
+        array::from_fn(|four| R::Lanes::of(numbers[first + four]))
     });
-    let (table, factors) = (&table[rows.clone()], factors.map(|factors| &factors[rows.clone()]));
-    each!(FEW, row < table.len() => {
-        let (numbers, _) = table[row][columns.clone()].as_chunks();
-        for (fours, factors) in fours.iter_mut().zip(&factors) {
-            for (four, numbers) in fours.iter_mut().zip(numbers) {
-                four.add(factors[row], numbers);
+    each!(FEW, row < table.len(), WIDTH => {
+        let (numbers, _) = table[row].as_chunks();
+        for list in 0..LISTS {
+            let factor = factors[list][row];
+            for four in 0..COUNT {
+                fours[list][four].add(factor, &numbers[first + four]);
             }
         }
     });
     for (sums, fours) in sums.iter_mut().zip(fours) {
-        let (places, _) = sums[columns.clone()].as_chunks_mut();
-        for (place, four) in places.iter_mut().zip(fours) {
-            *place = four.numbers();
+        let (places, _) = sums.as_chunks_mut();
+        for four in 0..COUNT {
+            places[first + four] = fours[four].numbers();
         }
     }
 }

@@ -1,0 +1,91 @@
+//! The motion of a mechanism with few modes, compiled in one piece for its topology and its numbers of modes.
+//!
+//! What the parts hand each other then stays in registers, and nothing is left of loops over modes. That is for the loop
+//! over a step's stages, where nearly all of the time goes; see [`Problem::stages`](crate::integrator::Problem::stages).
+//! Of a mechanism of more states than that loop has registers for, the rates are compiled so, for the usual numbers of
+//! modes alone: each such function takes the compiler a second.
+
+use super::assembly::Assembly;
+use super::chain::Frame;
+use super::motion::{Rates, by_topology};
+use crate::integrator::stages::{IN_REGISTERS, in_registers};
+use crate::integrator::{STAGES, Tableau};
+use crate::model::mechanism::Topology;
+use crate::model::rod::{Counts, FEW_MODES};
+use crate::model::state::Contacts;
+
+/// See [`Problem::stages`](crate::integrator::Problem::stages).
+pub type Stages<M, const N: usize> = fn(&M, &Tableau, &Contacts, f64, &[f64; N], f64, &mut [[f64; N]; STAGES]);
+
+/// `with_counts!(counts in (…)…, COUNTS => work)` does `work` with `COUNTS` the constant that `counts` are equal to, of
+/// those listed, bending and axial modes, and makes `None` of others.
+macro_rules! with_counts {
+    ($counts:ident in $(($bending:literal $axial:literal))*, $constant:ident => $work:expr) => {
+        match $counts {
+            $(_ if $counts == const { Counts::new($bending, $axial) } => {
+                const $constant: Counts = Counts::new($bending, $axial);
+                $work
+            })*
+            _ => None,
+        }
+    };
+}
+
+/// How many states a mechanism has without bristles.
+const fn states(frame: Frame, counts: Counts) -> usize {
+    2 * (frame.arrangement.positions + counts.modes())
+}
+
+/// The loop over stages of exactly `N` states, where it is compiled.
+pub fn stages<const N: usize, const S: usize, const K: usize, const F: usize>(
+    topology: Topology,
+    counts: Counts,
+) -> Option<Stages<Assembly<S, K, F>, N>> {
+    if const { N > IN_REGISTERS || K > FEW_MODES } {
+        return None;
+    }
+    /// Of these ideal joints and this drive.
+    macro_rules! joined {
+        ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
+            const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
+            with_counts!(counts in (1 0) (2 0) (3 0) (1 1) (2 1) (3 1), COUNTS => {
+                if const { N == states(FRAME, COUNTS) } {
+                    Some(|all, tableau, contacts, t, y, h, k| {
+                        in_registers(tableau, t, y, h, k, #[inline(always)] |t, y, rates| {
+                            all.motion_of::<f64, { FRAME.places() }, true>(FRAME, COUNTS, contacts, t, y, rates);
+                        });
+                    })
+                } else {
+                    None
+                }
+            })
+        }};
+    }
+    by_topology!(topology, joined)
+}
+
+/// The rates of more states than that, where they are compiled.
+pub fn rates<const S: usize, const K: usize, const F: usize>(
+    topology: Topology,
+    counts: Counts,
+) -> Option<Rates<Assembly<S, K, F>>> {
+    if const { K > FEW_MODES } {
+        return None;
+    }
+    /// Of these ideal joints and this drive.
+    macro_rules! joined {
+        ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
+            const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
+            with_counts!(counts in (3 1), COUNTS => {
+                if const { states(FRAME, COUNTS) > IN_REGISTERS } {
+                    Some(|all, contacts, t, y, rates| {
+                        all.motion_of::<f64, { FRAME.places() }, true>(FRAME, COUNTS, contacts, t, y, rates);
+                    })
+                } else {
+                    None
+                }
+            })
+        }};
+    }
+    by_topology!(topology, joined)
+}
