@@ -44,28 +44,28 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
     if let Some(rod) = Rod::new(scene) {
         /// The flexible mechanism in arrays of these sizes.
         macro_rules! flexible {
-            ($n:expr, $modes:expr) => {{
+            ($n:expr, $modes:expr, $with:ident) => {{
                 const N: usize = $n;
                 const MODES: usize = $modes;
                 let plant = Flexible::<N, { most_equations(MODES) }, MODES, { most_functions(MODES) }>::assemble(
                     scene, time, rod,
                 );
-                with_audit::<N, _>(scene, time, pose, signal, plant)
+                $with::<N, _>(scene, time, pose, signal, plant)
             }};
         }
         let audit = if scene.energy.audit { audit::STATES } else { 0 };
         let (modes, states) = (rod.modes(), state_count(scene, &rod) + audit);
         if modes > MOST_MODES {
-            return flexible!(LARGE, 2 * MOST_MODES);
+            return flexible!(LARGE, 2 * MOST_MODES, with_audit);
         } else if modes > FEW_MODES || states > ROOM {
-            return flexible!(LARGE, MOST_MODES);
+            return flexible!(LARGE, MOST_MODES, with_audit);
         }
         /// In arrays of so many states where there are exactly as many.
         macro_rules! few {
             ($($states:literal)*) => {
                 match states {
-                    $($states if !has_extra_states(scene) => flexible!($states, FEW_MODES),)*
-                    _ => flexible!(ROOM, FEW_MODES),
+                    $($states if !has_extra_states(scene) => flexible!($states, FEW_MODES, with_method),)*
+                    _ => flexible!(ROOM, FEW_MODES, with_audit),
                 }
             };
         }

@@ -14,7 +14,7 @@ use crate::model::dynamics::Loads;
 use crate::model::linkage::Arrangement;
 use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2};
-use crate::model::rod::{Counts, FEW_MODES, Inertia, Shape};
+use crate::model::rod::{Any, Counted, Counts, FEW_MODES, Inertia, Shape};
 use crate::model::scalar::{Scalar, Tangent};
 use crate::model::state::{Contacts, FlexibleInstant, Instant, Pose};
 use crate::scene::modal::MOST_MODES;
@@ -114,7 +114,7 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
     #[inline(always)]
     fn pose_in<const P: usize>(&self, frame: Frame, t: f64, y: &[f64]) -> Pose {
         let (eta, rate) = self.modal(frame, y);
-        let shape = self.modes.shape_of::<f64, false>(self.modes.counts, eta, rate);
+        let shape = self.modes.shape_of::<f64, Any>(eta, rate);
         let (positions, speeds) = y[..2 * self.positions].split_at(self.positions);
         let configuration = self.geometry.configuration::<f64, P>(frame, t, positions, speeds, &shape.chord);
         configuration.pose(shape.slope_rate)
@@ -124,7 +124,7 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
     pub(super) fn change_point(&self, t: f64, y: &[f64]) -> Guard {
         let Geometry { frame, rotor, ideal, .. } = &self.geometry;
         let (eta, rate) = self.modal(*frame, y);
-        let chord = self.modes.shape_of::<f64, false>(self.modes.counts, eta, rate).chord;
+        let chord = self.modes.shape_of::<f64, Any>(eta, rate).chord;
         let p = self.positions;
         let (angle, speed) =
             frame.arrangement.layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
@@ -164,38 +164,38 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
         y: &[R],
         rates: &mut [R],
     ) -> Motion<R, P, K, F> {
-        self.motion_of::<R, P, false>(frame, self.modes.counts, contacts, t, y, rates)
+        self.motion_of::<R, P, Any>(frame, contacts, t, y, rates)
     }
 
-    /// The same of a rod of these `counts`; with `WRITTEN`, a constant, compiled for them in place.
+    /// The same; compiled in one piece for counts of the rod that are known.
     #[inline(always)]
-    pub(super) fn motion_of<R: Scalar, const P: usize, const WRITTEN: bool>(
+    pub(super) fn motion_of<R: Scalar, const P: usize, C: Counted>(
         &self,
         frame: Frame,
-        counts: Counts,
         contacts: &Contacts,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) -> Motion<R, P, K, F> {
         let Frame { arrangement: Arrangement { topology, layout, positions: rigid, .. }, chain } = frame;
+        let counts = C::COUNTS.unwrap_or(self.modes.counts);
         let p = rigid + counts.modes();
         let (positions, speeds) = (&y[..p], &y[p..2 * p]);
         let (eta, rate) = (&positions[rigid..], &speeds[rigid..]);
-        let shape = self.modes.shape_of::<R, WRITTEN>(counts, eta, rate);
+        let shape = self.modes.shape_of::<R, C>(eta, rate);
         let mut configuration = self.geometry.configuration::<R, P>(frame, t, positions, speeds, &shape.chord);
         let pose = configuration.pose(shape.slope_rate);
         let loads = self.loads(frame, contacts, t, &y[2 * p..], &pose);
         alone::accelerate(topology, &self.bodies, &mut configuration, &loads, self.gravity);
         let turning = configuration.heading[ROD].speed;
-        let inertia = self.modes.inertia_of::<R, WRITTEN>(counts, &shape, eta, rate, turning);
+        let inertia = self.modes.inertia_of::<R, C>(&shape, eta, rate, turning);
         let mut places = Places::NONE;
         places.add_rigid_bodies(topology, &self.bodies, &configuration, &loads, self.gravity);
         let modal_force = self.modes.forces(eta, rate, &loads.end_couple);
         let (rod, modes) = (&self.geometry.rod, rigid..p);
         let moving = Moving { rod, shape: &shape, inertia: &inertia, configuration: &configuration, modes };
         let equations = Equations::new(places, chain.size, &moving, &loads, self.gravity, &modal_force);
-        let found = equations.solve::<WRITTEN>(*R::kernel(&self.solvers));
+        let found = equations.solve::<C, P>(*R::kernel(&self.solvers));
         let (velocities, others) = rates.split_at_mut(p);
         let (accelerations, bristle_rates) = others.split_at_mut(p);
         each!(R::PLAIN, k < rigid, 9 => {

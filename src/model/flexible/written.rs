@@ -3,7 +3,7 @@
 //! What the parts hand each other then stays in registers, and nothing is left of loops over modes. That is for the loop
 //! over a step's stages, where nearly all of the time goes; see [`Problem::stages`](crate::integrator::Problem::stages).
 //! Of a mechanism of more states than that loop has registers for, the rates are compiled so, for the usual numbers of
-//! modes alone: each such function takes the compiler a second.
+//! modes alone: such a function takes the compiler most of a second.
 
 use super::assembly::Assembly;
 use super::chain::Frame;
@@ -11,19 +11,19 @@ use super::motion::{Rates, by_topology};
 use crate::integrator::stages::{IN_REGISTERS, in_registers};
 use crate::integrator::{STAGES, Tableau};
 use crate::model::mechanism::Topology;
-use crate::model::rod::{Counts, FEW_MODES};
+use crate::model::rod::{Counted, Counts, Exactly, FEW_MODES};
 use crate::model::state::Contacts;
 
 /// See [`Problem::stages`](crate::integrator::Problem::stages).
 pub type Stages<M, const N: usize> = fn(&M, &Tableau, &Contacts, f64, &[f64; N], f64, &mut [[f64; N]; STAGES]);
 
-/// `with_counts!(counts in (…)…, COUNTS => work)` does `work` with `COUNTS` the constant that `counts` are equal to, of
-/// those listed, bending and axial modes, and makes `None` of others.
+/// `with_counts!(counts in (…)…, Own => work)` does `work` with `Own` the [`Exactly`] of `counts`, of those listed, bending
+/// and axial modes, and makes `None` of others.
 macro_rules! with_counts {
-    ($counts:ident in $(($bending:literal $axial:literal))*, $constant:ident => $work:expr) => {
+    ($counts:ident in $(($bending:literal $axial:literal))*, $own:ident => $work:expr) => {
         match $counts {
-            $(_ if $counts == const { Counts::new($bending, $axial) } => {
-                const $constant: Counts = Counts::new($bending, $axial);
+            $(_ if Exactly::<$bending, $axial>::COUNTS == Some($counts) => {
+                type $own = Exactly<$bending, $axial>;
                 $work
             })*
             _ => None,
@@ -32,8 +32,8 @@ macro_rules! with_counts {
 }
 
 /// How many states a mechanism has without bristles.
-const fn states(frame: Frame, counts: Counts) -> usize {
-    2 * (frame.arrangement.positions + counts.modes())
+const fn states<C: Counted>(frame: Frame) -> usize {
+    2 * (frame.arrangement.positions + C::MODES)
 }
 
 /// The loop over stages of exactly `N` states, where it is compiled.
@@ -48,11 +48,11 @@ pub fn stages<const N: usize, const S: usize, const K: usize, const F: usize>(
     macro_rules! joined {
         ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
             const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-            with_counts!(counts in (1 0) (2 0) (3 0) (1 1) (2 1) (3 1), COUNTS => {
-                if const { N == states(FRAME, COUNTS) } {
+            with_counts!(counts in (1 0) (2 0) (3 0) (3 1), Own => {
+                if const { N == states::<Own>(FRAME) } {
                     Some(|all, tableau, contacts, t, y, h, k| {
                         in_registers(tableau, t, y, h, k, #[inline(always)] |t, y, rates| {
-                            all.motion_of::<f64, { FRAME.places() }, true>(FRAME, COUNTS, contacts, t, y, rates);
+                            all.motion_of::<f64, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
                         });
                     })
                 } else {
@@ -76,10 +76,10 @@ pub fn rates<const S: usize, const K: usize, const F: usize>(
     macro_rules! joined {
         ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
             const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-            with_counts!(counts in (3 1), COUNTS => {
-                if const { states(FRAME, COUNTS) > IN_REGISTERS } {
+            with_counts!(counts in (3 1), Own => {
+                if const { states::<Own>(FRAME) > IN_REGISTERS } {
                     Some(|all, contacts, t, y, rates| {
-                        all.motion_of::<f64, { FRAME.places() }, true>(FRAME, COUNTS, contacts, t, y, rates);
+                        all.motion_of::<f64, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
                     })
                 } else {
                     None

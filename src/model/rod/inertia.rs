@@ -4,8 +4,8 @@
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
 use super::Shape;
-use super::modes::{Counts, Modes};
-use super::sums::add_rows;
+use super::modes::{Counted, Counts, Modes};
+use super::sums::{FunctionsToFunctions, FunctionsToModes, ModesToModes, add_rows};
 use super::tables::Tables;
 use crate::math::{LANES, Real, each};
 use crate::model::plane::{Vec2, perp};
@@ -36,15 +36,15 @@ impl<const K: usize, const F: usize> Modes<K, F> {
     /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
     /// [rad/s].
     #[inline(always)]
-    pub(super) fn inertia<R: Real, const FEW: bool>(
+    pub(super) fn inertia<R: Real, C: Counted>(
         &self,
-        counts: Counts,
         shape: &Shape<R, K, F>,
         eta: &[R],
         rate: &[R],
         speed: R,
     ) -> Inertia<R, K> {
         const { assert!(F.is_multiple_of(LANES) && F > K) };
+        let counts = C::COUNTS.unwrap_or(self.counts);
         let Counts { bending: n, axial, shortening } = counts;
         let (q, dq) = (&eta[..n], &rate[..n]);
         let Shape { xi, xi_rate, xi_bias, .. } = shape;
@@ -52,27 +52,39 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         let (square, twice) = (speed * speed, speed * 2.0);
         // Of each function, the acceleration along x at q̈ = 0 as seen from the frame's origin.
         let mut asking = none;
-        each!(FEW, k < functions, F => {
+        each!(C::KNOWN, k < functions, C::FUNCTIONS => {
             asking[k] = (-square).times_plus(xi[k], xi_bias[k]);
         });
         let mut twist = none;
-        each!(FEW, i < shortening, K => {
+        each!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.twists(i);
-            each!(FEW, j < i, K => {
+            each!(C::KNOWN, j < i, C::MODES => {
                 twist[first + j] = q[j].times_plus(dq[i], -(q[i] * dq[j]));
             });
         });
         let Tables { second, with_modes, placing, moving, twisting, products, shifting, stretching, .. } = &self.tables;
         let columns = n + 1;
         let (mut place, mut bias, mut moved, mut first_slope) = (none, none, none, none);
-        add_rows::<R, FEW, _, _>([&mut place], placing, 0..functions, [xi], columns);
-        add_rows::<R, FEW, _, _>([&mut bias], with_modes, pairs.clone(), [xi_bias], columns);
-        add_rows::<R, FEW, _, _>([&mut moved], moving, 1..functions, [xi_rate], columns);
-        add_rows::<R, FEW, _, _>([&mut moved], twisting, 0..counts.twists(shortening), [&twist], columns);
-        add_rows::<R, FEW, _, _>([&mut first_slope], shifting, 0..shortening, [q], columns);
+        add_rows::<R, FunctionsToModes<C>, _, _>([&mut place], placing, 0..functions, [xi], columns);
+        add_rows::<R, FunctionsToModes<C>, _, _>([&mut bias], with_modes, pairs.clone(), [xi_bias], columns);
+        add_rows::<R, FunctionsToModes<C>, _, _>([&mut moved], moving, 1..functions, [xi_rate], columns);
+        add_rows::<R, FunctionsToModes<C>, _, _>(
+            [&mut moved],
+            twisting,
+            0..counts.twists(shortening),
+            [&twist],
+            columns,
+        );
+        add_rows::<R, ModesToModes<C>, _, _>([&mut first_slope], shifting, 0..shortening, [q], columns);
         let (mut spread, mut asked, mut product) = (none, none, none);
-        add_rows::<R, FEW, _, _>([&mut spread, &mut asked], second, 0..functions, [xi, &asking], functions);
-        add_rows::<R, FEW, _, _>([&mut product], products, pairs, [xi], counts.pairs());
+        add_rows::<R, FunctionsToFunctions<C>, _, _>(
+            [&mut spread, &mut asked],
+            second,
+            0..functions,
+            [xi, &asking],
+            functions,
+        );
+        add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut product], products, pairs, [xi], counts.pairs());
 
         let mut inertia = Inertia {
             first: Vec2::new(place[n], R::ZERO),
@@ -86,7 +98,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         };
         let mut first_rate = Vec2::new(moved[n], R::ZERO);
         let mut spreading = R::ZERO;
-        each!(FEW, k < functions, F => {
+        each!(C::KNOWN, k < functions, C::FUNCTIONS => {
             inertia.about_origin = xi[k].times_plus(spread[k], inertia.about_origin);
             spreading = xi_rate[k].times_plus(spread[k], spreading);
         });
@@ -112,14 +124,14 @@ impl<const K: usize, const F: usize> Modes<K, F> {
                 inertia.turning[a] = (-q[i]).times_plus(number, inertia.turning[a]);
                 inertia.modal_force[a] = (-(twice * number)).times_plus(dq[i], inertia.modal_force[a]);
             }
-            add_rows::<R, FEW, _, _>([&mut inertia.modal[a]], &stretching[j], 0..shortening, [q], n);
+            add_rows::<R, ModesToModes<C>, _, _>([&mut inertia.modal[a]], &stretching[j], 0..shortening, [q], n);
             for i in 0..=j {
                 inertia.modal[a][n + i] = R::constant(second[function][1 + i]);
             }
         }
-        each!(FEW, i < shortening, K => {
+        each!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
-            each!(FEW, further < shortening - i, K => {
+            each!(C::KNOWN, further < shortening - i, C::MODES => {
                 let (k, place) = (i + further, first + further);
                 inertia.modal[k][i] += product[place - 1 - axial];
                 // ∂x/∂q_i has −2·q_k of the foreshortening of i and k.

@@ -14,7 +14,7 @@ mod sums;
 mod tables;
 
 pub use inertia::Inertia;
-pub use modes::{Counts, Modes};
+pub use modes::{Any, Counted, Counts, Exactly, Modes};
 pub use shape::{Chord, Shape};
 
 use super::mechanism::Body;

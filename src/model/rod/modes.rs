@@ -19,11 +19,6 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// With geometric stiffness.
-    pub const fn new(bending: usize, axial: usize) -> Self {
-        Self { bending, axial, shortening: bending }
-    }
-
     /// Number of modal coordinates.
     #[inline(always)]
     pub const fn modes(self) -> usize {
@@ -59,6 +54,40 @@ impl Counts {
         let (i, j) = if i < j { (i, j) } else { (j, i) };
         1 + self.axial + i * (2 * self.shortening - i + 1) / 2 + j - i
     }
+}
+
+/// What is known of a rod's counts where code is compiled.
+pub trait Counted {
+    /// They themselves, or nothing.
+    const COUNTS: Option<Counts>;
+    /// They are known: loops over modes and functions are written out.
+    const KNOWN: bool = Self::COUNTS.is_some();
+    /// Most modes.
+    const MODES: usize = match Self::COUNTS {
+        Some(counts) => counts.modes(),
+        None => usize::MAX,
+    };
+    /// Most functions along x.
+    const FUNCTIONS: usize = match Self::COUNTS {
+        Some(counts) => counts.functions(),
+        None => usize::MAX,
+    };
+}
+
+/// So many modes, with geometric stiffness.
+#[derive(Clone, Copy, Debug)]
+pub struct Exactly<const BENDING: usize, const AXIAL: usize>;
+
+impl<const BENDING: usize, const AXIAL: usize> Counted for Exactly<BENDING, AXIAL> {
+    const COUNTS: Option<Counts> = Some(Counts { bending: BENDING, axial: AXIAL, shortening: BENDING });
+}
+
+/// Any counts.
+#[derive(Clone, Copy, Debug)]
+pub struct Any;
+
+impl Counted for Any {
+    const COUNTS: Option<Counts> = None;
 }
 
 /// The modes in arrays with room for `K` modes and `F` functions.
@@ -116,30 +145,29 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         modes
     }
 
-    /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s]. With `WRITTEN`, a constant, it is compiled in
-    /// place for `counts`, the rod's own.
+    /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s]: compiled in place for counts that are known,
+    /// the rod's own.
     #[inline(always)]
-    pub fn shape_of<R: Scalar, const WRITTEN: bool>(&self, counts: Counts, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
-        if WRITTEN {
-            self.shape::<R, true>(counts, eta, rate)
+    pub fn shape_of<R: Scalar, C: Counted>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+        if const { C::KNOWN } {
+            self.shape::<R, C>(eta, rate)
         } else {
             (R::kernel(&self.kernels).shape)(self, eta, rate)
         }
     }
 
-    /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed` [rad/s];
-    /// `WRITTEN` as in [`Modes::shape_of`].
+    /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed` [rad/s]; compiled
+    /// as [`Modes::shape_of`].
     #[inline(always)]
-    pub fn inertia_of<R: Scalar, const WRITTEN: bool>(
+    pub fn inertia_of<R: Scalar, C: Counted>(
         &self,
-        counts: Counts,
         shape: &Shape<R, K, F>,
         eta: &[R],
         rate: &[R],
         speed: R,
     ) -> Inertia<R, K> {
-        if WRITTEN {
-            self.inertia::<R, true>(counts, shape, eta, rate, speed)
+        if const { C::KNOWN } {
+            self.inertia::<R, C>(shape, eta, rate, speed)
         } else {
             (R::kernel(&self.kernels).inertia)(self, shape, eta, rate, speed)
         }
@@ -168,19 +196,13 @@ struct Functions<R, const K: usize, const F: usize> {
 }
 
 impl<R: Real, const K: usize, const F: usize> Functions<R, K, F> {
-    /// For any counts.
-    const ANY: Self = Self {
-        shape: |modes, eta, rate| modes.shape::<R, false>(modes.counts, eta, rate),
-        inertia: |modes, shape, eta, rate, speed| modes.inertia::<R, false>(modes.counts, shape, eta, rate, speed),
-    };
+    const ANY: Self = Self::of::<Any>();
 
     /// For these counts.
-    const fn of<const BENDING: usize, const AXIAL: usize>() -> Self {
+    const fn of<C: Counted>() -> Self {
         Self {
-            shape: |modes, eta, rate| modes.shape::<R, true>(const { Counts::new(BENDING, AXIAL) }, eta, rate),
-            inertia: |modes, shape, eta, rate, speed| {
-                modes.inertia::<R, true>(const { Counts::new(BENDING, AXIAL) }, shape, eta, rate, speed)
-            },
+            shape: |modes, eta, rate| modes.shape::<R, C>(eta, rate),
+            inertia: |modes, shape, eta, rate, speed| modes.inertia::<R, C>(shape, eta, rate, speed),
         }
     }
 }
@@ -195,8 +217,8 @@ fn by_counts<const K: usize, const F: usize>(counts: Counts) -> Functions<f64, K
     macro_rules! compiled {
         ($(($bending:literal, $axial:literal))*) => {
             match counts {
-                $(_ if counts == const { Counts::new($bending, $axial) } =>
-                    Functions::of::<$bending, $axial>(),)*
+                $(_ if Exactly::<$bending, $axial>::COUNTS == Some(counts) =>
+                    Functions::of::<Exactly<$bending, $axial>>(),)*
                 _ => Functions::ANY,
             }
         };

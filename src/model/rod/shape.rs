@@ -2,8 +2,8 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
-use super::modes::{Counts, Modes};
-use super::sums::add_rows;
+use super::modes::{Counted, Counts, Modes};
+use super::sums::{ModesToModes, add_rows};
 use crate::math::{Real, each};
 
 /// The deformed rod, and how it deforms; with room for `K` modes and `F` functions.
@@ -37,7 +37,8 @@ pub struct Chord<R> {
 impl<const K: usize, const F: usize> Modes<K, F> {
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
     #[inline(always)]
-    pub(super) fn shape<R: Real, const FEW: bool>(&self, counts: Counts, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+    pub(super) fn shape<R: Real, C: Counted>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+        let counts = C::COUNTS.unwrap_or(self.counts);
         let Counts { bending, axial, shortening } = counts;
         let mut shape = Shape {
             chord: Chord { length: R::ZERO, stretch: R::ZERO, rate: R::ZERO, bias: R::ZERO },
@@ -52,8 +53,8 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         // Foreshortening is quadratic in the bending modes, and so is half of what its slope has with them.
         let mut with_rate = [R::ZERO; K];
         let lists = [&mut *chord_slope, &mut with_rate];
-        add_rows::<R, FEW, _, _>(lists, &self.tables.shortening, 0..shortening, [eta, rate], bending);
-        each!(FEW, i < shortening, K => {
+        add_rows::<R, ModesToModes<C>, _, _>(lists, &self.tables.shortening, 0..shortening, [eta, rate], bending);
+        each!(C::KNOWN, i < shortening, C::MODES => {
             chord.stretch = (eta[i] * 0.5).times_plus(chord_slope[i], chord.stretch);
             chord.rate = rate[i].times_plus(chord_slope[i], chord.rate);
             chord.bias = rate[i].times_plus(with_rate[i], chord.bias);
@@ -67,9 +68,9 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             chord.rate = xi_rate[place].times_plus(end, chord.rate);
         }
         chord.length = chord.stretch + self.length;
-        each!(FEW, i < shortening, K => {
+        each!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
-            each!(FEW, further < shortening - i, K => {
+            each!(C::KNOWN, further < shortening - i, C::MODES => {
                 let (j, place) = (i + further, first + further);
                 let twice = if i == j { 1.0 } else { 2.0 };
                 xi[place] = eta[i] * -twice * eta[j];

@@ -2,17 +2,47 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one four
 
+use super::modes::Counted;
 use crate::math::{LANES, Lanes, Real, each};
 use std::array;
+use std::marker::PhantomData;
 use std::ops::Range;
 
 /// Most fours of sums at a time, those of all lists together: as many as stay in registers.
 const FOURS: usize = if cfg!(target_feature = "avx") { 8 } else { 4 };
 
+/// How many rows and columns a sum may have, as far as that is known where it is compiled.
+pub trait Bounds {
+    /// Most rows.
+    const ROWS: usize;
+    /// Most columns.
+    const COLUMNS: usize;
+}
+
+/// From modal coordinates to what stands with them.
+pub struct ModesToModes<C>(PhantomData<C>);
+/// From amplitudes of functions along x to what stands with modal coordinates and, after them, the rod's own.
+pub struct FunctionsToModes<C>(PhantomData<C>);
+/// From amplitudes to what stands with functions or pairs of modes.
+pub struct FunctionsToFunctions<C>(PhantomData<C>);
+
+impl<C: Counted> Bounds for ModesToModes<C> {
+    const ROWS: usize = C::MODES;
+    const COLUMNS: usize = C::MODES.saturating_add(1);
+}
+impl<C: Counted> Bounds for FunctionsToModes<C> {
+    const ROWS: usize = C::FUNCTIONS;
+    const COLUMNS: usize = C::MODES.saturating_add(1);
+}
+impl<C: Counted> Bounds for FunctionsToFunctions<C> {
+    const ROWS: usize = C::FUNCTIONS;
+    const COLUMNS: usize = C::FUNCTIONS;
+}
+
 /// Adds Σ factor·row over `rows` of a table to each list of `sums`, with factors of its own: in so many columns, and in
-/// others up to whole fours. With `FEW`, a constant, sums are written out: at most twelve rows.
+/// others up to whole fours. Sums over a known number of rows are written out: at most sixteen.
 #[inline(always)]
-pub fn add_rows<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize>(
+pub fn add_rows<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize>(
     mut sums: [&mut [R; WIDTH]; LISTS],
     table: &[[f64; WIDTH]],
     rows: Range<usize>,
@@ -22,40 +52,36 @@ pub fn add_rows<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize
     const { assert!(WIDTH.is_multiple_of(LANES)) };
     let fours = columns.div_ceil(LANES);
     let (table, factors) = (&table[rows.clone()], factors.map(|factors| &factors[rows.clone()]));
-    let most = const { most_fours(R::PLAIN, WIDTH, LISTS) };
+    let most = const { most_fours::<R, B>(WIDTH, LISTS) };
     for first in (0..fours).step_by(most) {
         let sums = &mut sums;
         match (fours - first).min(most) {
-            2 if const { most_fours(R::PLAIN, WIDTH, LISTS) >= 2 } => {
-                add_fours::<R, FEW, WIDTH, LISTS, 2>(sums, table, factors, first);
+            2 if const { most_fours::<R, B>(WIDTH, LISTS) >= 2 } => {
+                add_fours::<R, B, WIDTH, LISTS, 2>(sums, table, factors, first);
             }
-            3 if const { most_fours(R::PLAIN, WIDTH, LISTS) >= 3 } => {
-                add_fours::<R, FEW, WIDTH, LISTS, 3>(sums, table, factors, first);
+            3 if const { most_fours::<R, B>(WIDTH, LISTS) >= 3 } => {
+                add_fours::<R, B, WIDTH, LISTS, 3>(sums, table, factors, first);
             }
-            4 if const { most_fours(R::PLAIN, WIDTH, LISTS) >= 4 } => {
-                add_fours::<R, FEW, WIDTH, LISTS, 4>(sums, table, factors, first);
+            4 if const { most_fours::<R, B>(WIDTH, LISTS) >= 4 } => {
+                add_fours::<R, B, WIDTH, LISTS, 4>(sums, table, factors, first);
             }
-            _ => add_fours::<R, FEW, WIDTH, LISTS, 1>(sums, table, factors, first),
+            _ => add_fours::<R, B, WIDTH, LISTS, 1>(sums, table, factors, first),
         }
     }
 }
 
 /// So many fours of each list are added up at a time.
-const fn most_fours(plain: bool, width: usize, lists: usize) -> usize {
-    let (at_once, there) = (FOURS / lists, width / LANES);
-    let fours = if at_once < there { at_once } else { there };
-    if !plain {
-        1
-    } else if fours < 4 {
-        fours
-    } else {
-        4
+const fn most_fours<R: Real, B: Bounds>(width: usize, lists: usize) -> usize {
+    const fn smaller(a: usize, b: usize) -> usize {
+        if a < b { a } else { b }
     }
+    let there = smaller(width / LANES, B::COLUMNS.div_ceil(LANES));
+    if R::PLAIN { smaller(smaller(FOURS / lists, there), 4) } else { 1 }
 }
 
 /// The same for `COUNT` fours of columns from the `first` on, side by side: a sum waits for itself alone.
 #[inline(always)]
-fn add_fours<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize, const COUNT: usize>(
+fn add_fours<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize, const COUNT: usize>(
     sums: &mut [&mut [R; WIDTH]; LISTS],
     table: &[[f64; WIDTH]],
     factors: [&[R]; LISTS],
@@ -65,7 +91,7 @@ fn add_fours<R: Real, const FEW: bool, const WIDTH: usize, const LISTS: usize, c
         let (numbers, _) = sums[list].as_chunks();
         array::from_fn(|four| R::Lanes::of(numbers[first + four]))
     });
-    each!(FEW, row < table.len(), WIDTH => {
+    each!(B::ROWS < usize::MAX, row < table.len(), B::ROWS => {
         let (numbers, _) = table[row].as_chunks();
         for list in 0..LISTS {
             let factor = factors[list][row];
@@ -90,17 +116,28 @@ mod tests {
     const WIDTH: usize = 28;
     const ROWS: usize = 12;
 
+    struct Known;
+    impl Bounds for Known {
+        const ROWS: usize = ROWS;
+        const COLUMNS: usize = WIDTH;
+    }
+    struct Unknown;
+    impl Bounds for Unknown {
+        const ROWS: usize = usize::MAX;
+        const COLUMNS: usize = usize::MAX;
+    }
+
     /// Two lists of sums over the rows from the third on, by [`add_rows`] together and apart, and one by one.
-    fn agrees<R: Real + PartialEq, const FEW: bool>(number: impl Fn(usize) -> R, columns: usize) {
+    fn agrees<R: Real + PartialEq, B: Bounds>(number: impl Fn(usize) -> R, columns: usize) {
         let table: [[f64; WIDTH]; ROWS] = array::from_fn(|row| array::from_fn(|i| ((7 * row + 3 * i) as f64).sin()));
         let factors: [[R; ROWS]; 2] = array::from_fn(|list| array::from_fn(|row| number(20 * list + row)));
         let start: [[R; WIDTH]; 2] = array::from_fn(|list| array::from_fn(|i| number(50 * list + i)));
         let (rows, lists) = (2..ROWS, [&factors[0][..], &factors[1][..]]);
         let [mut one, mut other] = start;
-        add_rows::<R, FEW, _, _>([&mut one, &mut other], &table, rows.clone(), lists, columns);
+        add_rows::<R, B, _, _>([&mut one, &mut other], &table, rows.clone(), lists, columns);
         for (list, together) in [one, other].into_iter().enumerate() {
             let mut alone = start[list];
-            add_rows::<R, FEW, _, _>([&mut alone], &table, rows.clone(), [lists[list]], columns);
+            add_rows::<R, B, _, _>([&mut alone], &table, rows.clone(), [lists[list]], columns);
             for i in 0..WIDTH {
                 let wanted = if i < columns.next_multiple_of(LANES) {
                     rows.clone().fold(start[list][i], |sum, row| factors[list][row].times_plus(table[row][i], sum))
@@ -115,10 +152,10 @@ mod tests {
     #[test]
     fn sums_side_by_side_have_the_bits_of_sums_one_by_one() {
         for columns in 1..=WIDTH {
-            agrees::<f64, false>(|i| (i as f64).cos(), columns);
-            agrees::<f64, true>(|i| (i as f64).cos(), columns);
+            agrees::<f64, Unknown>(|i| (i as f64).cos(), columns);
+            agrees::<f64, Known>(|i| (i as f64).cos(), columns);
             let dual = |i: usize| Dual { value: (i as f64).cos(), slope: [i as f64, -1.0] };
-            agrees::<Dual<2>, false>(dual, columns);
+            agrees::<Dual<2>, Unknown>(dual, columns);
         }
     }
 }
