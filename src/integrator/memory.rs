@@ -1,5 +1,6 @@
 //! What an integrator remembers between steps.
 
+use super::block::Past;
 use super::controller::is_kept;
 use super::dense_output::Step;
 use super::length::CREEPING;
@@ -46,6 +47,8 @@ pub struct Memory<const N: usize, D> {
     pub cuts: u32,
     /// Events at the front, which the end does not know yet.
     pub crossings: u64,
+    /// What the last step leaves for the next.
+    pub past: Past<N>,
     /// Work done.
     pub statistics: Statistics,
 }
@@ -60,7 +63,7 @@ impl<const N: usize, D> Memory<N, D> {
     /// Whether a run at `time` can have come to this: a last step around it, no longer than any, between states that
     /// are kept.
     pub fn is_sound(&self, time: f64, extent: Extent, longest_step: f64) -> bool {
-        let Self { start, end, front, regime, step, cuts, crossings, statistics, .. } = self;
+        let Self { start, end, front, regime, step, cuts, crossings, past, statistics, .. } = self;
         let kept = |y: &[f64; N]| y.iter().take(extent.states).all(|y| is_kept(*y));
         let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
         let impacts_end = |front: &Front<N, D>| front.impact_end - front.t <= longest_step + rounding;
@@ -74,6 +77,7 @@ impl<const N: usize, D> Memory<N, D> {
             && (length == 0.0 || steps > 0)
             && *step >= 0.0
             && regime.is_sound()
+            && past.is_sound(extent)
             && *cuts <= CREEPING
             && *crossings <= events
             && counted

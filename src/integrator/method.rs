@@ -1,5 +1,6 @@
 //! What the step-size control and the marching need to know of a method.
 
+use super::block::Past;
 use super::memory::{Front, Memory};
 use super::problem::Problem;
 use super::stages::Attempt;
@@ -12,8 +13,6 @@ pub struct Character {
     /// States within a step are interpolated; otherwise a shorter step is made to each: an interpolant
     /// leaves the slow motion of a stiff system.
     pub interpolates: bool,
-    /// Evaluations of the rates in an attempt.
-    pub evaluations: u64,
     /// An attempt gives rates and guards at its end.
     pub gives_end: bool,
 }
@@ -37,15 +36,30 @@ pub trait Method: Send + Sync + 'static {
     /// What an attempt works with besides [`Attempt`].
     type Room<const N: usize>: Room;
 
-    /// Attempts a step of `h` from `start`, as in `stiff` motion or not.
+    /// Attempts a step of `h` from `start` after what is `past`, as in `stiff` motion or not, and tells how many evaluations
+    /// of the rates it took.
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
         made: &mut Attempt<N>,
         room: &mut Self::Room<N>,
         problem: &P,
         start: &Front<N, P::Modes>,
+        past: &Past<N>,
         h: f64,
         stiff: bool,
-    );
+    ) -> u64;
+
+    /// What the last attempt leaves for the next, once it has become a step from `begin` to `end` [s] with these rates at
+    /// its `start`.
+    fn past<const N: usize>(
+        _made: &Attempt<N>,
+        past: &mut Past<N>,
+        _start: &[f64; N],
+        _begin: f64,
+        _end: f64,
+        _stiff: bool,
+    ) {
+        past.forget();
+    }
 
     /// To be called after the last attempt has become the last step: which method makes the next one, and of what
     /// length at most.

@@ -6,6 +6,7 @@
 //! communication points: [`Integrator::state_at`] interpolates back into the last step, so that the
 //! sequence of steps is the same however a host cuts up time.
 
+pub mod block;
 pub mod complementarity;
 mod controller;
 pub mod dense_output;
@@ -19,6 +20,7 @@ mod memory;
 mod method;
 pub mod methods;
 mod moreau;
+mod nodes;
 mod problem;
 mod regime;
 mod rewind;
@@ -31,12 +33,13 @@ mod switching;
 mod tableau;
 mod unilateral;
 
+pub use block::Past;
 pub use controller::{Effort, Settings};
 pub use error::IntegrationError;
 pub use memory::{Front, Memory};
 pub use method::{Character, Method, Room};
 pub use moreau::Moreau;
-pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset};
+pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, one_by_one};
 pub use regime::Regime;
 pub use statistics::Statistics;
 pub use step::Integrator;

@@ -2,6 +2,7 @@
 
 use super::stages::in_registers;
 use super::tableau::{STAGES, Tableau};
+use crate::math::{ROW, Row};
 
 /// Most event functions that a problem may have.
 pub const GUARDS: usize = 8;
@@ -110,6 +111,11 @@ pub trait Problem<const N: usize> {
     /// rates of first-order states.
     fn rates(&self, modes: &Self::Modes, t: f64, y: &[f64; N], rates: &mut [f64; N]);
 
+    /// Writes the rates of eight states at their times.
+    fn rates_in_row(&self, modes: &Self::Modes, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
+        one_by_one(self, modes, t, y, rates);
+    }
+
     /// Writes the rates at the stages of a method after its first and before its end is known into their places in `k`,
     /// for a step of `h` from the state `y` at time `t`; `k[0]` has the rates there. Compiled for a problem of at most
     /// [`IN_REGISTERS`](super::stages::IN_REGISTERS) states, with its rates inside; larger ones are not asked.
@@ -162,4 +168,24 @@ pub trait Problem<const N: usize> {
 
     /// The modes after the guards in `crossed` fell through zero at `t`; may reset first-order states.
     fn cross(&self, modes: &Self::Modes, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Self::Modes>;
+}
+
+/// [`Problem::rates_in_row`] by the rates of each state.
+pub fn one_by_one<const N: usize, P: Problem<N> + ?Sized>(
+    problem: &P,
+    modes: &P::Modes,
+    t: &Row,
+    y: &[Row; N],
+    rates: &mut [Row; N],
+) {
+    let (times, states) = (t.numbers(), y.map(Row::numbers));
+    let mut found = [[0.0; ROW]; N];
+    for node in 0..ROW {
+        let mut own = [0.0; N];
+        problem.rates(modes, times[node], &std::array::from_fn(|i| states[i][node]), &mut own);
+        for (found, own) in found.iter_mut().zip(own) {
+            found[node] = own;
+        }
+    }
+    *rates = found.map(Row::of);
 }

@@ -6,6 +6,7 @@
 //! hγ times its right side plus u of its velocity, and only velocities and first-order states are
 //! solved for.
 
+use super::block::Past;
 use super::linear::Factors;
 use super::memory::Front;
 use super::method::{Character, Method, Room};
@@ -72,13 +73,8 @@ impl<R: Rosenbrock> Method for Implicit<R> {
     const ADAPTIVE: bool = true;
     const COARSE: bool = false;
     const LOCATES: bool = true;
-    const CHARACTER: Character = Character {
-        error_power: R::COEFFICIENTS.order as f64,
-        interpolates: false,
-        // The Jacobian counts as one.
-        evaluations: STAGES as u64,
-        gives_end: false,
-    };
+    const CHARACTER: Character =
+        Character { error_power: R::COEFFICIENTS.order as f64, interpolates: false, gives_end: false };
     type Room<const N: usize> = Workspace<N>;
 
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
@@ -86,9 +82,10 @@ impl<R: Rosenbrock> Method for Implicit<R> {
         room: &mut Workspace<N>,
         problem: &P,
         start: &Front<N, P::Modes>,
+        _past: &Past<N>,
         h: f64,
         _stiff: bool,
-    ) {
+    ) -> u64 {
         let Workspace { jacobian, factors, stages: u } = room;
         let method = const { &R::COEFFICIENTS };
         let Extent { positions: p, states, .. } = Extent::of(problem);
@@ -121,6 +118,8 @@ impl<R: Rosenbrock> Method for Implicit<R> {
         sum(&mut made.y, &start.y, &method.weights, u, states);
         sum(&mut made.error, &[0.0; N], &method.error, u, states);
         made.unseen = [0.0; N];
+        // The Jacobian counts as one.
+        STAGES as u64
     }
 }
 

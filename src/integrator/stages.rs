@@ -3,7 +3,7 @@
 use super::memory::Front;
 use super::problem::{Extent, GUARDS, Guard, Problem};
 use super::tableau::{Explicit, STAGES, Tableau};
-use crate::math::{Fused, each};
+use crate::math::{Fused, Real, Row, each};
 
 /// Up to so many states, what one stage hands on to the next stays in registers, or in places of its own. In an array it
 /// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
@@ -13,6 +13,8 @@ pub const IN_REGISTERS: usize = 14;
 pub struct Attempt<const N: usize> {
     /// Rates at the stages.
     k: [[f64; N]; STAGES],
+    /// Rates at the nodes of a step that is made as a block, see [`block`](super::block).
+    pub nodes: [Row; N],
     /// The state at the step's end.
     pub y: [f64; N],
     /// Its rates, where the last stage gives them (see [`Tableau::first_same_as_last`]); otherwise once they are taken.
@@ -32,6 +34,7 @@ impl<const N: usize> Attempt<N> {
     /// None made yet.
     pub const NONE: Self = Self {
         k: [[0.0; N]; STAGES],
+        nodes: [Row::ZERO; N],
         y: [0.0; N],
         rates: [0.0; N],
         guards: [Guard { value: 0.0, rate: 0.0 }; GUARDS],

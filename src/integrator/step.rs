@@ -1,5 +1,6 @@
 //! Attempt, judge, locate, commit.
 
+use super::block::Past;
 use super::controller::{self, Settings};
 use super::dense_output::Correction;
 use super::error::IntegrationError;
@@ -36,8 +37,10 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let step = controller::first_step(problem, &front);
         let (last_error, cuts) = (1e-4, 0);
         let (stiff, regime) = (false, Regime::LOOSE);
+        let past = Past::NONE;
+        let (end, crossings) = (front, 0);
         let memory =
-            Memory { start: front, end: front, front, stiff, regime, step, last_error, cuts, crossings: 0, statistics };
+            Memory { start: front, end, front, stiff, regime, step, last_error, cuts, crossings, past, statistics };
         Self::resume(problem, settings, memory)
     }
 
@@ -130,12 +133,12 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Memory { start, front, stiff, .. } = &self.memory;
+        let Memory { start, front, stiff, past, .. } = &self.memory;
         if t >= front.t {
             return (front.y, front.modes);
         }
         if !M::character(*stiff).interpolates && t > start.t {
-            M::attempt(&mut self.made, &mut self.room, problem, start, t - start.t, *stiff);
+            M::attempt(&mut self.made, &mut self.room, problem, start, past, t - start.t, *stiff);
             if controller::lost_state(problem, &self.made.y).is_none() {
                 return (self.made.y, start.modes);
             }
@@ -151,13 +154,13 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Memory { start, stiff, statistics, .. } = &mut self.memory;
-        statistics.evaluations += M::character(*stiff).evaluations;
-        M::attempt(&mut self.made, &mut self.room, problem, start, h, *stiff);
+        let Memory { start, stiff, past, statistics, .. } = &mut self.memory;
+        statistics.evaluations += M::attempt(&mut self.made, &mut self.room, problem, start, past, h, *stiff);
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
     pub fn refresh<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P) {
+        self.memory.past.forget();
         let front = &mut self.memory.front;
         problem.rates(&front.modes, front.t, &front.y, &mut front.rates);
         problem.guards(&front.modes, front.t, &front.y, &mut self.guards);
@@ -211,11 +214,12 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
 
     /// Takes back the last step, of `h` from where the guards were `guards`: this `component` was lost in it.
     fn take_back(&mut self, guards: [Guard; GUARDS], h: f64, component: usize) -> Result<(), IntegrationError> {
-        let Memory { start, end, front, stiff, step, crossings, statistics, .. } = &mut self.memory;
+        let Memory { start, end, front, stiff, step, past, crossings, statistics, .. } = &mut self.memory;
         (*end, *front) = (*start, *start);
         statistics.steps -= 1;
         statistics.events -= *crossings;
         *crossings = 0;
+        past.forget();
         self.guards = guards;
         if M::ADAPTIVE {
             // Nothing had estimated the error of what was lost: a shorter step may end before that.
@@ -256,5 +260,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         self.memory.front = end;
         self.memory.crossings = 0;
         self.correction = None;
+        let Memory { start, past, stiff, .. } = &mut self.memory;
+        M::past(&self.made, past, &start.rates, start.t, t, *stiff);
     }
 }

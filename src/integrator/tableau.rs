@@ -1,5 +1,6 @@
 //! Butcher tableaux, as printed in their sources and summed up by the compiler.
 
+use super::block::Past;
 use super::memory::Front;
 use super::method::{Character, Method};
 use super::problem::Problem;
@@ -48,12 +49,8 @@ impl<E: Explicit> Method for E {
     const ADAPTIVE: bool = E::TABLEAU.first_weighed_stage() != 0;
     const COARSE: bool = E::TABLEAU.coarse_error.is_some();
     const LOCATES: bool = E::LOCATES;
-    const CHARACTER: Character = Character {
-        error_power: E::TABLEAU.error_power,
-        interpolates: true,
-        evaluations: E::TABLEAU.stages as u64 - 1,
-        gives_end: E::TABLEAU.first_same_as_last,
-    };
+    const CHARACTER: Character =
+        Character { error_power: E::TABLEAU.error_power, interpolates: true, gives_end: E::TABLEAU.first_same_as_last };
     type Room<const N: usize> = ();
 
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
@@ -61,10 +58,12 @@ impl<E: Explicit> Method for E {
         (): &mut (),
         problem: &P,
         start: &Front<N, P::Modes>,
+        _past: &Past<N>,
         h: f64,
         _stiff: bool,
-    ) {
+    ) -> u64 {
         made.explicitly::<E, P>(problem, start, h);
+        E::TABLEAU.stages as u64 - 1
     }
 }
 

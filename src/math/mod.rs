@@ -8,6 +8,7 @@ mod dual;
 mod each;
 mod lanes;
 mod real;
+mod row;
 mod sin_cos;
 mod vec2;
 
@@ -15,6 +16,7 @@ pub use dual::Dual;
 pub(crate) use each::each;
 pub use lanes::{LANES, Lanes};
 pub use real::{Fused, Real};
+pub use row::{ROW, Row};
 pub use vec2::Vec2;
 
 /// (sin x, cos x).

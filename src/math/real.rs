@@ -21,7 +21,7 @@ impl Fused for f64 {
     }
 }
 
-/// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along.
+/// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along, or a [`Row`](super::Row) of numbers.
 ///
 /// Code that is generic over it computes with `f64` what code for `f64` would. Parameters stay `f64`
 /// and stand on the right of an operator. Comparisons look at values alone.
@@ -48,6 +48,8 @@ pub trait Real:
 {
     /// It carries no derivatives; loops that are short may then be written out.
     const PLAIN: bool = false;
+    /// It stands for several numbers that are computed together: what depends on a comparison is then computed both ways.
+    const MANY: bool = false;
     /// Four of them side by side.
     type Lanes: Lanes<Self>;
     /// 0.
@@ -71,6 +73,8 @@ pub trait Real:
     fn min(self, limit: f64) -> Self;
     /// Within `low` and `high`; a bound has no derivative.
     fn clamp(self, low: f64, high: f64) -> Self;
+    /// `then` where this is positive, and `other` where not.
+    fn choose(self, then: Self, other: Self) -> Self;
     /// |x| with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
     /// (sin x, cos x) of every x.
@@ -125,6 +129,10 @@ impl Real for f64 {
     #[inline(always)]
     fn clamp(self, low: f64, high: f64) -> Self {
         f64::clamp(self, low, high)
+    }
+    #[inline(always)]
+    fn choose(self, then: Self, other: Self) -> Self {
+        if self > 0.0 { then } else { other }
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {

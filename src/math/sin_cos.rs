@@ -1,8 +1,9 @@
 //! Sine and cosine together, without a branch and without a call: from a table of the circle and short series for the
 //! rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
 
-use super::{Fused, each};
+use super::{Fused, LANES, each};
 use std::f64::consts::{PI, TAU};
+use wide::f64x4;
 
 /// Greatest angle that the reduction below takes: its multiple of [`STEP`] has 27 bits.
 const GREATEST: f64 = 1.6e6;
@@ -83,6 +84,44 @@ pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
         });
     }
     found
+}
+
+/// (sin, cos) of four angles together.
+#[inline(always)]
+pub fn of_four(x: f64x4) -> (f64x4, f64x4) {
+    let angles = x.to_array();
+    let mut within_reach = true;
+    each!(true, k < LANES => {
+        within_reach &= angles[k].abs() < GREATEST;
+    });
+    if !within_reach {
+        return far(angles);
+    }
+    let shifted = times_plus(x, f64x4::splat(PARTS as f64 / TAU), f64x4::splat(ROUNDER));
+    let k = shifted - f64x4::splat(ROUNDER);
+    let (places, mut sin_k, mut cos_k) = (shifted.to_array(), [0.0; LANES], [0.0; LANES]);
+    each!(true, k < LANES => {
+        (sin_k[k], cos_k[k]) = CIRCLE[places[k].to_bits() as usize % PARTS];
+    });
+    let (sin_k, cos_k) = (f64x4::new(sin_k), f64x4::new(cos_k));
+    let r = times_plus(k, f64x4::splat(-STEP[1]), times_plus(k, f64x4::splat(-STEP[0]), x));
+    let z = r * r;
+    let series = |first: f64, second: f64| times_plus(z, f64x4::splat(first), f64x4::splat(second));
+    let sin_r = times_plus(r * z, series(1.0 / 120.0, -1.0 / 6.0), r);
+    let less = z * times_plus(z, series(-1.0 / 720.0, 1.0 / 24.0), f64x4::splat(-0.5));
+    (sin_k + times_plus(cos_k, sin_r, sin_k * less), cos_k + times_plus(cos_k, less, -(sin_k * sin_r)))
+}
+
+#[cold]
+fn far(x: [f64; LANES]) -> (f64x4, f64x4) {
+    let found = x.map(one_by_one);
+    (f64x4::new(found.map(|(sin, _)| sin)), f64x4::new(found.map(|(_, cos)| cos)))
+}
+
+/// a·b + c, as [`Fused`] for each.
+#[inline(always)]
+pub fn times_plus(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+    if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
 #[cold]

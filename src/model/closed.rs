@@ -15,7 +15,7 @@ use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset, Unilateral};
-use crate::math::{self, Real};
+use crate::math::{self, Real, Row};
 use crate::scene::Scene;
 
 /// The ideal mechanism with its constants and its inputs.
@@ -172,6 +172,10 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
     #[inline(always)] // into the loop over stages
     fn rates(&self, _: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         self.write_rates(t, y, rates);
+    }
+
+    fn rates_in_row(&self, _: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
+        self.write_rates(*t, y, rates);
     }
 
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {

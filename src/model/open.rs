@@ -17,6 +17,7 @@ use super::scales;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning};
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Impulses, Jacobian, Kinks, Problem, ROOM, Reset};
+use crate::math::Row;
 use crate::scene::Scene;
 
 /// An open mechanism with its constants and its inputs.
@@ -74,6 +75,10 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     #[inline(always)] // into the loop over stages
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         self.linkage.rates(Self::ARRANGEMENT, contacts, t, y, rates);
+    }
+
+    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
+        self.linkage.rates(Self::ARRANGEMENT, contacts, *t, y, rates);
     }
 
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {

@@ -1,7 +1,7 @@
-//! The two numbers that the equations of motion are compiled for.
+//! The numbers that the equations of motion are compiled for.
 
 use super::joint::{Kernel, Kernels};
-use crate::math::{Dual, Real};
+use crate::math::{Dual, Real, Row};
 
 /// Derivatives along so many directions at a time: with 8 the Jacobian takes up to a fifth less time than
 /// with 4, and is compiled in somewhat more (`cargo bench --bench jacobian`).
@@ -20,6 +20,13 @@ impl Scalar for f64 {
     #[inline(always)]
     fn kernel<K: Kernel>(kernels: &Kernels<K>) -> &K::Of<Self> {
         &kernels.value
+    }
+}
+
+impl Scalar for Row {
+    #[inline(always)]
+    fn kernel<K: Kernel>(kernels: &Kernels<K>) -> &K::Of<Self> {
+        &kernels.row
     }
 }
 

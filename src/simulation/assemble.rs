@@ -3,7 +3,7 @@
 use super::run::{Motion, Run};
 use super::time_stepping::TimeStepping;
 use crate::integrator::ROOM;
-use crate::integrator::methods::{Automatic, Bs3, Dop853, Dopri5, Rk4, Rk4Unlocated, Rodas4, Verner7};
+use crate::integrator::methods::{Automatic, Bs3, Cong8, Dop853, Dopri5, Rk4, Rk4Unlocated, Rodas4, Verner7};
 use crate::model::audit::{self, Audited};
 use crate::model::bristles::bristled_contacts;
 use crate::model::closed::Closed;
@@ -139,6 +139,7 @@ fn with_method<const N: usize, P: Plant<N> + 'static>(
     let plant: Box<dyn Plant<N>> = Box::new(plant);
     match scene.solver.method {
         Method::Automatic => Box::new(Run::<N, Automatic>::start(scene, time, pose, plant)),
+        Method::Cong8 => Box::new(Run::<N, Cong8>::start(scene, time, pose, plant)),
         Method::Dopri5 => Box::new(Run::<N, Dopri5>::start(scene, time, pose, plant)),
         Method::Verner7 => Box::new(Run::<N, Verner7>::start(scene, time, pose, plant)),
         Method::Dop853 => Box::new(Run::<N, Dop853>::start(scene, time, pose, plant)),

@@ -1,7 +1,8 @@
 //! A run's memory in a snapshot.
 
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Extent, Front, Impulses, Memory, Regime, Statistics};
+use crate::integrator::{Extent, Front, Impulses, Memory, Past, Regime, Statistics};
+use crate::math::{Real, Row};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::plant::Plant;
@@ -56,7 +57,7 @@ impl<const N: usize> Discrete for Impulses<N> {
 
 /// Appends the inputs in force and the integrator's memory.
 pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N, D>, snapshot: &mut Snapshot) {
-    let Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, statistics } = memory;
+    let Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, past, statistics } = memory;
     let InputSignal { at, value, rate } = plant.signal();
     let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
     snapshot.reals.extend(inputs);
@@ -70,7 +71,12 @@ pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N
     snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
     snapshot.integers.extend([u64::from(*stiff), u64::from(regime.stiff)]);
     snapshot.integers.extend([regime.steps, regime.patience, regime.unpaid].map(u64::from));
-    snapshot.integers.push(N as u64);
+    snapshot.integers.extend([N as u64, u64::from(past.is_some())]);
+    if past.is_some() {
+        snapshot.reals.extend([past.begin, past.end]);
+        snapshot.reals.extend(past.start);
+        snapshot.reals.extend(past.nodes.iter().flat_map(|row| row.numbers()));
+    }
 }
 
 /// Takes back what [`save`] appended of a run at `time` [s]: the plant gets its inputs, the integrator's memory is
@@ -103,10 +109,21 @@ pub fn load<const N: usize, D: Discrete>(
     if reader.integer()? != N as u64 {
         return None;
     }
+    let past = if reader.integer()? == 0 { Past::NONE } else { take_past(reader)? };
     plant.set_signal(InputSignal { at, value, rate });
     plant.set_start_time(start_time);
-    let memory = Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, statistics };
+    let memory = Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, past, statistics };
     memory.is_sound(time, Extent::of(plant), plant.longest_step()).then_some(memory)
+}
+
+fn take_past<const N: usize>(reader: &mut Reader<'_>) -> Option<Past<N>> {
+    let [begin, end] = reader.reals()?;
+    let start = reader.reals()?;
+    let mut nodes = [Row::ZERO; N];
+    for row in &mut nodes {
+        *row = Row::of(reader.reals()?);
+    }
+    Some(Past { begin, end, start, nodes })
 }
 
 fn take_front<const N: usize, D: Discrete>(reader: &mut Reader<'_>) -> Option<Front<N, D>> {

@@ -11,6 +11,7 @@ mod free;
 mod kinks;
 mod order;
 mod polynomials;
+mod row;
 mod step_control;
 mod switching;
 mod time_stepping;

@@ -1,9 +1,9 @@
 //! The order of each method and of its error estimate, by a fit on measured errors.
 
 use super::free::{Free, distance, kepler, orbit, power};
-use slidercrank::integrator::methods::{Bs3, Dop853, Dopri5, Rk4, Verner7};
+use slidercrank::integrator::methods::{Bs3, Cong8, Dop853, Dopri5, Rk4, Verner7};
 use slidercrank::integrator::stages::{Attempt, IN_REGISTERS};
-use slidercrank::integrator::{Explicit, Front, Problem};
+use slidercrank::integrator::{Explicit, Front, Method, Past, Problem};
 
 const ECCENTRICITY: f64 = 0.2;
 /// No round part of an orbit, over which errors might cancel.
@@ -134,4 +134,55 @@ fn stages_in_registers_and_in_memory_are_the_same_to_the_bit() {
     orbits_do_not_know_of_each_other::<Dopri5>();
     orbits_do_not_know_of_each_other::<Verner7>();
     orbits_do_not_know_of_each_other::<Dop853>();
+}
+
+/// Error of an orbit in blocks at the end of this many equal steps.
+fn error_in_blocks(steps: u32) -> f64 {
+    let problem = Free { accelerations: kepler };
+    let h = END / f64::from(steps);
+    let mut front = Front { t: 0.0, y: orbit(ECCENTRICITY, 0.0), rates: [0.0; 4], modes: (), impact_end: 0.0 };
+    problem.rates(&(), 0.0, &front.y, &mut front.rates);
+    let (mut made, mut past) = (Attempt::NONE, Past::NONE);
+    for i in 1..=steps {
+        made.in_block(&problem, &front, &past, h);
+        let t = front.t + h;
+        Cong8::past(&made, &mut past, &front.rates, front.t, t, false);
+        assert!(past.is_some(), "step {i} leaves something to go on from");
+        front = Front { t, y: made.y, rates: made.rates, ..front };
+    }
+    distance(&front.y, &orbit(ECCENTRICITY, END))
+}
+
+#[test]
+fn the_error_of_an_orbit_in_blocks_falls_with_more_than_the_order_that_is_claimed() {
+    let points = [10, 12, 14, 17].map(|n| (f64::from(n).recip(), error_in_blocks(n)));
+    let order = power(&points);
+    println!("cong8: order {order:.3}, errors {:.1e} to {:.1e}", points[0].1, points[3].1);
+    assert!(order > f64::from(Cong8::ORDER), "order {order}");
+    // As accurate as the order-8 pair, with fewer and longer steps.
+    assert!(error_in_blocks(20) < orbit_error::<Dop853>(60), "{:e}", error_in_blocks(20));
+}
+
+#[test]
+fn the_estimate_of_a_block_is_at_least_as_large_as_its_error() {
+    let problem = Free { accelerations: kepler };
+    for start in [0.0, 0.7, 1.9, 3.0, 4.4] {
+        for h in [0.3, 0.45] {
+            let at = |t: f64| {
+                let mut front = Front { t, y: orbit(ECCENTRICITY, t), rates: [0.0; 4], modes: (), impact_end: 0.0 };
+                problem.rates(&(), t, &front.y, &mut front.rates);
+                front
+            };
+            let (mut made, mut past) = (Attempt::NONE, Past::NONE);
+            for t in [start, start + h] {
+                let front = at(t);
+                made.in_block(&problem, &front, &past, h);
+                let exact = orbit(ECCENTRICITY, t + h);
+                let difference: [f64; 4] = std::array::from_fn(|i| made.y[i] - exact[i]);
+                let (error, estimate) = (size(&difference), size(&made.error));
+                assert!(error <= estimate, "step of {h} from {t}: error {error:e}, estimate {estimate:e}");
+                Cong8::past(&made, &mut past, &front.rates, t, t + h, false);
+            }
+        }
+    }
 }

@@ -26,6 +26,7 @@ mod restitution_laws;
 mod rigid_limits;
 mod rigid_motion;
 mod rigid_scenes;
+mod rows;
 mod scenes;
 mod symmetry;
 mod told_twice;

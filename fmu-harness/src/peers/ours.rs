@@ -3,7 +3,7 @@
 use super::ruler::choose;
 use super::{Point, Ruler, Series, Task};
 use crate::effects::inputs_at_start;
-use crate::host::Fmu;
+use crate::host::{Fmu, Setting};
 use crate::inputs::Input;
 use crate::package::Stock;
 use crate::run::{Ending, Experiment, Look, March, Until, march};
@@ -14,8 +14,9 @@ use slidercrank::simulation::Simulation;
 use std::time::Duration;
 
 /// The methods, the default first.
-const METHODS: [(Method, &str); 4] = [
+const METHODS: [(Method, &str); 5] = [
     (Method::Automatic, "automatic"),
+    (Method::Cong8, "cong8"),
     (Method::Verner7, "verner7"),
     (Method::Dop853, "dop853"),
     (Method::Dopri5, "dopri5"),
@@ -43,9 +44,9 @@ pub fn series(task: &Task, ruler: &Ruler, progress: &impl Fn(&str)) -> Result<Ve
     progress("SliderCrank FMU");
     let stock = Stock::build()?;
     let packaged = through_fmu(task, &all[0], &stock, "packaged FMU")?;
+    let in_blocks = through_fmu(task, &all[1], &stock, "packaged FMU")?;
     let portable = through_fmu(task, &all[0], &stock.portable(), "portable FMU")?;
-    all.splice(0..0, [packaged]);
-    all.splice(2..2, [portable]);
+    all.splice(0..1, [packaged, all[0].clone(), portable, in_blocks]);
     Ok(all)
 }
 
@@ -72,7 +73,7 @@ fn point(task: &Task, ruler: &Ruler, method: Method, tolerance: f64) -> Result<P
     Ok(Point { tolerance, error, cost: seconds / task.span, evaluations: evaluations / task.span })
 }
 
-/// The default method in an FMU with the libraries of `stock`: its steps, and so its errors, are those of `core`, but for
+/// The method of `core` in an FMU with the libraries of `stock`: its steps, and so its errors, are those of `core`, but for
 /// what a library for newer processors rounds otherwise.
 fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<Series> {
     let directory = tempfile::tempdir()?;
@@ -82,7 +83,7 @@ fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<
     let mut points = vec![];
     for point in &core.points {
         let experiment = Experiment {
-            settings: vec![],
+            settings: vec![Setting { name: "solver.method".into(), value: core.method.clone() }],
             inputs: Input::constant(inputs_at_start(&task.scenario.file)),
             start: 0.0,
             until: Until::Time(task.span),

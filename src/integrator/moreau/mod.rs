@@ -30,6 +30,7 @@
 mod attempt;
 mod closed;
 
+use super::block::Past;
 use super::controller::Settings;
 use super::error::IntegrationError;
 use super::memory::{Front, Memory};
@@ -52,6 +53,7 @@ impl<const N: usize> Moreau<N> {
         let front = Front { t, y, rates: [0.0; N], modes: Impulses::none(t, y), impact_end: t };
         let statistics = Statistics::default();
         let memory = Memory {
+            past: Past::NONE,
             start: front,
             end: front,
             front,

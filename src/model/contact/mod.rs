@@ -100,8 +100,8 @@ pub fn force<R: Real, E: Elastic, D: Damped, F: Friction>(
     sliding: impl FnOnce() -> R,
 ) -> Forces<R> {
     let mut normal = R::ZERO;
-    if depth > 0.0 {
-        normal = (E::force(parameters, depth) * D::factor(parameters, rate, per_approach)).max(0.0);
+    if R::MANY || depth > 0.0 {
+        normal = (E::force(parameters, depth.max(0.0)) * D::factor(parameters, rate, per_approach)).max(0.0);
     }
     if !F::PRESENT || (!F::BRISTLES && normal == 0.0) {
         return Forces { normal, ..Forces::default() };

@@ -32,7 +32,7 @@ use super::state::{CONTACTS, Contacts, Instant, Pose};
 use crate::integrator::stages::in_registers;
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset};
 use crate::integrator::{STAGES, Tableau, Unilateral};
-use crate::math::Real;
+use crate::math::{Real, Row};
 use crate::scene::Scene;
 use assembly::Assembly;
 use chain::{Frame, PLACES};
@@ -100,6 +100,10 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
         (self.all.functions.rates)(&self.all, contacts, t, y, rates);
+    }
+
+    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
+        (self.all.functions.row)(&self.all, contacts, *t, y, rates);
     }
 
     fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {

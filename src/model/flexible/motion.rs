@@ -8,7 +8,7 @@ use super::configuration::{Configuration, Geometry};
 use super::equations::{Equations, Moving, Places};
 use super::written;
 use crate::integrator::{GUARDS, Guard};
-use crate::math::each;
+use crate::math::{Row, each};
 use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
 use crate::model::linkage::Arrangement;
@@ -22,6 +22,9 @@ use crate::scene::modal::MOST_MODES;
 /// Writes the rates of a state at a time.
 pub type Rates<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64]);
 
+/// Writes the rates of eight states.
+pub type RatesInRow<M> = fn(&M, &Contacts, Row, &[Row], &mut [Row]);
+
 type Ends<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
 
 /// The motion in plain numbers, compiled for its frame.
@@ -29,6 +32,8 @@ type Ends<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
 pub struct Functions<M> {
     /// Writes the rates of a state.
     pub rates: Rates<M>,
+    /// Writes the rates of eight states.
+    pub row: RatesInRow<M>,
     /// Writes the rates of a state, and its event functions.
     pub ends: Ends<M>,
     /// Tells places and velocities of a state.
@@ -76,6 +81,7 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
                     rates: |$all, contacts, t, y, rates| {
                         $all.motion::<f64, { $places }>($frame, contacts, t, y, rates);
                     },
+                    row: Self::rates_in_row,
                     ends: |$all, contacts, t, y, rates, guards| {
                         let motion = $all.motion::<f64, { $places }>($frame, contacts, t, y, rates);
                         if $frame.arrangement.topology.is_closed() {
@@ -103,7 +109,16 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
             }};
         }
         let functions: Functions<Self> = by_topology!(topology, joined);
-        Functions { rates: written::rates(topology, counts).unwrap_or(functions.rates), ..functions }
+        Functions {
+            rates: written::rates(topology, counts).unwrap_or(functions.rates),
+            row: written::row(topology, counts).unwrap_or(functions.row),
+            ..functions
+        }
+    }
+
+    /// Writes the rates of eight states; compiled once, for all topologies.
+    fn rates_in_row(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
+        self.motion::<Row, PLACES>(self.geometry.frame, contacts, t, y, rates);
     }
 
     /// Places and velocities of the state `y` at `t`.

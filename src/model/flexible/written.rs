@@ -7,9 +7,10 @@
 
 use super::assembly::Assembly;
 use super::chain::Frame;
-use super::motion::{Rates, by_topology};
+use super::motion::{Rates, RatesInRow, by_topology};
 use crate::integrator::stages::{IN_REGISTERS, in_registers};
 use crate::integrator::{STAGES, Tableau};
+use crate::math::Row;
 use crate::model::mechanism::Topology;
 use crate::model::rod::{Counted, Counts, Exactly, FEW_MODES};
 use crate::model::state::Contacts;
@@ -58,6 +59,28 @@ pub fn stages<const N: usize, const S: usize, const K: usize, const F: usize>(
                 } else {
                     None
                 }
+            })
+        }};
+    }
+    by_topology!(topology, joined)
+}
+
+/// The rates of eight states together, where they are compiled.
+pub fn row<const S: usize, const K: usize, const F: usize>(
+    topology: Topology,
+    counts: Counts,
+) -> Option<RatesInRow<Assembly<S, K, F>>> {
+    if const { K > FEW_MODES } {
+        return None;
+    }
+    /// Of these ideal joints and this drive.
+    macro_rules! joined {
+        ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
+            const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
+            with_counts!(counts in (3 1), Own => {
+                Some(|all, contacts, t, y, rates| {
+                    all.motion_of::<Row, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
+                })
             })
         }};
     }

@@ -51,15 +51,23 @@ impl<R: Real> Bed<R> {
     pub fn pressed(&self) -> Pressed<R> {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
-        if deep <= 0.0 {
-            Pressed::default()
-        } else if shallow >= 0.0 {
-            // A trapezoid. Parallel faces make no difference of large numbers here.
-            Pressed { mean: middle, centre: slope * half / middle * (half / 3.0) }
-        } else {
-            // A triangle of this length at the deeper end.
+        // A trapezoid. Parallel faces make no difference of large numbers here.
+        let trapezoid = || Pressed { mean: middle, centre: slope * half / middle * (half / 3.0) };
+        // A triangle of this length at the deeper end.
+        let triangle = || {
             let length = deep / slope.abs();
             Pressed { mean: deep * length / (4.0 * half), centre: (-(length / 3.0) + half).copysign(slope) }
+        };
+        if R::MANY {
+            let (whole, part) = (trapezoid(), triangle());
+            let of = |whole: R, part: R| deep.choose((-shallow).choose(part, whole), R::ZERO);
+            Pressed { mean: of(whole.mean, part.mean), centre: of(whole.centre, part.centre) }
+        } else if deep <= 0.0 {
+            Pressed::default()
+        } else if shallow >= 0.0 {
+            trapezoid()
+        } else {
+            triangle()
         }
     }
 
@@ -67,14 +75,9 @@ impl<R: Real> Bed<R> {
     pub fn mean_square(&self) -> R {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
-        if deep <= 0.0 {
-            R::ZERO
-        } else if shallow >= 0.0 {
-            let rise = slope * half;
-            middle * middle + rise * rise / 3.0
-        } else {
-            deep * deep * (deep / slope.abs()) / (6.0 * half)
-        }
+        let rise = slope * half;
+        let (whole, part) = (middle * middle + rise * rise / 3.0, deep * deep * (deep / slope.abs()) / (6.0 * half));
+        deep.choose((-shallow).choose(part, whole), R::ZERO)
     }
 }
 

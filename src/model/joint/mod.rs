@@ -8,7 +8,7 @@ mod rigid;
 
 use super::contact::{ContactParameters, Damped, Elastic, HertzThreeHalves, Hysteresis, Liu, Power, Undamped, damping};
 use super::friction::{Ambrosio, Friction, FrictionParameters, Frictionless, Lugre, Stribeck, Tanh};
-use crate::math::Real;
+use crate::math::{Real, Row};
 use crate::model::scalar::Tangent;
 use crate::scene::{Contact, DampingLaw, Elasticity, FrictionLaw};
 
@@ -23,6 +23,8 @@ pub trait Kernel {
 pub struct Kernels<K: Kernel> {
     /// For plain numbers.
     pub value: K::Of<f64>,
+    /// For eight numbers together.
+    pub row: K::Of<Row>,
     /// For numbers with derivatives.
     pub tangent: K::Of<Tangent>,
 }
@@ -36,7 +38,11 @@ pub trait KernelFamily {
 
     /// The kernels of one combination.
     fn kernels<E: Elastic, D: Damped, F: Friction>() -> Kernels<Self::Kernel> {
-        Kernels { value: Self::kernel::<f64, E, D, F>(), tangent: Self::kernel::<Tangent, E, D, F>() }
+        Kernels {
+            value: Self::kernel::<f64, E, D, F>(),
+            row: Self::kernel::<Row, E, D, F>(),
+            tangent: Self::kernel::<Tangent, E, D, F>(),
+        }
     }
 }
 

@@ -30,8 +30,11 @@ impl<R: Real> Play<R> {
     /// ε [m] and n; none where the journal is centred and n undefined.
     #[inline(always)]
     pub(super) fn distance_and_normal(&self) -> Option<(R, Vec2<R>)> {
-        let square = self.eccentricity.norm_squared();
-        if square < f64::MIN_POSITIVE {
+        let mut square = self.eccentricity.norm_squared();
+        if R::MANY {
+            // Then no distance counts as one.
+            square = square.max(f64::MIN_POSITIVE);
+        } else if square < f64::MIN_POSITIVE {
             return None;
         }
         // Root and reciprocal do not wait for one another.

@@ -1,0 +1,209 @@
+//! Where a step is looked at that is made as a [`block`](super::block), and the polynomials through what is seen there.
+
+#![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
+
+use crate::math::ROW;
+
+/// The instants of a step: those of Radau's quadrature that end at 1, after the step's start.
+pub const NODES: [f64; ROW] = [
+    0.022_479_386_438_712_498_108_825_5,
+    0.114_679_053_160_904_231_909_640_2,
+    0.265_789_822_784_589_468_476_789_4,
+    0.452_846_373_669_444_616_998_551_4,
+    0.647_375_282_886_830_362_626_092_2,
+    0.819_759_308_263_107_635_012_420_1,
+    0.943_737_439_463_077_853_534_347_8,
+    1.0,
+];
+/// Gauss's quadrature, for polynomials up to degree nine.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668_003_601_186_56, 0.118_463_442_528_094_543_757_132_0),
+    (0.230_765_344_947_158_454_481_842_8, 0.239_314_335_249_683_234_020_645_8),
+    (0.5, 0.284_444_444_444_444_444_444_444_4),
+    (0.769_234_655_052_841_545_518_157_2, 0.239_314_335_249_683_234_020_645_8),
+    (0.953_089_922_969_331_996_398_813_4, 0.118_463_442_528_094_543_757_132_0),
+];
+/// The step's start and its nodes.
+pub const POINTS: usize = 1 + ROW;
+
+const fn point(j: usize) -> f64 {
+    if j == 0 { 0.0 } else { NODES[j - 1] }
+}
+
+/// ℓ_j(x): 1 at point j, 0 at all others.
+const fn cardinal(j: usize, x: f64) -> f64 {
+    let (mut product, mut k) = (1.0, 0);
+    while k < POINTS {
+        if k != j {
+            product *= (x - point(k)) / (point(j) - point(k));
+        }
+        k += 1;
+    }
+    product
+}
+
+/// A_ij and B_ij of [`block`](super::block): columns by j, the first for the step's start.
+pub static INTEGRALS: [[[f64; ROW]; POINTS]; 2] = {
+    let mut all = [[[0.0; ROW]; POINTS]; 2];
+    let mut j = 0;
+    while j < POINTS {
+        let mut i = 0;
+        while i < ROW {
+            let (c, mut g) = (NODES[i], 0);
+            while g < GAUSS.len() {
+                let (x, weight) = GAUSS[g];
+                let value = weight * c * cardinal(j, c * x);
+                all[0][j][i] += value;
+                all[1][j][i] += value * c * (1.0 - x);
+                g += 1;
+            }
+            i += 1;
+        }
+        j += 1;
+    }
+    all
+};
+
+/// Coefficients of x¹ to x⁸ of the polynomials ℓ_j about the step's start and about its end, columns by j.
+pub static POWERS: [[[f64; ROW]; POINTS]; 2] = {
+    let mut all = [[[0.0; ROW]; POINTS]; 2];
+    let mut origin = 0;
+    while origin < 2 {
+        let mut j = 0;
+        while j < POINTS {
+            // Π(x − (c_k − origin)), one factor after the other; signs do not mix.
+            let mut coefficients = [0.0; POINTS];
+            coefficients[0] = 1.0;
+            let (mut degree, mut k) = (0, 0);
+            while k < POINTS {
+                if k != j {
+                    let (root, scale) = (point(k) - origin as f64, point(j) - point(k));
+                    degree += 1;
+                    let mut n = degree;
+                    loop {
+                        let lower = if n > 0 { coefficients[n - 1] } else { 0.0 };
+                        coefficients[n] = (lower - root * coefficients[n]) / scale;
+                        if n == 0 {
+                            break;
+                        }
+                        n -= 1;
+                    }
+                }
+                k += 1;
+            }
+            let mut n = 0;
+            while n < ROW {
+                all[origin][j][n] = coefficients[n + 1];
+                n += 1;
+            }
+            j += 1;
+        }
+        origin += 1;
+    }
+    all
+};
+
+/// c_i^(n+1)/(n + 1) and c_i^(n+2)/((n + 1)·(n + 2)) in row n.
+pub static MONOMIALS: [[[f64; ROW]; POINTS]; 2] = {
+    let mut all = [[[0.0; ROW]; POINTS]; 2];
+    let mut i = 0;
+    while i < ROW {
+        let (c, mut power, mut n) = (NODES[i], 1.0, 0);
+        while n < POINTS {
+            power *= c;
+            all[0][n][i] = power / (n + 1) as f64;
+            all[1][n][i] = power * c / ((n + 1) * (n + 2)) as f64;
+            n += 1;
+        }
+        i += 1;
+    }
+    all
+};
+
+/// Weights of the accelerations' part of degree eight: its coefficient in Legendre polynomials.
+pub const TOP: [f64; POINTS] = {
+    let mut all = [0.0; POINTS];
+    let mut j = 0;
+    while j < POINTS {
+        let (mut product, mut k) = (12_870.0, 0);
+        while k < POINTS {
+            if k != j {
+                product *= point(j) - point(k);
+            }
+            k += 1;
+        }
+        all[j] = 1.0 / product;
+        j += 1;
+    }
+    all
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Through the values of x^degree at the points, this sum over columns at every node.
+    fn sums(columns: &[[f64; ROW]; POINTS], degree: i32, at: impl Fn(usize) -> f64) -> [f64; ROW] {
+        std::array::from_fn(|i| (0..POINTS).map(|j| columns[j][i] * at(j).powi(degree)).sum())
+    }
+
+    #[test]
+    fn nodes_are_those_of_radau() {
+        // ∏(c − c_j) is orthogonal to all polynomials of degree six: their quadrature is exact to degree 14.
+        let last = |columns: &[[f64; ROW]; POINTS], degree| sums(columns, degree, point)[ROW - 1];
+        for degree in 0..=14 {
+            let n = f64::from(degree);
+            assert!((last(&INTEGRALS[0], degree) - 1.0 / (n + 1.0)).abs() < 1e-15, "degree {degree}");
+        }
+        assert!((last(&INTEGRALS[0], 15) - 1.0 / 16.0).abs() > 1e-10);
+        assert!(INTEGRALS[0][0][ROW - 1].abs() < 1e-15, "the start has no weight in it");
+    }
+
+    #[test]
+    fn polynomials_up_to_degree_eight_are_integrated_exactly() {
+        for degree in 0..=8 {
+            let n = f64::from(degree);
+            let (once, twice) = (sums(&INTEGRALS[0], degree, point), sums(&INTEGRALS[1], degree, point));
+            for (i, c) in NODES.iter().enumerate() {
+                let (wanted_once, wanted_twice) =
+                    (c.powf(n + 1.0) / (n + 1.0), c.powf(n + 2.0) / ((n + 1.0) * (n + 2.0)));
+                assert!(
+                    (once[i] - wanted_once).abs() < 2e-16 * 4.0,
+                    "degree {degree} at {c}: {:e}",
+                    once[i] - wanted_once
+                );
+                assert!((twice[i] - wanted_twice).abs() < 2e-16 * 4.0, "degree {degree} at {c}");
+            }
+        }
+    }
+
+    #[test]
+    fn coefficients_about_either_end_are_those_of_the_polynomial() {
+        for (origin, columns) in POWERS.iter().enumerate() {
+            for degree in 0..=8 {
+                let found = sums(columns, degree, |j| point(j) - origin as f64);
+                for (n, found) in found.iter().enumerate() {
+                    let wanted = if degree == n as i32 + 1 { 1.0 } else { 0.0 };
+                    // Of terms up to a million.
+                    assert!((found - wanted).abs() < 1e-9, "x^{degree} about {origin}: {found:e} of x^{}", n + 1);
+                }
+            }
+        }
+        for (n, rows) in MONOMIALS[0].iter().zip(&MONOMIALS[1]).enumerate() {
+            for (i, c) in NODES.iter().enumerate() {
+                let power = c.powi(n as i32 + 1) / (n + 1) as f64;
+                assert!((rows.0[i] - power).abs() < 1e-15 && (rows.1[i] - power * c / (n + 2) as f64).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn the_part_of_degree_eight_is_that_of_legendre() {
+        // x⁸ on 0 to 1 has 1/12870 of the polynomial, and what is lower has none.
+        for degree in 0..=8 {
+            let found: f64 = (0..POINTS).map(|j| TOP[j] * point(j).powi(degree)).sum();
+            let wanted = if degree == 8 { 1.0 / 12_870.0 } else { 0.0 };
+            assert!((found - wanted).abs() < 1e-14, "degree {degree}: {found:e}");
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! Eight numbers that are computed together: those of one quantity at eight instants of a step.
+
+use super::sin_cos::{self, times_plus};
+use super::{Fused, LANES, Real, Vec2, each};
+use std::cmp::Ordering;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use wide::{CmpGt, f64x4};
+
+/// How many numbers a [`Row`] has.
+pub const ROW: usize = 8;
+
+/// Eight numbers side by side: two registers of four, where the processor has such, so that one half computes while the
+/// other waits for a result.
+///
+/// Each has the bits that `f64` would have. Comparisons are true if they are for all eight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row([f64x4; 2]);
+
+impl Row {
+    /// These.
+    #[inline(always)]
+    pub fn of(numbers: [f64; ROW]) -> Self {
+        let [a, b, c, d, e, f, g, h] = numbers;
+        Self([f64x4::new([a, b, c, d]), f64x4::new([e, f, g, h])])
+    }
+
+    /// Them.
+    #[inline(always)]
+    pub fn numbers(self) -> [f64; ROW] {
+        let ([a, b, c, d], [e, f, g, h]) = (self.0[0].to_array(), self.0[1].to_array());
+        [a, b, c, d, e, f, g, h]
+    }
+
+    /// The last one.
+    #[inline(always)]
+    pub fn last(self) -> f64 {
+        self.0[1].to_array()[LANES - 1]
+    }
+
+    #[inline(always)]
+    fn each(self, of: impl Fn(f64x4) -> f64x4) -> Self {
+        Self([of(self.0[0]), of(self.0[1])])
+    }
+
+    #[inline(always)]
+    fn with(self, other: Self, of: impl Fn(f64x4, f64x4) -> f64x4) -> Self {
+        Self([of(self.0[0], other.0[0]), of(self.0[1], other.0[1])])
+    }
+
+    /// A function that is not written for four at a time.
+    fn one_by_one(self, of: impl Fn(f64) -> f64) -> Self {
+        Self::of(self.numbers().map(of))
+    }
+}
+
+impl Default for Row {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+impl PartialEq<f64> for Row {
+    #[inline(always)]
+    fn eq(&self, other: &f64) -> bool {
+        self.numbers().iter().all(|number| number == other)
+    }
+}
+
+impl PartialOrd for Row {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        let (own, other) = (self.numbers(), other.numbers());
+        let first = own[0].partial_cmp(&other[0]);
+        own.iter().zip(&other).all(|(a, b)| a.partial_cmp(b) == first).then_some(first).flatten()
+    }
+}
+
+impl PartialOrd<f64> for Row {
+    fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
+        self.partial_cmp(&Self::constant(*other))
+    }
+}
+
+impl Neg for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.each(|x| -x)
+    }
+}
+
+impl Add for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.with(other, |a, b| a + b)
+    }
+}
+
+impl Sub for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.with(other, |a, b| a - b)
+    }
+}
+
+impl Mul for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.with(other, |a, b| a * b)
+    }
+}
+
+impl Div for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.with(other, |a, b| a / b)
+    }
+}
+
+impl Add<f64> for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: f64) -> Self {
+        self + Self::constant(other)
+    }
+}
+
+impl Sub<f64> for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: f64) -> Self {
+        self - Self::constant(other)
+    }
+}
+
+impl Mul<f64> for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        self * Self::constant(other)
+    }
+}
+
+impl Div<f64> for Row {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: f64) -> Self {
+        self / Self::constant(other)
+    }
+}
+
+impl Mul<Vec2<Self>> for Row {
+    type Output = Vec2<Self>;
+    #[inline(always)]
+    fn mul(self, v: Vec2<Self>) -> Vec2<Self> {
+        v * self
+    }
+}
+
+impl AddAssign for Row {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Row {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl Fused for Row {
+    #[inline(always)]
+    fn times_plus(self, factor: Self, term: Self) -> Self {
+        let ([a, b], [c, d], [e, f]) = (self.0, factor.0, term.0);
+        Self([times_plus(a, c, e), times_plus(b, d, f)])
+    }
+}
+
+impl Fused<f64> for Row {
+    #[inline(always)]
+    fn times_plus(self, factor: f64, term: Self) -> Self {
+        self.times_plus(Self::constant(factor), term)
+    }
+}
+
+impl Real for Row {
+    const MANY: bool = true;
+    type Lanes = [Self; LANES];
+
+    const ZERO: Self = Self([f64x4::ZERO; 2]);
+    const ONE: Self = Self([f64x4::ONE; 2]);
+
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        Self([f64x4::splat(value); 2])
+    }
+    /// The first one.
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self.0[0].to_array()[0]
+    }
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self::ONE / self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.each(f64x4::sqrt)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.each(f64x4::abs)
+    }
+    #[inline(always)]
+    fn max(self, limit: f64) -> Self {
+        // Of equal ones, and where it is not a number, the limit.
+        self.each(|x| x.fast_max(f64x4::splat(limit)))
+    }
+    #[inline(always)]
+    fn min(self, limit: f64) -> Self {
+        self.each(|x| x.fast_min(f64x4::splat(limit)))
+    }
+    #[inline(always)]
+    fn clamp(self, low: f64, high: f64) -> Self {
+        self.each(|x| f64x4::splat(low).fast_max(x)).each(|x| f64x4::splat(high).fast_min(x))
+    }
+    #[inline(always)]
+    fn choose(self, then: Self, other: Self) -> Self {
+        let (low, high) = (self.0[0].cmp_gt(f64x4::ZERO), self.0[1].cmp_gt(f64x4::ZERO));
+        Self([low.blend(then.0[0], other.0[0]), high.blend(then.0[1], other.0[1])])
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.with(sign, f64x4::copysign)
+    }
+    #[inline(always)]
+    fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K] {
+        let mut found = [(Self::ZERO, Self::ONE); K];
+        each!(true, k < K => {
+            let (low, high) = (sin_cos::of_four(x[k].0[0]), sin_cos::of_four(x[k].0[1]));
+            found[k] = (Self([low.0, high.0]), Self([low.1, high.1]));
+        });
+        found
+    }
+    fn exp(self) -> Self {
+        self.one_by_one(Real::exp)
+    }
+    fn tanh(self) -> Self {
+        self.one_by_one(Real::tanh)
+    }
+    fn asinh(self) -> Self {
+        self.one_by_one(Real::asinh)
+    }
+    fn powf(self, p: f64) -> Self {
+        self.one_by_one(|x| Real::powf(x, p))
+    }
+    fn atan2(self, x: Self) -> Self {
+        let (y, x) = (self.numbers(), x.numbers());
+        Self::of(std::array::from_fn(|i| Real::atan2(y[i], x[i])))
+    }
+}

@@ -1,0 +1,146 @@
+//! The rates of eight states together are to the bit those of each alone: for joints, laws and rods of every kind, in
+//! contacts that touch and that do not.
+
+use super::chance::Chance;
+use super::scenes::{Play, all_plays, contacts, crooked, letters, revolutes, with_play};
+use slidercrank::integrator::{Problem, ROOM};
+use slidercrank::math::{ROW, Real, Row};
+use slidercrank::model::closed::Closed;
+use slidercrank::model::flexible::{Flexible, most_equations};
+use slidercrank::model::open::Open;
+use slidercrank::model::plant::Plant;
+use slidercrank::model::rod::{Rod, most_functions};
+use slidercrank::model::start::StartPose;
+use slidercrank::scene::{DampingLaw, DriveMode, Elasticity, FrictionLaw, Scene, Surface};
+
+/// States that the plant may be in, with the contacts of one of them, and its rates together and one by one.
+fn agree<const N: usize, P: Plant<N>>(name: &str, scene: &Scene, plant: P, chance: &mut Chance) {
+    let extent = plant.extent();
+    let start = plant.start(&StartPose::of(scene).expect("the loop closes"));
+    let states: [[f64; N]; ROW] = std::array::from_fn(|_| {
+        let mut y = start;
+        for (i, state) in y.iter_mut().enumerate().take(extent.states) {
+            *state += match i {
+                _ if i < extent.positions => chance.between(-8e-4, 8e-4),
+                _ if i < 2 * extent.positions => chance.between(-2.0, 2.0),
+                _ => chance.between(-1e-6, 1e-6),
+            };
+        }
+        y
+    });
+    let modes = plant.start_contacts(0.0, &states[0]);
+    let times: [f64; ROW] = std::array::from_fn(|k| 1e-4 * k as f64);
+    let (y, mut together) = (std::array::from_fn(|i| Row::of(states.map(|y| y[i]))), [Row::ZERO; N]);
+    plant.rates_in_row(&modes, &Row::of(times), &y, &mut together);
+    for k in 0..ROW {
+        let mut alone = [0.0; N];
+        plant.rates(&modes, times[k], &states[k], &mut alone);
+        for i in 0..extent.states {
+            let together = together[i].numbers()[k];
+            assert_eq!(
+                together.to_bits(),
+                alone[i].to_bits(),
+                "{name}, rate {i} of state {k}: {together} {}",
+                alone[i]
+            );
+        }
+    }
+}
+
+/// With contacts of all kinds.
+fn laws(play: Play, drive: DriveMode) -> Vec<(String, Scene)> {
+    let mut all = vec![];
+    let frictions =
+        [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck, FrictionLaw::Lugre];
+    let elastic = [(Elasticity::Hertz, 1.5), (Elasticity::Hertz, 1.4), (Elasticity::Liu, 1.5)];
+    for friction in frictions {
+        for (elasticity, exponent) in elastic {
+            for (damping, surface) in
+                [(DampingLaw::Hertz, Surface::Foundation), (DampingLaw::LankaraniNikravesh, Surface::Corner)]
+            {
+                let mut scene = with_play(crooked(), play);
+                scene.drive.mode = drive;
+                scene.joint.t.surface = surface;
+                revolutes(&mut scene).into_iter().for_each(|joint| joint.elasticity = elasticity);
+                for contact in contacts(&mut scene) {
+                    (contact.friction.law, contact.law, contact.exponent) = (friction, damping, exponent);
+                    (contact.friction.coefficient, contact.friction.static_coefficient) = (0.1, 0.15);
+                }
+                let play = letters(play);
+                all.push((format!("{play} {drive:?} {friction:?} {elasticity:?} {exponent} {damping:?}"), scene));
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn a_rigid_mechanism_moves_alike() {
+    let mut chance = Chance(11);
+    macro_rules! open {
+        ($($a:literal $b:literal $c:literal $t:literal $speed:literal $n:literal)*) => {$(
+            let drive = if $speed { DriveMode::Speed } else { DriveMode::Torque };
+            for (name, scene) in laws([!$a, !$b, !$c, !$t], drive) {
+                let bristled = [$a, $b, $c, $t].contains(&false) && scene.joint.a.contact.friction.law == FrictionLaw::Lugre;
+                for _ in 0..4 {
+                    if bristled {
+                        agree(&name, &scene, Open::<$a, $b, $c, $t, $speed, ROOM>::assemble(&scene, 0.0), &mut chance);
+                    } else {
+                        agree(&name, &scene, Open::<$a, $b, $c, $t, $speed, $n>::assemble(&scene, 0.0), &mut chance);
+                    }
+                }
+            }
+        )*};
+    }
+    open! {
+        false false false false false 18
+        false false false false true 16
+        true true false true true 4
+        true true true false false 6
+        true false true true false 6
+        false true true true false 6
+        true false false false true 12
+    }
+    for drive in [DriveMode::Torque, DriveMode::Speed] {
+        let (name, scene) = laws([false; 4], drive).swap_remove(0);
+        if drive == DriveMode::Speed {
+            agree(&name, &scene, Closed::<true, 0>::assemble(&scene, 0.0), &mut chance);
+        } else {
+            agree(&name, &scene, Closed::<false, 2>::assemble(&scene, 0.0), &mut chance);
+        }
+    }
+}
+
+#[test]
+fn a_mechanism_with_a_flexible_rod_moves_alike() {
+    type Few = Flexible<64, { most_equations(4) }, 4, { most_functions(4) }>;
+    type Many = Flexible<64, { most_equations(8) }, 8, { most_functions(8) }>;
+    let mut chance = Chance(12);
+    for play in all_plays() {
+        for drive in [DriveMode::Torque, DriveMode::Speed] {
+            for (bending, axial) in [(1, 0), (2, 1), (3, 0), (3, 1), (4, 2)] {
+                let (name, mut scene) = laws(play, drive).swap_remove(8);
+                (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (bending, axial);
+                let name = format!("{name}, {bending} + {axial} modes");
+                let rod = Rod::new(&scene).expect("a flexible rod");
+                if bending + axial > 4 {
+                    agree(&name, &scene, Many::assemble(&scene, 0.0, rod), &mut chance);
+                } else {
+                    agree(&name, &scene, Few::assemble(&scene, 0.0, rod), &mut chance);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_problem_that_knows_no_rows_is_asked_for_each_state() {
+    let scene = crooked();
+    let plant = Closed::<false, 2>::assemble(&scene, 0.0);
+    let rows = [Row::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
+    let mut one_by_one = [Row::ZERO; 2];
+    slidercrank::integrator::one_by_one(&plant, &Default::default(), &Row::ZERO, &rows, &mut one_by_one);
+    let mut together = [Row::ZERO; 2];
+    plant.rates_in_row(&Default::default(), &Row::ZERO, &rows, &mut together);
+    assert_eq!(one_by_one, together);
+}
