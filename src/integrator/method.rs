@@ -29,6 +29,8 @@ pub trait Method: Send + Sync + 'static {
     const COARSE: bool;
     /// Events are located and landed on; otherwise they are noticed at the end of a step.
     const LOCATES: bool;
+    /// A step is predicted from the one before it.
+    const PREDICTS: bool = false;
     /// What is particular to its steps.
     const CHARACTER: Character;
     /// What is particular to its steps in stiff motion, for a method that changes then.
@@ -47,19 +49,6 @@ pub trait Method: Send + Sync + 'static {
         h: f64,
         stiff: bool,
     ) -> u64;
-
-    /// What the last attempt leaves for the next, once it has become a step from `begin` to `end` [s] with these rates at
-    /// its `start`.
-    fn past<const N: usize>(
-        _made: &Attempt<N>,
-        past: &mut Past<N>,
-        _start: &[f64; N],
-        _begin: f64,
-        _end: f64,
-        _stiff: bool,
-    ) {
-        past.forget();
-    }
 
     /// To be called after the last attempt has become the last step: which method makes the next one, and of what
     /// length at most.

@@ -260,7 +260,9 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         self.memory.front = end;
         self.memory.crossings = 0;
         self.correction = None;
-        let Memory { start, past, stiff, .. } = &mut self.memory;
-        M::past(&self.made, past, &start.rates, start.t, t, *stiff);
+        if M::PREDICTS {
+            let start = &self.memory.start;
+            self.memory.past = Past { begin: start.t, end: t, start: start.rates, nodes: self.made.nodes };
+        }
     }
 }

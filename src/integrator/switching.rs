@@ -3,11 +3,12 @@
 
 use super::block::Past;
 use super::memory::{Front, Memory};
-use super::method::{Character, Method, Room};
+use super::method::{Character, Method};
 use super::problem::{Extent, Problem};
 use super::regime;
 use super::rosenbrock::{Implicit, Rosenbrock, Workspace};
 use super::stages::Attempt;
+use super::tableau::Explicit;
 use std::marker::PhantomData;
 
 /// Two methods that can take turns.
@@ -15,9 +16,7 @@ pub trait Pair: Send + Sync + 'static {
     /// Name in the `solver.method` enumeration.
     const NAME: &'static str;
     /// Where the motion is not stiff; its last two stages are at the step's end.
-    type Loose: Method;
-    /// How stiff a step of it was, as [`Attempt::stiffness`] tells.
-    fn stiffness<const N: usize>(made: &Attempt<N>, extent: Extent, scales: &[f64; N]) -> f64;
+    type Loose: Explicit;
     /// Where it is.
     type Stiff: Rosenbrock;
     /// The product of step and rate from which on the explicit method is unstable.
@@ -50,23 +49,7 @@ impl<S: Pair> Method for Switching<S> {
         if stiff {
             Implicit::<S::Stiff>::attempt(made, room, problem, start, past, h, stiff)
         } else {
-            let mut own = <S::Loose as Method>::Room::NEW;
-            S::Loose::attempt(made, &mut own, problem, start, past, h, stiff)
-        }
-    }
-
-    fn past<const N: usize>(
-        made: &Attempt<N>,
-        past: &mut Past<N>,
-        start: &[f64; N],
-        begin: f64,
-        end: f64,
-        stiff: bool,
-    ) {
-        if stiff {
-            past.forget();
-        } else {
-            S::Loose::past(made, past, start, begin, end, stiff);
+            S::Loose::attempt(made, &mut (), problem, start, past, h, stiff)
         }
     }
 
@@ -84,7 +67,7 @@ impl<S: Pair> Method for Switching<S> {
                 *step = step.min(longest);
             }
         } else {
-            regime.after_explicit(S::BOUND, || S::stiffness(made, extent, scales));
+            regime.after_explicit(S::BOUND, || made.stiffness::<S::Loose>(extent, scales));
         }
     }
 }

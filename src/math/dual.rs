@@ -211,8 +211,8 @@ impl<const D: usize> Real for Dual<D> {
         let within = self.value > low && self.value < high;
         if within { self } else { Self::constant(self.value.clamp(low, high)) }
     }
-    fn choose(self, then: Self, other: Self) -> Self {
-        if self.value > 0.0 { then } else { other }
+    fn choose(self, then: impl FnOnce() -> Self, other: impl FnOnce() -> Self) -> Self {
+        if self.value > 0.0 { then() } else { other() }
     }
     fn copysign(self, sign: Self) -> Self {
         if self.value.is_sign_negative() == sign.value.is_sign_negative() { self } else { -self }

@@ -73,8 +73,8 @@ pub trait Real:
     fn min(self, limit: f64) -> Self;
     /// Within `low` and `high`; a bound has no derivative.
     fn clamp(self, low: f64, high: f64) -> Self;
-    /// `then` where this is positive, and `other` where not.
-    fn choose(self, then: Self, other: Self) -> Self;
+    /// `then` where this is positive, and `other` where not; of a single number the other one is not computed.
+    fn choose(self, then: impl FnOnce() -> Self, other: impl FnOnce() -> Self) -> Self;
     /// |x| with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
     /// (sin x, cos x) of every x.
@@ -131,8 +131,8 @@ impl Real for f64 {
         f64::clamp(self, low, high)
     }
     #[inline(always)]
-    fn choose(self, then: Self, other: Self) -> Self {
-        if self > 0.0 { then } else { other }
+    fn choose(self, then: impl FnOnce() -> Self, other: impl FnOnce() -> Self) -> Self {
+        if self > 0.0 { then() } else { other() }
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {

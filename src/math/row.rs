@@ -12,7 +12,8 @@ pub const ROW: usize = 8;
 /// Eight numbers side by side: two registers of four, where the processor has such, so that one half computes while the
 /// other waits for a result.
 ///
-/// Each has the bits that `f64` would have. Comparisons are true if they are for all eight.
+/// Each has the bits that `f64` would have. Two rows are equal, or one is greater, where that holds of all eight; where they
+/// are not alike in that, no comparison holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row([f64x4; 2]);
 
@@ -231,7 +232,8 @@ impl Real for Row {
         self.each(|x| f64x4::splat(low).fast_max(x)).each(|x| f64x4::splat(high).fast_min(x))
     }
     #[inline(always)]
-    fn choose(self, then: Self, other: Self) -> Self {
+    fn choose(self, then: impl FnOnce() -> Self, other: impl FnOnce() -> Self) -> Self {
+        let (then, other) = (then(), other());
         let (low, high) = (self.0[0].cmp_gt(f64x4::ZERO), self.0[1].cmp_gt(f64x4::ZERO));
         Self([low.blend(then.0[0], other.0[0]), high.blend(then.0[1], other.0[1])])
     }

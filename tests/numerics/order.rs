@@ -136,18 +136,29 @@ fn stages_in_registers_and_in_memory_are_the_same_to_the_bit() {
     orbits_do_not_know_of_each_other::<Dop853>();
 }
 
+/// Where an orbit is at `t`, as a step starts there.
+fn front(problem: &impl Problem<4, Modes = ()>, t: f64) -> Front<4, ()> {
+    let mut front = Front { t, y: orbit(ECCENTRICITY, t), rates: [0.0; 4], modes: (), impact_end: 0.0 };
+    problem.rates(&(), t, &front.y, &mut front.rates);
+    front
+}
+
+/// What a step in a block from there to `end` leaves.
+fn past(made: &Attempt<4>, start: &Front<4, ()>, end: f64) -> Past<4> {
+    Past { begin: start.t, end, start: start.rates, nodes: made.nodes }
+}
+
 /// Error of an orbit in blocks at the end of this many equal steps.
 fn error_in_blocks(steps: u32) -> f64 {
     let problem = Free { accelerations: kepler };
     let h = END / f64::from(steps);
-    let mut front = Front { t: 0.0, y: orbit(ECCENTRICITY, 0.0), rates: [0.0; 4], modes: (), impact_end: 0.0 };
-    problem.rates(&(), 0.0, &front.y, &mut front.rates);
-    let (mut made, mut past) = (Attempt::NONE, Past::NONE);
+    let mut front = front(&problem, 0.0);
+    let (mut made, mut before) = (Attempt::NONE, Past::NONE);
     for i in 1..=steps {
-        made.in_block(&problem, &front, &past, h);
+        made.in_block(&problem, &front, &before, h);
         let t = front.t + h;
-        Cong8::past(&made, &mut past, &front.rates, front.t, t, false);
-        assert!(past.is_some(), "step {i} leaves something to go on from");
+        before = past(&made, &front, t);
+        assert!(before.is_some(), "step {i} leaves something to go on from");
         front = Front { t, y: made.y, rates: made.rates, ..front };
     }
     distance(&front.y, &orbit(ECCENTRICITY, END))
@@ -168,20 +179,15 @@ fn the_estimate_of_a_block_is_at_least_as_large_as_its_error() {
     let problem = Free { accelerations: kepler };
     for start in [0.0, 0.7, 1.9, 3.0, 4.4] {
         for h in [0.3, 0.45] {
-            let at = |t: f64| {
-                let mut front = Front { t, y: orbit(ECCENTRICITY, t), rates: [0.0; 4], modes: (), impact_end: 0.0 };
-                problem.rates(&(), t, &front.y, &mut front.rates);
-                front
-            };
-            let (mut made, mut past) = (Attempt::NONE, Past::NONE);
+            let (mut made, mut before) = (Attempt::NONE, Past::NONE);
             for t in [start, start + h] {
-                let front = at(t);
-                made.in_block(&problem, &front, &past, h);
+                let front = front(&problem, t);
+                made.in_block(&problem, &front, &before, h);
                 let exact = orbit(ECCENTRICITY, t + h);
                 let difference: [f64; 4] = std::array::from_fn(|i| made.y[i] - exact[i]);
                 let (error, estimate) = (size(&difference), size(&made.error));
                 assert!(error <= estimate, "step of {h} from {t}: error {error:e}, estimate {estimate:e}");
-                Cong8::past(&made, &mut past, &front.rates, t, t + h, false);
+                before = past(&made, &front, t + h);
             }
         }
     }

@@ -28,8 +28,8 @@ fn eight_together_have_the_bits_of_each_alone() {
     agrees(|a, b| a.max(0.0) + b.max(0.3), |a, b| Real::max(a, 0.0) + Real::max(b, 0.3));
     agrees(|a, b| b.max(0.0) + a, |a, b| Real::max(b, 0.0) + a);
     agrees(|a, b| a.min(0.0) + b.min(0.3), |a, b| Real::min(a, 0.0) + Real::min(b, 0.3));
-    agrees(|a, b| a.choose(a, b), |a, b| a.choose(a, b));
-    agrees(|a, b| b.choose(a, b), |a, b| b.choose(a, b));
+    agrees(|a, b| a.choose(|| a, || b), |a, b| a.choose(|| a, || b));
+    agrees(|a, b| b.choose(|| a, || b), |a, b| b.choose(|| a, || b));
     agrees(|_, b| b.clamp(0.0, 1.0), |_, b| Real::clamp(b, 0.0, 1.0));
     agrees(|a, b| a.exp() + b.tanh(), |a, b| Real::exp(a) + Real::tanh(b));
     agrees(|a, b| a.abs().powf(1.4) + b.asinh(), |a, b| Real::powf(a.abs(), 1.4) + Real::asinh(b));

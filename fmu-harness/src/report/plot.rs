@@ -41,7 +41,7 @@ pub enum Role {
 }
 
 /// Colours that people tell apart, whatever they see: Okabe and Ito, Color Universal Design, 2008, and grey.
-const MEMBERS: [RGBColor; 8] = [
+const MEMBERS: [RGBColor; 9] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -50,6 +50,7 @@ const MEMBERS: [RGBColor; 8] = [
     RGBColor(86, 180, 233),
     RGBColor(150, 140, 20),
     RGBColor(110, 110, 110),
+    RGBColor(0, 0, 0),
 ];
 
 impl Role {

@@ -2,8 +2,6 @@
 
 use super::rodas4::Rodas;
 use super::verner7::Verner7;
-use crate::integrator::problem::Extent;
-use crate::integrator::stages::Attempt;
 use crate::integrator::switching::{Pair, Switching};
 
 /// The order-7 pair that changes to the L-stable order-4 pair in stiff motion.
@@ -17,9 +15,6 @@ impl Pair for VernerRodas {
     const NAME: &'static str = "automatic";
     type Loose = Verner7;
     type Stiff = Rodas;
-    fn stiffness<const N: usize>(made: &Attempt<N>, extent: Extent, scales: &[f64; N]) -> f64 {
-        made.stiffness::<Verner7>(extent, scales)
-    }
     /// In the left half plane, |R(z)| passes 1 between |z| = 4.44 (at 110° from the positive axis) and 4.75.
     const BOUND: f64 = 4.4;
 }

@@ -16,6 +16,7 @@ impl Method for Cong8 {
     const ADAPTIVE: bool = true;
     const COARSE: bool = false;
     const LOCATES: bool = true;
+    const PREDICTS: bool = true;
     const CHARACTER: Character = Character { error_power: 12.0, interpolates: true, gives_end: true };
     type Room<const N: usize> = ();
 
@@ -29,16 +30,5 @@ impl Method for Cong8 {
         _stiff: bool,
     ) -> u64 {
         made.in_block(problem, start, past, h)
-    }
-
-    fn past<const N: usize>(
-        made: &Attempt<N>,
-        past: &mut Past<N>,
-        start: &[f64; N],
-        begin: f64,
-        end: f64,
-        _stiff: bool,
-    ) {
-        *past = Past { begin, end, start: *start, nodes: made.nodes };
     }
 }

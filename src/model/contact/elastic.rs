@@ -64,16 +64,19 @@ impl Elastic for Liu {
     fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
         let c = parameters.clearance;
         let u = depth / c;
-        let closed_form = (u * (u + 1.0)).sqrt() * 0.25 * (u * 2.0 - 3.0) + math::asinh(u.sqrt()) * 0.75;
-        // Coefficients of (1 + u)^(−1/2), each divided by its power + 5/2.
-        let mut coefficient = R::ONE;
-        let mut sum = R::ZERO;
-        for k in 0..20 {
-            let k = f64::from(k);
-            sum += coefficient / (k + 2.5);
-            coefficient = coefficient * (-u * (k + 0.5) / (k + 1.0));
-        }
-        let integral = (-u + 0.1).choose(sum * u * u * u.sqrt(), closed_form);
+        let series = || {
+            // Coefficients of (1 + u)^(−1/2), each divided by its power + 5/2.
+            let mut coefficient = R::ONE;
+            let mut sum = R::ZERO;
+            for k in 0..20 {
+                let k = f64::from(k);
+                sum += coefficient / (k + 2.5);
+                coefficient = coefficient * (-u * (k + 0.5) / (k + 1.0));
+            }
+            sum * u * u * u.sqrt()
+        };
+        let closed_form = || (u * (u + 1.0)).sqrt() * 0.25 * (u * 2.0 - 3.0) + math::asinh(u.sqrt()) * 0.75;
+        let integral = (-u + 0.1).choose(series, closed_form);
         integral * (parameters.stiffness * c * c * std::f64::consts::FRAC_1_SQRT_2)
     }
 }

@@ -109,11 +109,8 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
             }};
         }
         let functions: Functions<Self> = by_topology!(topology, joined);
-        Functions {
-            rates: written::rates(topology, counts).unwrap_or(functions.rates),
-            row: written::row(topology, counts).unwrap_or(functions.row),
-            ..functions
-        }
+        let (rates, row) = written::rates(topology, counts);
+        Functions { rates: rates.unwrap_or(functions.rates), row: row.unwrap_or(functions.row), ..functions }
     }
 
     /// Writes the rates of eight states; compiled once, for all topologies.

@@ -65,49 +65,35 @@ pub fn stages<const N: usize, const S: usize, const K: usize, const F: usize>(
     by_topology!(topology, joined)
 }
 
-/// The rates of eight states together, where they are compiled.
-pub fn row<const S: usize, const K: usize, const F: usize>(
-    topology: Topology,
-    counts: Counts,
-) -> Option<RatesInRow<Assembly<S, K, F>>> {
-    if const { K > FEW_MODES } {
-        return None;
-    }
-    /// Of these ideal joints and this drive.
-    macro_rules! joined {
-        ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
-            const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-            with_counts!(counts in (3 1), Own => {
-                Some(|all, contacts, t, y, rates| {
-                    all.motion_of::<Row, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
-                })
-            })
-        }};
-    }
-    by_topology!(topology, joined)
-}
+/// Rates of a state and of eight together, where they are compiled.
+pub type Written<M> = (Option<Rates<M>>, Option<RatesInRow<M>>);
 
-/// The rates of more states than that, where they are compiled.
+/// The rates of more states than that, and of eight together, for the usual numbers of modes.
 pub fn rates<const S: usize, const K: usize, const F: usize>(
     topology: Topology,
     counts: Counts,
-) -> Option<Rates<Assembly<S, K, F>>> {
+) -> Written<Assembly<S, K, F>> {
     if const { K > FEW_MODES } {
-        return None;
+        return (None, None);
     }
     /// Of these ideal joints and this drive.
     macro_rules! joined {
         ($a:literal $b:literal $c:literal $t:literal $speed:literal) => {{
             const FRAME: Frame = Frame::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-            with_counts!(counts in (3 1), Own => {
-                if const { states::<Own>(FRAME) > IN_REGISTERS } {
+            let written: Option<Written<Assembly<S, K, F>>> = with_counts!(counts in (3 1), Own => {
+                let alone: Option<Rates<Assembly<S, K, F>>> = if const { states::<Own>(FRAME) > IN_REGISTERS } {
                     Some(|all, contacts, t, y, rates| {
                         all.motion_of::<f64, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
                     })
                 } else {
                     None
-                }
-            })
+                };
+                let together: RatesInRow<Assembly<S, K, F>> = |all, contacts, t, y, rates| {
+                    all.motion_of::<Row, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
+                };
+                Some((alone, Some(together)))
+            });
+            written.unwrap_or((None, None))
         }};
     }
     by_topology!(topology, joined)

@@ -60,7 +60,7 @@ impl<R: Real> Bed<R> {
         };
         if R::MANY {
             let (whole, part) = (trapezoid(), triangle());
-            let of = |whole: R, part: R| deep.choose((-shallow).choose(part, whole), R::ZERO);
+            let of = |whole: R, part: R| (-deep).choose(|| R::ZERO, || (-shallow).choose(|| part, || whole));
             Pressed { mean: of(whole.mean, part.mean), centre: of(whole.centre, part.centre) }
         } else if deep <= 0.0 {
             Pressed::default()
@@ -75,9 +75,12 @@ impl<R: Real> Bed<R> {
     pub fn mean_square(&self) -> R {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
-        let rise = slope * half;
-        let (whole, part) = (middle * middle + rise * rise / 3.0, deep * deep * (deep / slope.abs()) / (6.0 * half));
-        deep.choose((-shallow).choose(part, whole), R::ZERO)
+        let trapezoid = || {
+            let rise = slope * half;
+            middle * middle + rise * rise / 3.0
+        };
+        let triangle = || deep * deep * (deep / slope.abs()) / (6.0 * half);
+        (-deep).choose(|| R::ZERO, || (-shallow).choose(triangle, trapezoid))
     }
 }
 
