@@ -9,7 +9,8 @@
 //! The accelerations are first predicted by the polynomial of the last step and then computed at the states that follow, all
 //! at once, which corrects the states. Two more such rounds, and the step is done; the first step of a motion, or after an
 //! event, has nothing to go on from and takes more. A round gains two orders, since positions follow from accelerations
-//! at one go. (Block predictor-corrector methods of Runge-Kutta-Nyström type: N. H. Cong, K. Strehmel, R. Weiner, Adv. Comput.
+//! at one go. A step that failed predicts the shorter one after it; of one that is as long as the last the prediction takes
+//! one table. (Block predictor-corrector methods of Runge-Kutta-Nyström type: N. H. Cong, K. Strehmel, R. Weiner, Adv. Comput.
 //! Math. 10 (1999) 115.)
 //!
 //! A step is stable up to 2.3 over the frequency of an oscillation, and up to 1.2 over the rate of a decay.
@@ -19,7 +20,7 @@
 
 use super::controller::is_kept;
 use super::memory::Front;
-use super::nodes::{INTEGRALS, MONOMIALS, NODES, POINTS, POWERS, TOP};
+use super::nodes::{AHEAD, INTEGRALS, MONOMIALS, NODES, POWERS, TOP, Tables};
 use super::problem::{Extent, Problem};
 use super::stages::Attempt;
 use crate::math::{Fused, ROW, Real, Row, each};
@@ -29,16 +30,15 @@ const ROUNDS: usize = 3;
 const FIRST_ROUNDS: usize = 5;
 /// A step this many times as long as the last is not predicted from it.
 const FARTHEST: f64 = 2.5;
+/// Two steps whose lengths differ by less than this share are as long as each other.
+const ROUNDING: f64 = 1e-9;
 /// How much of a step's error follows from what its end's rates moved by after the last round: what was left to correct grows
 /// with a high power of the time in the step, and the rounds' own gain is the rest.
 const LATE: [f64; 2] = [1.0 / 32.0, 1.0 / 288.0];
 /// And from the part of degree eight in the accelerations: small, unless they have a kink.
 const BENT: f64 = 0.02;
 
-/// Two tables by columns: of velocities and of positions.
-type Tables = [[[f64; ROW]; POINTS]; 2];
-
-/// The rates in a step that was made so: what the next one goes on from.
+/// The rates in a step that was made so, or in an attempt that failed: what the next one is predicted from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Past<const N: usize> {
     /// [s] When the step began.
@@ -83,57 +83,53 @@ impl<const N: usize> Past<N> {
     }
 }
 
-/// Quantities whose sums over a table are computed at a time: those wait for themselves alone, and a table is read once.
-const TOGETHER: usize = 2;
-
 /// The states at a step's nodes, as they follow from accelerations.
 struct States<'a, const N: usize> {
-    y0: &'a [f64; N],
+    start: &'a [f64; N],
+    rates: &'a [f64; N],
     extent: Extent,
     h: f64,
     y: [Row; N],
 }
 
 impl<const N: usize> States<'_, N> {
-    /// Takes the weights of columns for every velocity (and first-order state), and writes what follows from their sums.
+    /// From weights of columns for every velocity (and first-order state).
     #[inline(always)]
-    fn follow(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, [f64; ROW])) {
-        let forced = self.extent.states - self.extent.positions;
-        let mut i = 0;
-        while i + TOGETHER <= forced {
-            self.follow_some::<TOGETHER>(tables, i, &weights);
-            i += TOGETHER;
-        }
-        while i < forced {
-            self.follow_some::<1>(tables, i, &weights);
-            i += 1;
+    fn follow(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, Row)) {
+        let Extent { positions: p, states, .. } = self.extent;
+        for i in p..states {
+            let (first, others) = weights(i);
+            let numbers = others.numbers();
+            // Even and odd columns apart: half as long to wait.
+            let mut sums = [[tables[0][0] * first, Row::ZERO], [tables[1][0] * first, Row::ZERO]];
+            each!(true, j < ROW => {
+                let weight = Row::constant(numbers[j]);
+                sums[0][j % 2] = tables[0][1 + j].times_plus(weight, sums[0][j % 2]);
+                sums[1][j % 2] = tables[1][1 + j].times_plus(weight, sums[1][j % 2]);
+            });
+            let [once, twice] = sums.map(|[even, odd]| even + odd);
+            self.place(i, once, twice);
         }
     }
 
+    /// From rates that stay as they are at the start.
+    fn go_on(&mut self) {
+        let Extent { positions: p, states, .. } = self.extent;
+        let [once, twice] = [MONOMIALS[0][0], MONOMIALS[1][0]];
+        for i in p..states {
+            self.place(i, once * self.rates[i], twice * self.rates[i]);
+        }
+    }
+
+    /// Velocity `i` (or a first-order state) and its position by what the integrals add to them.
     #[inline(always)]
-    fn follow_some<const W: usize>(&mut self, tables: &Tables, i: usize, weights: impl Fn(usize) -> (f64, [f64; ROW])) {
-        let Self { y0, h, y, extent: Extent { positions: p, .. } } = self;
-        let weights: [(f64, [f64; ROW]); W] = std::array::from_fn(|w| weights(i + w));
-        let mut sums = [[Row::ZERO; 2]; W];
-        each!(true, w < W => {
-            sums[w] = [Row::of(tables[0][0]) * weights[w].0, Row::of(tables[1][0]) * weights[w].0];
-        });
-        each!(true, j < ROW => {
-            let (once, twice) = (Row::of(tables[0][1 + j]), Row::of(tables[1][1 + j]));
-            each!(true, w < W => {
-                let [speed, place] = sums[w];
-                let weight = Row::constant(weights[w].1[j]);
-                sums[w] = [once.times_plus(weight, speed), twice.times_plus(weight, place)];
-            });
-        });
-        let shift = Row::of(NODES) * *h;
-        each!(true, w < W => {
-            let (place, [once, twice]) = (i + w, sums[w]);
-            y[*p + place] = once.times_plus(*h, Row::constant(y0[*p + place]));
-            if place < *p {
-                y[place] = twice.times_plus(*h * *h, shift.times_plus(y0[*p + place], Row::constant(y0[place])));
-            }
-        });
+    fn place(&mut self, i: usize, once: Row, twice: Row) {
+        let Self { start, h, y, extent: Extent { positions: p, .. }, .. } = self;
+        y[i] = once.times_plus(*h, Row::constant(start[i]));
+        if i < 2 * *p {
+            let shift = Row::of(NODES) * *h;
+            y[i - *p] = twice.times_plus(*h * *h, shift.times_plus(start[i], Row::constant(start[i - *p])));
+        }
     }
 }
 
@@ -141,14 +137,14 @@ impl<const N: usize> Past<N> {
     /// Coefficients of the polynomial of rate `i` about the `origin` of a step that is `ratio` times as long, in powers of
     /// its share: of 1, and of those from the first on.
     #[inline(always)]
-    fn coefficients(&self, origin: usize, powers: Row, i: usize) -> (f64, [f64; ROW]) {
+    fn coefficients(&self, origin: usize, powers: Row, i: usize) -> (f64, Row) {
         let (first, at) = (self.start[i], self.nodes[i].numbers());
         let columns = &POWERS[origin];
-        let mut sums = [Row::of(columns[0]) * first, Row::ZERO];
+        let mut sums = [columns[0] * first, Row::ZERO];
         each!(true, j < ROW => {
-            sums[j % 2] = Row::of(columns[1 + j]).times_plus(at[j], sums[j % 2]);
+            sums[j % 2] = columns[1 + j].times_plus(at[j], sums[j % 2]);
         });
-        (if origin == 0 { first } else { at[ROW - 1] }, ((sums[0] + sums[1]) * powers).numbers())
+        (if origin == 0 { first } else { at[ROW - 1] }, (sums[0] + sums[1]) * powers)
     }
 }
 
@@ -165,41 +161,40 @@ impl<const N: usize> Attempt<N> {
         let extent = Extent::of(problem);
         let Extent { positions: p, states, .. } = extent;
         let t = Row::of(NODES).times_plus(h, Row::constant(start.t));
-        let mut at_nodes = States { y0: &start.y, extent, h, y: [Row::ZERO; N] };
+        let mut at_nodes = States { start: &start.y, rates: &start.rates, extent, h, y: [Row::ZERO; N] };
         let rounds = if let Some(origin) = past.origin(start.t, h) {
             let ratio = h / (past.end - past.begin);
-            let mut powers = [ratio; ROW];
-            each!(true, n in 1..ROW, ROW => {
-                powers[n] = powers[n - 1] * ratio;
-            });
-            let powers = Row::of(powers);
-            at_nodes.follow(&MONOMIALS, |i| past.coefficients(origin, powers, p + i));
+            if origin == 1 && (ratio - 1.0).abs() < ROUNDING {
+                at_nodes.follow(&AHEAD, |i| (past.start[i], past.nodes[i]));
+            } else {
+                let mut powers = [ratio; ROW];
+                each!(true, n in 1..ROW, ROW => {
+                    powers[n] = powers[n - 1] * ratio;
+                });
+                let powers = Row::of(powers);
+                at_nodes.follow(&MONOMIALS, |i| past.coefficients(origin, powers, i));
+            }
             ROUNDS
         } else {
-            at_nodes.follow(&MONOMIALS, |i| (start.rates[p + i], [0.0; ROW]));
+            at_nodes.go_on();
             FIRST_ROUNDS
         };
         for _ in 0..rounds {
             problem.rates_in_row(&start.modes, &t, &at_nodes.y, &mut self.nodes);
-            let nodes = &self.nodes;
-            at_nodes.follow(&INTEGRALS, |i| (start.rates[p + i], nodes[p + i].numbers()));
+            at_nodes.follow(&INTEGRALS, |i| (start.rates[i], self.nodes[i]));
         }
         for (i, y) in at_nodes.y.iter().enumerate() {
             self.y[i] = y.last();
         }
         let Self { y, rates, guards, .. } = self;
         problem.rates_and_guards(&start.modes, start.t + h, y, rates, guards);
-        for i in 0..states - p {
-            let (first, at) = (start.rates[p + i], self.nodes[p + i].numbers());
-            let late = (self.rates[p + i] - at[ROW - 1]).abs();
-            let mut top = TOP[0] * first;
-            each!(true, j < ROW => {
-                top = TOP[1 + j].times_plus(at[j], top);
-            });
-            let top = BENT * top.abs();
-            self.error[p + i] = h * (late * LATE[0] + top);
-            if i < p {
-                self.error[i] = h * h * (late * LATE[1] + 0.3 * top);
+        for i in p..states {
+            let (first, at) = (start.rates[i], self.nodes[i]);
+            let late = (self.rates[i] - at.last()).abs();
+            let top = BENT * TOP.0.times_plus(first, (TOP.1 * at).sum()).abs();
+            self.error[i] = h * (late * LATE[0] + top);
+            if i < 2 * p {
+                self.error[i - p] = h * h * (late * LATE[1] + 0.3 * top);
             }
         }
         self.unseen = [0.0; N];

@@ -39,7 +39,7 @@ pub use error::IntegrationError;
 pub use memory::{Front, Memory};
 pub use method::{Character, Method, Room};
 pub use moreau::Moreau;
-pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, one_by_one};
+pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, by_halves, one_by_one};
 pub use regime::Regime;
 pub use statistics::Statistics;
 pub use step::Integrator;

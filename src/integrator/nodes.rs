@@ -2,7 +2,7 @@
 
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
-use crate::math::ROW;
+use crate::math::{ROW, Real, Row};
 
 /// The instants of a step: those of Radau's quadrature that end at 1, after the step's start.
 pub const NODES: [f64; ROW] = [
@@ -42,31 +42,43 @@ const fn cardinal(j: usize, x: f64) -> f64 {
     product
 }
 
-/// A_ij and B_ij of [`block`](super::block): columns by j, the first for the step's start.
-pub static INTEGRALS: [[[f64; ROW]; POINTS]; 2] = {
-    let mut all = [[[0.0; ROW]; POINTS]; 2];
+/// Two tables by columns, one of velocities and one of positions: A_ij and B_ij of [`block`](super::block), the first
+/// columns for a step's start.
+pub type Tables = [[Row; POINTS]; 2];
+
+/// ∫ ℓ_j and ∫∫ ℓ_j from `start` on, over the way from a step's start to each node: columns by j.
+const fn integrals(start: f64) -> Tables {
+    let mut all = [[Row::ZERO; POINTS]; 2];
     let mut j = 0;
     while j < POINTS {
+        let (mut once, mut twice) = ([0.0; ROW], [0.0; ROW]);
         let mut i = 0;
         while i < ROW {
             let (c, mut g) = (NODES[i], 0);
             while g < GAUSS.len() {
                 let (x, weight) = GAUSS[g];
-                let value = weight * c * cardinal(j, c * x);
-                all[0][j][i] += value;
-                all[1][j][i] += value * c * (1.0 - x);
+                let value = weight * c * cardinal(j, start + c * x);
+                once[i] += value;
+                twice[i] += value * c * (1.0 - x);
                 g += 1;
             }
             i += 1;
         }
+        (all[0][j], all[1][j]) = (Row::of(once), Row::of(twice));
         j += 1;
     }
     all
-};
+}
+
+/// Of the accelerations in a step.
+pub static INTEGRALS: Tables = integrals(0.0);
+
+/// Of the accelerations in the step before, if that was as long.
+pub static AHEAD: Tables = integrals(1.0);
 
 /// Coefficients of x¹ to x⁸ of the polynomials ℓ_j about the step's start and about its end, columns by j.
-pub static POWERS: [[[f64; ROW]; POINTS]; 2] = {
-    let mut all = [[[0.0; ROW]; POINTS]; 2];
+pub static POWERS: [[Row; POINTS]; 2] = {
+    let mut all = [[Row::ZERO; POINTS]; 2];
     let mut origin = 0;
     while origin < 2 {
         let mut j = 0;
@@ -91,11 +103,8 @@ pub static POWERS: [[[f64; ROW]; POINTS]; 2] = {
                 }
                 k += 1;
             }
-            let mut n = 0;
-            while n < ROW {
-                all[origin][j][n] = coefficients[n + 1];
-                n += 1;
-            }
+            let [_, a, b, c, d, e, f, g, h] = coefficients;
+            all[origin][j] = Row::of([a, b, c, d, e, f, g, h]);
             j += 1;
         }
         origin += 1;
@@ -104,24 +113,27 @@ pub static POWERS: [[[f64; ROW]; POINTS]; 2] = {
 };
 
 /// c_i^(n+1)/(n + 1) and c_i^(n+2)/((n + 1)·(n + 2)) in row n.
-pub static MONOMIALS: [[[f64; ROW]; POINTS]; 2] = {
-    let mut all = [[[0.0; ROW]; POINTS]; 2];
-    let mut i = 0;
-    while i < ROW {
-        let (c, mut power, mut n) = (NODES[i], 1.0, 0);
-        while n < POINTS {
-            power *= c;
-            all[0][n][i] = power / (n + 1) as f64;
-            all[1][n][i] = power * c / ((n + 1) * (n + 2)) as f64;
-            n += 1;
+pub static MONOMIALS: Tables = {
+    let mut all = [[Row::ZERO; POINTS]; 2];
+    let (mut n, mut powers) = (0, NODES);
+    while n < POINTS {
+        let (mut once, mut twice) = ([0.0; ROW], [0.0; ROW]);
+        let mut i = 0;
+        while i < ROW {
+            once[i] = powers[i] / (n + 1) as f64;
+            powers[i] *= NODES[i];
+            twice[i] = powers[i] / ((n + 1) * (n + 2)) as f64;
+            i += 1;
         }
-        i += 1;
+        (all[0][n], all[1][n]) = (Row::of(once), Row::of(twice));
+        n += 1;
     }
     all
 };
 
-/// Weights of the accelerations' part of degree eight: its coefficient in Legendre polynomials.
-pub const TOP: [f64; POINTS] = {
+/// Weights of the accelerations' part of degree eight, its coefficient in Legendre polynomials: of the one at the start, and
+/// of those at the nodes.
+pub static TOP: (f64, Row) = {
     let mut all = [0.0; POINTS];
     let mut j = 0;
     while j < POINTS {
@@ -135,7 +147,8 @@ pub const TOP: [f64; POINTS] = {
         all[j] = 1.0 / product;
         j += 1;
     }
-    all
+    let [first, a, b, c, d, e, f, g, h] = all;
+    (first, Row::of([a, b, c, d, e, f, g, h]))
 };
 
 #[cfg(test)]
@@ -143,20 +156,20 @@ mod tests {
     use super::*;
 
     /// Through the values of x^degree at the points, this sum over columns at every node.
-    fn sums(columns: &[[f64; ROW]; POINTS], degree: i32, at: impl Fn(usize) -> f64) -> [f64; ROW] {
-        std::array::from_fn(|i| (0..POINTS).map(|j| columns[j][i] * at(j).powi(degree)).sum())
+    fn sums(columns: &[Row; POINTS], degree: i32, at: impl Fn(usize) -> f64) -> [f64; ROW] {
+        std::array::from_fn(|i| (0..POINTS).map(|j| columns[j].numbers()[i] * at(j).powi(degree)).sum())
     }
 
     #[test]
     fn nodes_are_those_of_radau() {
         // ∏(c − c_j) is orthogonal to all polynomials of degree six: their quadrature is exact to degree 14.
-        let last = |columns: &[[f64; ROW]; POINTS], degree| sums(columns, degree, point)[ROW - 1];
+        let last = |columns: &[Row; POINTS], degree| sums(columns, degree, point)[ROW - 1];
         for degree in 0..=14 {
             let n = f64::from(degree);
             assert!((last(&INTEGRALS[0], degree) - 1.0 / (n + 1.0)).abs() < 1e-15, "degree {degree}");
         }
         assert!((last(&INTEGRALS[0], 15) - 1.0 / 16.0).abs() > 1e-10);
-        assert!(INTEGRALS[0][0][ROW - 1].abs() < 1e-15, "the start has no weight in it");
+        assert!(INTEGRALS[0][0].last().abs() < 1e-15, "the start has no weight in it");
     }
 
     #[test]
@@ -178,6 +191,22 @@ mod tests {
     }
 
     #[test]
+    fn polynomials_go_on_into_the_next_step() {
+        for degree in 0..=8 {
+            let n = f64::from(degree);
+            let (once, twice) = (sums(&AHEAD[0], degree, point), sums(&AHEAD[1], degree, point));
+            for (i, c) in NODES.iter().enumerate() {
+                let end = 1.0 + c;
+                let wanted_once = (end.powf(n + 1.0) - 1.0) / (n + 1.0);
+                let wanted_twice = ((end.powf(n + 2.0) - 1.0) / (n + 2.0) - c) / (n + 1.0);
+                // Of terms up to a million.
+                assert!((once[i] - wanted_once).abs() < 1e-9, "degree {degree} at {c}: {:e}", once[i] - wanted_once);
+                assert!((twice[i] - wanted_twice).abs() < 1e-9, "degree {degree} at {c}");
+            }
+        }
+    }
+
+    #[test]
     fn coefficients_about_either_end_are_those_of_the_polynomial() {
         for (origin, columns) in POWERS.iter().enumerate() {
             for degree in 0..=8 {
@@ -190,6 +219,7 @@ mod tests {
             }
         }
         for (n, rows) in MONOMIALS[0].iter().zip(&MONOMIALS[1]).enumerate() {
+            let rows = (rows.0.numbers(), rows.1.numbers());
             for (i, c) in NODES.iter().enumerate() {
                 let power = c.powi(n as i32 + 1) / (n + 1) as f64;
                 assert!((rows.0[i] - power).abs() < 1e-15 && (rows.1[i] - power * c / (n + 2) as f64).abs() < 1e-15);
@@ -201,7 +231,8 @@ mod tests {
     fn the_part_of_degree_eight_is_that_of_legendre() {
         // x⁸ on 0 to 1 has 1/12870 of the polynomial, and what is lower has none.
         for degree in 0..=8 {
-            let found: f64 = (0..POINTS).map(|j| TOP[j] * point(j).powi(degree)).sum();
+            let at_start = if degree == 0 { TOP.0 } else { 0.0 };
+            let found = at_start + (TOP.1 * Row::of(NODES.map(|c| c.powi(degree)))).sum();
             let wanted = if degree == 8 { 1.0 / 12_870.0 } else { 0.0 };
             assert!((found - wanted).abs() < 1e-14, "degree {degree}: {found:e}");
         }

@@ -2,7 +2,7 @@
 
 use super::stages::in_registers;
 use super::tableau::{STAGES, Tableau};
-use crate::math::{ROW, Row};
+use crate::math::{ROW, Real, Row};
 
 /// Most event functions that a problem may have.
 pub const GUARDS: usize = 8;
@@ -168,6 +168,26 @@ pub trait Problem<const N: usize> {
 
     /// The modes after the guards in `crossed` fell through zero at `t`; may reset first-order states.
     fn cross(&self, modes: &Self::Modes, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Self::Modes>;
+}
+
+/// [`Problem::rates_in_row`] by the rates of four states at a time.
+#[inline(always)]
+pub fn by_halves<const N: usize>(
+    t: &Row,
+    y: &[Row; N],
+    rates: &mut [Row; N],
+    of: impl Fn(Row<1>, &[Row<1>; N], &mut [Row<1>; N]),
+) {
+    let (mut own, mut found) = ([Row::ZERO; N], [Row::ZERO; N]);
+    for half in [0, 1] {
+        for (own, all) in own.iter_mut().zip(y) {
+            *own = all.half(half);
+        }
+        of(t.half(half), &own, &mut found);
+        for (rate, found) in rates.iter_mut().zip(&found) {
+            rate.set_half(half, *found);
+        }
+    }
 }
 
 /// [`Problem::rates_in_row`] by the rates of each state.

@@ -184,6 +184,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             Ok(h) => h,
             Err(error) => {
                 (self.memory.start, self.memory.stiff) = (earlier, earlier_stiff);
+                self.memory.past.forget();
                 return Err(error);
             }
         };
@@ -260,6 +261,11 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         self.memory.front = end;
         self.memory.crossings = 0;
         self.correction = None;
+        self.predict_from_attempt(t);
+    }
+
+    /// Predicts the next attempt from the last one, which ends at `t`, if the method predicts any.
+    pub(super) fn predict_from_attempt(&mut self, t: f64) {
         if M::PREDICTS {
             let start = &self.memory.start;
             self.memory.past = Past { begin: start.t, end: t, start: start.rates, nodes: self.made.nodes };

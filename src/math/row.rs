@@ -7,20 +7,22 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use wide::{CmpGt, f64x4};
 
 /// How many numbers a [`Row`] has.
-pub const ROW: usize = 8;
+pub const ROW: usize = REGISTERS * LANES;
+const REGISTERS: usize = 2;
 
 /// Eight numbers side by side: two registers of four, where the processor has such, so that one half computes while the
-/// other waits for a result.
+/// other waits for a result. Or, of one register, four: where much is to be kept at hand, as for a flexible rod, eight
+/// numbers do not find room.
 ///
-/// Each has the bits that `f64` would have. Two rows are equal, or one is greater, where that holds of all eight; where they
-/// are not alike in that, no comparison holds.
+/// Each has the bits that `f64` would have. Two rows are equal, or one is greater, where that holds of all their numbers; where
+/// they are not alike in that, no comparison holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row([f64x4; 2]);
+pub struct Row<const R: usize = REGISTERS>([f64x4; R]);
 
 impl Row {
     /// These.
     #[inline(always)]
-    pub fn of(numbers: [f64; ROW]) -> Self {
+    pub const fn of(numbers: [f64; ROW]) -> Self {
         let [a, b, c, d, e, f, g, h] = numbers;
         Self([f64x4::new([a, b, c, d]), f64x4::new([e, f, g, h])])
     }
@@ -38,50 +40,72 @@ impl Row {
         self.0[1].to_array()[LANES - 1]
     }
 
+    /// Of all eight.
+    #[inline(always)]
+    pub fn sum(self) -> f64 {
+        let [a, b, c, d] = (self.0[0] + self.0[1]).to_array();
+        (a + b) + (c + d)
+    }
+
+    /// Its first four (0) or its last four (1).
+    #[inline(always)]
+    pub fn half(&self, half: usize) -> Row<1> {
+        Row([self.0[half]])
+    }
+
+    /// Puts others in place of its first four (0) or its last four (1).
+    #[inline(always)]
+    pub fn set_half(&mut self, half: usize, numbers: Row<1>) {
+        self.0[half] = numbers.0[0];
+    }
+}
+
+impl<const R: usize> Row<R> {
     #[inline(always)]
     fn each(self, of: impl Fn(f64x4) -> f64x4) -> Self {
-        Self([of(self.0[0]), of(self.0[1])])
+        Self(self.0.map(of))
     }
 
     #[inline(always)]
     fn with(self, other: Self, of: impl Fn(f64x4, f64x4) -> f64x4) -> Self {
-        Self([of(self.0[0], other.0[0]), of(self.0[1], other.0[1])])
+        Self(std::array::from_fn(|k| of(self.0[k], other.0[k])))
     }
 
     /// A function that is not written for four at a time.
     fn one_by_one(self, of: impl Fn(f64) -> f64) -> Self {
-        Self::of(self.numbers().map(of))
+        self.each(|four| f64x4::new(four.to_array().map(&of)))
     }
 }
 
-impl Default for Row {
+impl<const R: usize> Default for Row<R> {
     fn default() -> Self {
         Self::ZERO
     }
 }
 
-impl PartialEq<f64> for Row {
+impl<const R: usize> PartialEq<f64> for Row<R> {
     #[inline(always)]
     fn eq(&self, other: &f64) -> bool {
-        self.numbers().iter().all(|number| number == other)
+        self.0.iter().all(|four| four.to_array().iter().all(|number| number == other))
     }
 }
 
-impl PartialOrd for Row {
+impl<const R: usize> PartialOrd for Row<R> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        let (own, other) = (self.numbers(), other.numbers());
-        let first = own[0].partial_cmp(&other[0]);
-        own.iter().zip(&other).all(|(a, b)| a.partial_cmp(b) == first).then_some(first).flatten()
+        let pairs = || self.0.iter().zip(&other.0).flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array()));
+        let mut compared = pairs().map(|(a, b)| a.partial_cmp(&b));
+        let first = compared.next()?;
+        compared.all(|next| next == first).then_some(first).flatten()
     }
 }
 
-impl PartialOrd<f64> for Row {
+impl<const R: usize> PartialOrd<f64> for Row<R> {
     fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
         self.partial_cmp(&Self::constant(*other))
     }
 }
 
-impl Neg for Row {
+impl<const R: usize> Neg for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -89,7 +113,7 @@ impl Neg for Row {
     }
 }
 
-impl Add for Row {
+impl<const R: usize> Add for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -97,7 +121,7 @@ impl Add for Row {
     }
 }
 
-impl Sub for Row {
+impl<const R: usize> Sub for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -105,7 +129,7 @@ impl Sub for Row {
     }
 }
 
-impl Mul for Row {
+impl<const R: usize> Mul for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -113,7 +137,7 @@ impl Mul for Row {
     }
 }
 
-impl Div for Row {
+impl<const R: usize> Div for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -121,7 +145,7 @@ impl Div for Row {
     }
 }
 
-impl Add<f64> for Row {
+impl<const R: usize> Add<f64> for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: f64) -> Self {
@@ -129,7 +153,7 @@ impl Add<f64> for Row {
     }
 }
 
-impl Sub<f64> for Row {
+impl<const R: usize> Sub<f64> for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: f64) -> Self {
@@ -137,7 +161,7 @@ impl Sub<f64> for Row {
     }
 }
 
-impl Mul<f64> for Row {
+impl<const R: usize> Mul<f64> for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
@@ -145,7 +169,7 @@ impl Mul<f64> for Row {
     }
 }
 
-impl Div<f64> for Row {
+impl<const R: usize> Div<f64> for Row<R> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: f64) -> Self {
@@ -153,7 +177,7 @@ impl Div<f64> for Row {
     }
 }
 
-impl Mul<Vec2<Self>> for Row {
+impl<const R: usize> Mul<Vec2<Self>> for Row<R> {
     type Output = Vec2<Self>;
     #[inline(always)]
     fn mul(self, v: Vec2<Self>) -> Vec2<Self> {
@@ -161,45 +185,45 @@ impl Mul<Vec2<Self>> for Row {
     }
 }
 
-impl AddAssign for Row {
+impl<const R: usize> AddAssign for Row<R> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl SubAssign for Row {
+impl<const R: usize> SubAssign for Row<R> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl Fused for Row {
+impl<const R: usize> Fused for Row<R> {
     #[inline(always)]
     fn times_plus(self, factor: Self, term: Self) -> Self {
-        let ([a, b], [c, d], [e, f]) = (self.0, factor.0, term.0);
-        Self([times_plus(a, c, e), times_plus(b, d, f)])
+        Self(std::array::from_fn(|k| times_plus(self.0[k], factor.0[k], term.0[k])))
     }
 }
 
-impl Fused<f64> for Row {
+impl<const R: usize> Fused<f64> for Row<R> {
     #[inline(always)]
     fn times_plus(self, factor: f64, term: Self) -> Self {
         self.times_plus(Self::constant(factor), term)
     }
 }
 
-impl Real for Row {
+impl<const R: usize> Real for Row<R> {
+    const PLAIN: bool = R == 1;
     const MANY: bool = true;
     type Lanes = [Self; LANES];
 
-    const ZERO: Self = Self([f64x4::ZERO; 2]);
-    const ONE: Self = Self([f64x4::ONE; 2]);
+    const ZERO: Self = Self([f64x4::ZERO; R]);
+    const ONE: Self = Self([f64x4::ONE; R]);
 
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        Self([f64x4::splat(value); 2])
+        Self([f64x4::splat(value); R])
     }
     /// The first one.
     #[inline(always)]
@@ -234,8 +258,7 @@ impl Real for Row {
     #[inline(always)]
     fn choose(self, then: impl FnOnce() -> Self, other: impl FnOnce() -> Self) -> Self {
         let (then, other) = (then(), other());
-        let (low, high) = (self.0[0].cmp_gt(f64x4::ZERO), self.0[1].cmp_gt(f64x4::ZERO));
-        Self([low.blend(then.0[0], other.0[0]), high.blend(then.0[1], other.0[1])])
+        Self(std::array::from_fn(|k| self.0[k].cmp_gt(f64x4::ZERO).blend(then.0[k], other.0[k])))
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
@@ -245,8 +268,8 @@ impl Real for Row {
     fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K] {
         let mut found = [(Self::ZERO, Self::ONE); K];
         each!(true, k < K => {
-            let (low, high) = (sin_cos::of_four(x[k].0[0]), sin_cos::of_four(x[k].0[1]));
-            found[k] = (Self([low.0, high.0]), Self([low.1, high.1]));
+            let of_four = x[k].0.map(sin_cos::of_four);
+            found[k] = (Self(of_four.map(|(sin, _)| sin)), Self(of_four.map(|(_, cos)| cos)));
         });
         found
     }
@@ -263,7 +286,9 @@ impl Real for Row {
         self.one_by_one(|x| Real::powf(x, p))
     }
     fn atan2(self, x: Self) -> Self {
-        let (y, x) = (self.numbers(), x.numbers());
-        Self::of(std::array::from_fn(|i| Real::atan2(y[i], x[i])))
+        self.with(x, |y, x| {
+            let (y, x) = (y.to_array(), x.to_array());
+            f64x4::new(std::array::from_fn(|i| Real::atan2(y[i], x[i])))
+        })
     }
 }

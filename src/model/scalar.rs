@@ -30,6 +30,13 @@ impl Scalar for Row {
     }
 }
 
+impl Scalar for Row<1> {
+    #[inline(always)]
+    fn kernel<K: Kernel>(kernels: &Kernels<K>) -> &K::Of<Self> {
+        &kernels.half
+    }
+}
+
 impl Scalar for Tangent {
     #[inline(always)]
     fn kernel<K: Kernel>(kernels: &Kernels<K>) -> &K::Of<Self> {

@@ -8,15 +8,20 @@ use crate::precision::hosts::{self, HostPoint};
 use crate::precision::ladder::{methods, rungs};
 use crate::precision::reference::Reference;
 use crate::precision::ruler::Ruler;
-use crate::precision::{SCENES, Subject};
+use crate::precision::{Lengths, SCENES, Subject};
 use crate::python::{Missing, environment};
 use crate::report::precision as report;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::scene::units::quantity;
 use std::fs;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+
+/// [s] What may be asked for.
+const DURATIONS: RangeInclusive<f64> = 1e-4..=1e4;
 
 /// Draws work-precision diagrams: the error that every method reaches at a ladder of tolerances, and what it costs.
 ///
@@ -29,6 +34,12 @@ pub struct Precision {
     /// One scene in place of six: the name of a shipped one, or a .toml file
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
+    /// Errors within the first "20 ms", say, in place of two turns of the crank, as far as the motion is known
+    #[arg(long, value_name = "DURATION", value_parser = duration)]
+    window: Option<f64>,
+    /// Costs over the first "1 s", say, in place of one turn; as much of it as there is time for
+    #[arg(long, value_name = "DURATION", value_parser = duration)]
+    span: Option<f64>,
     /// A coarse ladder
     #[arg(long)]
     quick: bool,
@@ -38,6 +49,16 @@ pub struct Precision {
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
+}
+
+/// A duration with its unit, in seconds.
+fn duration(text: &str) -> Result<f64, String> {
+    let seconds = quantity(text, "s").map_err(|error| format!("{error}; wanted a duration such as `20 ms`"))?;
+    if DURATIONS.contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err(format!("wanted {:e} to {:e} s", DURATIONS.start(), DURATIONS.end()))
+    }
 }
 
 impl Precision {
@@ -74,7 +95,8 @@ impl Precision {
         let file = out.join(format!("{}.fmu", scenario.name));
         stock.package(scenario)?.save(&file)?;
         let fmu = Fmu::open(&file)?;
-        let subject = Subject { file: &scenario.file, fmu: &fmu };
+        let lengths = Lengths { window: self.window, span: self.span };
+        let subject = Subject { file: &scenario.file, fmu: &fmu, lengths };
         let budget = if self.quick { Budget::QUICK } else { Budget::FULL };
         let ruler = Ruler::of(&scenario.file.scene);
         bar.set_message(format!("{} reference", scenario.name));
@@ -98,7 +120,8 @@ fn write(diagrams: &[Diagram], points: &[HostPoint], out: &Path) -> Result<()> {
         fs::write(&file, report::sheet(diagram).svg()?).with_context(|| format!("cannot write {}", file.display()))?;
         written.push(file);
     }
-    let tables = [report::cheapest(diagrams), report::tolerances(diagrams), report::hosts(points)];
+    let tables =
+        [report::cheapest(diagrams), report::between(diagrams), report::tolerances(diagrams), report::hosts(points)];
     tables.iter().for_each(|table| println!("{}", table.print()));
     let sentences: Vec<String> = diagrams.iter().map(report::sentence).collect();
     println!("{}\n", sentences.join("\n"));

@@ -3,8 +3,8 @@
 use super::{out_directory, shown};
 use crate::host::Fmu;
 use crate::package::Stock;
-use crate::precision::Subject;
 use crate::precision::ladder::told;
+use crate::precision::{Lengths, Subject};
 use crate::realtime::Timing;
 use crate::realtime::deadline::{TRIED, Trials};
 use crate::report::table::Table;
@@ -77,7 +77,7 @@ impl Realtime {
             });
             timings.push(timing.with_context(|| scene.clone())?);
             bar.set_position(before + self.steps);
-            let subject = Subject { file: &scenario.file, fmu: &fmu };
+            let subject = Subject { file: &scenario.file, fmu: &fmu, lengths: Lengths::OF_SCENE };
             let tried = Trials::of(&subject, fewer as usize, budget, |method, rung| {
                 bar.set_message(format!("{scene} {}", told(method, rung)));
                 bar.inc(fewer);

@@ -5,10 +5,10 @@ use crate::accuracy::{self, comparisons};
 use crate::dynamics::portrait;
 use crate::effects::{Price, inputs_at_start};
 use crate::host::Fmu;
-use crate::precision::Subject;
 use crate::precision::diagram::{Budget, Diagram};
 use crate::precision::reference::Reference;
 use crate::precision::ruler::Ruler;
+use crate::precision::{Lengths, Subject};
 use crate::report::figure::{self, Pair};
 use crate::report::page::film::Film;
 use crate::report::page::{Section, calls, page};
@@ -70,7 +70,7 @@ impl Report {
         sections.push(or_why("In the long run", self.long_run(file, &bar)));
         sections.push(or_why("Accuracy of the slider", accuracy_of(file, &bar)));
         if !self.unmeasured {
-            let subject = Subject { file, fmu: &fmu };
+            let subject = Subject { file, fmu: &fmu, lengths: Lengths::OF_SCENE };
             sections.push(or_why("Price of accuracy", price(&subject, &bar)));
         }
         bar.finish_and_clear();

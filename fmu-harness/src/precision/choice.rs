@@ -6,6 +6,8 @@ use slidercrank::scene::Method;
 
 /// Above this error a run says little about the price of a digit.
 const ROUGH: f64 = 0.1;
+/// Runs that a line is drawn through.
+const NEAREST: usize = 4;
 /// So many times the reference's own error is told apart from it.
 const CLEAR: f64 = 10.0;
 
@@ -22,6 +24,31 @@ impl Diagram {
     pub fn cheapest(&self, error: f64) -> Option<&Point> {
         let runs = self.methods().into_iter().filter_map(|method| self.keeping(method, error));
         runs.min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    }
+
+    /// [s/s] What the method costs at an error between those of its runs: on the line through the nearest of them, both in
+    /// logarithms. It tells methods apart where the rungs of a ladder are wide; a tolerance that keeps to the error is told by
+    /// [`Self::keeping`].
+    pub fn between(&self, method: Method, error: f64) -> Option<f64> {
+        let is_clear = |point: &&Point| point.keeps(ROUGH) && point.error.is_some_and(|own| own > CLEAR * self.floor);
+        let place = |point: &Point| Some([point.error?.ln() - error.ln(), point.cost?.ln()]);
+        let mut runs: Vec<[f64; 2]> = self.of_method(method).filter(is_clear).filter_map(place).collect();
+        if runs.iter().all(|[x, _]| *x < 0.0) || runs.iter().all(|[x, _]| *x > 0.0) {
+            return None;
+        }
+        runs.sort_by(|[a, _], [b, _]| a.abs().total_cmp(&b.abs()));
+        runs.truncate(NEAREST);
+        let count = runs.len() as f64;
+        let mean = |of: &dyn Fn(&[f64; 2]) -> f64| runs.iter().map(of).sum::<f64>() / count;
+        let [x, y] = [0, 1].map(|axis| mean(&|run| run[axis]));
+        let slope = mean(&|run| (run[0] - x) * (run[1] - y)) / mean(&|run| (run[0] - x).powi(2));
+        (runs.len() == NEAREST).then(|| (y - slope * x).exp())
+    }
+
+    /// The cheapest method at an error between those of its runs, and what it costs [s/s].
+    pub fn cheapest_between(&self, error: f64) -> Option<(Method, f64)> {
+        let costs = self.methods().into_iter().filter_map(|method| Some((method, self.between(method, error)?)));
+        costs.min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
     /// By what factor the method's cost rises for one more digit: the mean from the coarsest run that keeps to 0.1

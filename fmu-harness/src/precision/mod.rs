@@ -31,6 +31,22 @@ pub struct Subject<'a> {
     pub file: &'a SceneFile,
     /// The same, packaged.
     pub fmu: &'a Fmu,
+    /// How long it is looked at.
+    pub lengths: Lengths,
+}
+
+/// How long a scene is looked at, where that is not left to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lengths {
+    /// [s] No error is taken after this.
+    pub window: Option<f64>,
+    /// [s] What costs are taken over; the window in any case.
+    pub span: Option<f64>,
+}
+
+impl Lengths {
+    /// Two turns of the crank for errors, one for costs.
+    pub const OF_SCENE: Self = Self { window: None, span: None };
 }
 
 impl Subject<'_> {
@@ -45,9 +61,9 @@ impl Subject<'_> {
         self.file.run.stop(&self.file.scene)
     }
 
-    /// [s] What costs are taken over: the first turn, and the whole window in any case.
+    /// [s] What costs are taken over, if nothing else is asked for: the first turn; the whole window in any case.
     pub fn span(&self, window: f64) -> f64 {
-        self.turn().map_or(window, |turn| turn.min(self.stop()).max(window))
+        self.lengths.span.or_else(|| self.turn().map(|turn| turn.min(self.stop()))).unwrap_or(window).max(window)
     }
 
     /// A run to `end` [s] in communication steps of `step` [s].

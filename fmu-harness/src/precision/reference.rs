@@ -40,7 +40,8 @@ pub struct Reference {
 impl Reference {
     /// Runs the scene twice and looks how long the two agree. Takes about `budget` at most.
     pub fn of(subject: &Subject, ruler: &Ruler, budget: Duration) -> Result<Self> {
-        let longest = subject.turn().map_or(subject.stop(), |turn| (TURNS * turn).min(subject.stop()));
+        let usual = subject.turn().map_or(subject.stop(), |turn| (TURNS * turn).min(subject.stop()));
+        let longest = subject.lengths.window.unwrap_or(usual);
         let grid = GRID * (longest / (GRID * MOST_POINTS)).ceil();
         let clock = Instant::now();
         for halving in (0..=HALVINGS).rev() {

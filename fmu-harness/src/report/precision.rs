@@ -115,6 +115,30 @@ pub fn cheapest(diagrams: &[Diagram]) -> Table {
     table
 }
 
+/// The cheapest at every error, between the rungs of the ladders, and the default method there.
+pub fn between(diagrams: &[Diagram]) -> Table {
+    let mut table = Table::default();
+    let own = Method::default();
+    let mut head = vec!["between the tolerances".to_owned(), "window [ms]".into(), "CPU time over [ms]".into()];
+    head.extend(ERRORS.iter().flat_map(|error| {
+        [format!("error {error:e}: × real time"), "with".into(), format!("{}: × real time", own.name())]
+    }));
+    table.line(head);
+    for diagram in diagrams {
+        let mut line =
+            vec![diagram.scene.clone(), three_digits(diagram.window * 1e3), three_digits(diagram.span * 1e3)];
+        for error in ERRORS {
+            line.extend(match diagram.cheapest_between(error) {
+                Some((method, cost)) => [three_digits(1.0 / cost), method.name().into()],
+                None => ["–", "–"].map(String::from),
+            });
+            line.push(diagram.between(own, error).map_or("–".into(), |cost| three_digits(1.0 / cost)));
+        }
+        table.line(line);
+    }
+    table
+}
+
 /// What the default method's tolerances mean.
 pub fn tolerances(diagrams: &[Diagram]) -> Table {
     let mut table = Table::default();

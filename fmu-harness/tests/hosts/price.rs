@@ -2,11 +2,11 @@
 
 use crate::{packages, python};
 use fmu_harness::host::Fmu;
-use fmu_harness::precision::Subject;
 use fmu_harness::precision::hosts::{METHOD, STEPS, TOLERANCE, measure};
 use fmu_harness::precision::ladder::Rung;
 use fmu_harness::precision::reference::Reference;
 use fmu_harness::precision::ruler::Ruler;
+use fmu_harness::precision::{Lengths, Subject};
 use fmu_harness::run::{Look, march};
 use fmu_harness::scenes::Scenario;
 use std::time::Duration;
@@ -18,7 +18,7 @@ const SPAN: f64 = 0.012;
 fn fmpy_finds_the_error_and_the_work_that_this_program_finds() {
     let file = packages::directory().join("wornpin.fmu");
     let (fmu, scenario) = (Fmu::open(&file).expect("an FMU"), Scenario::find("wornpin").expect("a shipped scene"));
-    let subject = Subject { file: &scenario.file, fmu: &fmu };
+    let subject = Subject { file: &scenario.file, fmu: &fmu, lengths: Lengths::OF_SCENE };
     let ruler = Ruler::of(&scenario.file.scene);
     let reference = Reference::of(&subject, &ruler, Duration::from_secs(600)).expect("a reference");
     let found = measure(&Ok(python().into()), &subject, &file, &ruler, &reference, SPAN);
@@ -43,7 +43,7 @@ fn fmpy_finds_the_error_and_the_work_that_this_program_finds() {
 fn without_python_every_step_says_why() {
     let file = packages::directory().join("wornpin.fmu");
     let (fmu, scenario) = (Fmu::open(&file).expect("an FMU"), Scenario::find("wornpin").expect("a shipped scene"));
-    let subject = Subject { file: &scenario.file, fmu: &fmu };
+    let subject = Subject { file: &scenario.file, fmu: &fmu, lengths: Lengths::OF_SCENE };
     let ruler = Ruler::of(&scenario.file.scene);
     let reference = Reference::of(&subject, &ruler, Duration::from_secs(600)).expect("a reference");
     let missing = Err(anyhow::anyhow!("there is none"));

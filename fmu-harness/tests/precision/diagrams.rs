@@ -1,11 +1,11 @@
 //! Measured diagrams: references, ladders, failures.
 
 use crate::{AMPLE, diagram, point, with_subject};
-use fmu_harness::precision::Subject;
 use fmu_harness::precision::diagram::{Budget, Diagram, Verdict};
 use fmu_harness::precision::ladder::{FIXED_STEP, Rung, methods, rungs};
 use fmu_harness::precision::reference::Reference;
 use fmu_harness::precision::ruler::Ruler;
+use fmu_harness::precision::{Lengths, Subject};
 use fmu_harness::run::{Ending, Look, march};
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::Method;
@@ -152,6 +152,37 @@ fn a_choice_is_not_left_to_chance() {
     let factor = diagram.digit(own).expect("several digits");
     assert!((factor - 8f64.powf(0.25)).abs() < 1e-12, "{factor}");
     assert_eq!(diagram.digit(Method::Dopri5), None);
+}
+
+#[test]
+fn costs_between_the_rungs_are_on_a_line_of_their_logarithms() {
+    let own = Method::default();
+    // A digit costs twice as much, and neighbours scatter about that by as much up as down.
+    let scatter = [1.0, 1.1, 1.0 / 1.1, 1.0 / 1.1, 1.1, 1.0];
+    let run = |(i, scatter)| point(own, 10f64.powi(-3 - i), 3.0 * 10f64.powi(-2 - i), scatter * 2f64.powi(i));
+    let mut points: Vec<_> = (0..).zip(scatter).map(run).collect();
+    points.push(point(Method::Dopri5, 1e-3, 1e-2, 1.0));
+    points.push(point(Method::Dopri5, 1e-4, 1e-4, 2.0));
+    let diagram = diagram(points);
+    // In the middle of the four from 3e-3 to 3e-6, at 2^2.5.
+    let found = diagram.between(own, 3.0 * 10f64.powf(-4.5)).expect("between its runs");
+    assert!((found - 2f64.powf(2.5)).abs() < 1e-12, "{found}");
+    assert_eq!(diagram.cheapest_between(3.0 * 10f64.powf(-4.5)), Some((own, found)));
+    assert_eq!([1.0, 1e-9].map(|error| diagram.between(own, error)), [None, None], "beyond its runs");
+    assert_eq!(diagram.between(Method::Dopri5, 1e-3), None, "two runs are too few");
+}
+
+#[test]
+fn a_scene_is_looked_at_for_as_long_as_is_asked_for() {
+    with_subject("wornpin", |subject| {
+        let lengths = Lengths { window: Some(SHORT), span: Some(0.1) };
+        let asked = Subject { lengths, ..*subject };
+        let (_, reference) = reference(&asked);
+        assert_eq!(reference.window, SHORT);
+        assert_eq!(asked.span(reference.window), 0.1);
+        assert_eq!(asked.span(0.2), 0.2, "the window in any case");
+        assert!((subject.span(SHORT) - 0.012).abs() < 1e-12, "a turn");
+    });
 }
 
 fn some(cost: f64) -> Option<f64> {

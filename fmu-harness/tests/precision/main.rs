@@ -6,9 +6,9 @@ mod steps;
 
 use fmu_harness::host::Fmu;
 use fmu_harness::package::Package;
-use fmu_harness::precision::Subject;
 use fmu_harness::precision::diagram::{Budget, Diagram, Point, Verdict};
 use fmu_harness::precision::ladder::Rung;
+use fmu_harness::precision::{Lengths, Subject};
 use fmu_harness::scenes::Scenario;
 use slidercrank::scene::Method;
 use std::time::Duration;
@@ -33,7 +33,7 @@ fn open(scenario: &Scenario) -> Fmu {
 fn with_subject<T>(scene: &str, look: impl FnOnce(&Subject) -> T) -> T {
     let scenario = Scenario::find(scene).expect("a legal scene");
     let fmu = open(&scenario);
-    look(&Subject { file: &scenario.file, fmu: &fmu })
+    look(&Subject { file: &scenario.file, fmu: &fmu, lengths: Lengths::OF_SCENE })
 }
 
 /// A run as a diagram holds it.

@@ -30,7 +30,7 @@ use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, Instant, Pose};
 use crate::integrator::stages::in_registers;
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset};
+use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, by_halves};
 use crate::integrator::{STAGES, Tableau, Unilateral};
 use crate::math::{Real, Row};
 use crate::scene::Scene;
@@ -103,7 +103,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
-        (self.all.functions.row)(&self.all, contacts, *t, y, rates);
+        by_halves(t, y, rates, |t, y, rates| (self.all.functions.row)(&self.all, contacts, t, y, rates));
     }
 
     fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {

@@ -22,8 +22,8 @@ use crate::scene::modal::MOST_MODES;
 /// Writes the rates of a state at a time.
 pub type Rates<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64]);
 
-/// Writes the rates of eight states.
-pub type RatesInRow<M> = fn(&M, &Contacts, Row, &[Row], &mut [Row]);
+/// Writes the rates of four states.
+pub type RatesInRow<M> = fn(&M, &Contacts, Row<1>, &[Row<1>], &mut [Row<1>]);
 
 type Ends<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
 
@@ -32,7 +32,7 @@ type Ends<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
 pub struct Functions<M> {
     /// Writes the rates of a state.
     pub rates: Rates<M>,
-    /// Writes the rates of eight states.
+    /// Writes the rates of four states.
     pub row: RatesInRow<M>,
     /// Writes the rates of a state, and its event functions.
     pub ends: Ends<M>,
@@ -113,9 +113,9 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
         Functions { rates: rates.unwrap_or(functions.rates), row: row.unwrap_or(functions.row), ..functions }
     }
 
-    /// Writes the rates of eight states; compiled once, for all topologies.
-    fn rates_in_row(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
-        self.motion::<Row, PLACES>(self.geometry.frame, contacts, t, y, rates);
+    /// Writes the rates of four states; compiled once, for all topologies.
+    fn rates_in_row(&self, contacts: &Contacts, t: Row<1>, y: &[Row<1>], rates: &mut [Row<1>]) {
+        self.motion::<Row<1>, PLACES>(self.geometry.frame, contacts, t, y, rates);
     }
 
     /// Places and velocities of the state `y` at `t`.

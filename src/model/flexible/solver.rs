@@ -142,6 +142,7 @@ impl<const S: usize> Solvers<S> {
         Kernels {
             value: compiled!(1 2 3 4 5 6 7 8 9 10 11 12 13 14),
             row: Equations::solve_any,
+            half: Equations::solve_any,
             tangent: Equations::solve_any,
         }
     }

@@ -65,10 +65,10 @@ pub fn stages<const N: usize, const S: usize, const K: usize, const F: usize>(
     by_topology!(topology, joined)
 }
 
-/// Rates of a state and of eight together, where they are compiled.
+/// Rates of a state and of four together, where they are compiled.
 pub type Written<M> = (Option<Rates<M>>, Option<RatesInRow<M>>);
 
-/// The rates of more states than that, and of eight together, for the usual numbers of modes.
+/// The rates of more states than that, and of four together, for the usual numbers of modes.
 pub fn rates<const S: usize, const K: usize, const F: usize>(
     topology: Topology,
     counts: Counts,
@@ -89,7 +89,7 @@ pub fn rates<const S: usize, const K: usize, const F: usize>(
                     None
                 };
                 let together: RatesInRow<Assembly<S, K, F>> = |all, contacts, t, y, rates| {
-                    all.motion_of::<Row, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
+                    all.motion_of::<Row<1>, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
                 };
                 Some((alone, Some(together)))
             });

@@ -25,6 +25,8 @@ pub struct Kernels<K: Kernel> {
     pub value: K::Of<f64>,
     /// For eight numbers together.
     pub row: K::Of<Row>,
+    /// For four numbers together.
+    pub half: K::Of<Row<1>>,
     /// For numbers with derivatives.
     pub tangent: K::Of<Tangent>,
 }
@@ -41,6 +43,7 @@ pub trait KernelFamily {
         Kernels {
             value: Self::kernel::<f64, E, D, F>(),
             row: Self::kernel::<Row, E, D, F>(),
+            half: Self::kernel::<Row<1>, E, D, F>(),
             tangent: Self::kernel::<Tangent, E, D, F>(),
         }
     }

@@ -129,7 +129,12 @@ impl<const K: usize, const F: usize> Modes<K, F> {
             tables: Tables::new(rod),
             moment: [0.0; K],
             modal_mass: [0.0; K],
-            kernels: Kernels { value: by_counts(counts), row: Functions::ANY, tangent: Functions::ANY },
+            kernels: Kernels {
+                value: by_counts(counts),
+                row: Functions::ANY,
+                half: Functions::ANY,
+                tangent: Functions::ANY,
+            },
         };
         modes.end[..count].copy_from_slice(&rod.end);
         modes.moment[..n].copy_from_slice(&rod.moment);
