@@ -11,6 +11,15 @@ const NEAREST: usize = 4;
 /// So many times the reference's own error is told apart from it.
 const CLEAR: f64 = 10.0;
 
+/// What a method costs at an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Price {
+    /// [s/s]
+    pub cost: f64,
+    /// It costs no more, since its coarsest run has a smaller error.
+    pub is_bound: bool,
+}
+
 impl Diagram {
     /// The coarsest run of the method from which on every finer one keeps to `error` too: an error that is small by
     /// chance is no choice. Runs that were stopped tell nothing.
@@ -26,29 +35,31 @@ impl Diagram {
         runs.min_by(|a, b| cost(a).total_cmp(&cost(b)))
     }
 
-    /// [s/s] What the method costs at an error between those of its runs: on the line through the nearest of them, both in
+    /// What the method costs at an error between those of its runs: on the line through the nearest of them, both in
     /// logarithms. It tells methods apart where the rungs of a ladder are wide; a tolerance that keeps to the error is told by
-    /// [`Self::keeping`].
-    pub fn between(&self, method: Method, error: f64) -> Option<f64> {
+    /// [`Self::keeping`]. At an error that all its runs keep to, what the coarsest costs; at one that none does, nothing.
+    pub fn between(&self, method: Method, error: f64) -> Option<Price> {
         let is_clear = |point: &&Point| point.keeps(ROUGH) && point.error.is_some_and(|own| own > CLEAR * self.floor);
         let place = |point: &Point| Some([point.error?.ln() - error.ln(), point.cost?.ln()]);
         let mut runs: Vec<[f64; 2]> = self.of_method(method).filter(is_clear).filter_map(place).collect();
-        if runs.iter().all(|[x, _]| *x < 0.0) || runs.iter().all(|[x, _]| *x > 0.0) {
+        if runs.iter().all(|[x, _]| *x < 0.0) {
+            return runs.first().map(|[_, y]| Price { cost: y.exp(), is_bound: true });
+        }
+        if runs.len() < NEAREST || runs.iter().all(|[x, _]| *x > 0.0) {
             return None;
         }
         runs.sort_by(|[a, _], [b, _]| a.abs().total_cmp(&b.abs()));
         runs.truncate(NEAREST);
-        let count = runs.len() as f64;
-        let mean = |of: &dyn Fn(&[f64; 2]) -> f64| runs.iter().map(of).sum::<f64>() / count;
+        let mean = |of: &dyn Fn(&[f64; 2]) -> f64| runs.iter().map(of).sum::<f64>() / NEAREST as f64;
         let [x, y] = [0, 1].map(|axis| mean(&|run| run[axis]));
         let slope = mean(&|run| (run[0] - x) * (run[1] - y)) / mean(&|run| (run[0] - x).powi(2));
-        (runs.len() == NEAREST).then(|| (y - slope * x).exp())
+        Some(Price { cost: (y - slope * x).exp(), is_bound: false })
     }
 
-    /// The cheapest method at an error between those of its runs, and what it costs [s/s].
-    pub fn cheapest_between(&self, error: f64) -> Option<(Method, f64)> {
-        let costs = self.methods().into_iter().filter_map(|method| Some((method, self.between(method, error)?)));
-        costs.min_by(|(_, a), (_, b)| a.total_cmp(b))
+    /// The method that costs least at an error between those of its runs.
+    pub fn cheapest_between(&self, error: f64) -> Option<(Method, Price)> {
+        let prices = self.methods().into_iter().filter_map(|method| Some((method, self.between(method, error)?)));
+        prices.min_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost))
     }
 
     /// By what factor the method's cost rises for one more digit: the mean from the coarsest run that keeps to 0.1

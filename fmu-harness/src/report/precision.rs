@@ -4,6 +4,7 @@ use super::loglog::{Bound, LogLog, Mark, Series};
 use super::plot::{Role, Sheet};
 use super::table::Table;
 use super::units::three_digits;
+use crate::precision::choice::Price;
 use crate::precision::diagram::{Diagram, Point, Verdict};
 use crate::precision::hosts::{HostPoint, METHOD, TOLERANCE};
 use crate::precision::ladder::{Rung, told};
@@ -124,15 +125,16 @@ pub fn between(diagrams: &[Diagram]) -> Table {
         [format!("error {error:e}: × real time"), "with".into(), format!("{}: × real time", own.name())]
     }));
     table.line(head);
+    let rate = |price: Price| format!("{}{}", if price.is_bound { "≥ " } else { "" }, three_digits(1.0 / price.cost));
     for diagram in diagrams {
         let mut line =
             vec![diagram.scene.clone(), three_digits(diagram.window * 1e3), three_digits(diagram.span * 1e3)];
         for error in ERRORS {
             line.extend(match diagram.cheapest_between(error) {
-                Some((method, cost)) => [three_digits(1.0 / cost), method.name().into()],
+                Some((method, price)) => [rate(price), method.name().into()],
                 None => ["–", "–"].map(String::from),
             });
-            line.push(diagram.between(own, error).map_or("–".into(), |cost| three_digits(1.0 / cost)));
+            line.push(diagram.between(own, error).map_or("–".into(), rate));
         }
         table.line(line);
     }

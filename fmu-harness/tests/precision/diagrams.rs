@@ -1,6 +1,7 @@
 //! Measured diagrams: references, ladders, failures.
 
 use crate::{AMPLE, diagram, point, with_subject};
+use fmu_harness::precision::choice::Price;
 use fmu_harness::precision::diagram::{Budget, Diagram, Verdict};
 use fmu_harness::precision::ladder::{FIXED_STEP, Rung, methods, rungs};
 use fmu_harness::precision::reference::Reference;
@@ -166,9 +167,10 @@ fn costs_between_the_rungs_are_on_a_line_of_their_logarithms() {
     let diagram = diagram(points);
     // In the middle of the four from 3e-3 to 3e-6, at 2^2.5.
     let found = diagram.between(own, 3.0 * 10f64.powf(-4.5)).expect("between its runs");
-    assert!((found - 2f64.powf(2.5)).abs() < 1e-12, "{found}");
+    assert!((found.cost - 2f64.powf(2.5)).abs() < 1e-12 && !found.is_bound, "{found:?}");
     assert_eq!(diagram.cheapest_between(3.0 * 10f64.powf(-4.5)), Some((own, found)));
-    assert_eq!([1.0, 1e-9].map(|error| diagram.between(own, error)), [None, None], "beyond its runs");
+    assert_eq!(diagram.between(own, 0.05), Some(Price { cost: 1.0, is_bound: true }), "all its runs keep to that");
+    assert_eq!(diagram.between(own, 1e-9), None, "no run of it keeps to that");
     assert_eq!(diagram.between(Method::Dopri5, 1e-3), None, "two runs are too few");
 }
 
