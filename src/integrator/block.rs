@@ -86,7 +86,6 @@ impl<const N: usize> Past<N> {
 /// The states at a step's nodes, as they follow from accelerations.
 struct States<'a, const N: usize> {
     start: &'a [f64; N],
-    rates: &'a [f64; N],
     extent: Extent,
     h: f64,
     y: [Row; N],
@@ -113,11 +112,11 @@ impl<const N: usize> States<'_, N> {
     }
 
     /// From rates that stay as they are at the start.
-    fn go_on(&mut self) {
+    fn go_on(&mut self, rates: &[f64; N]) {
         let Extent { positions: p, states, .. } = self.extent;
         let [once, twice] = [MONOMIALS[0][0], MONOMIALS[1][0]];
-        for i in p..states {
-            self.place(i, once * self.rates[i], twice * self.rates[i]);
+        for (i, rate) in rates.iter().enumerate().take(states).skip(p) {
+            self.place(i, once * *rate, twice * *rate);
         }
     }
 
@@ -161,7 +160,7 @@ impl<const N: usize> Attempt<N> {
         let extent = Extent::of(problem);
         let Extent { positions: p, states, .. } = extent;
         let t = Row::of(NODES).times_plus(h, Row::constant(start.t));
-        let mut at_nodes = States { start: &start.y, rates: &start.rates, extent, h, y: [Row::ZERO; N] };
+        let mut at_nodes = States { start: &start.y, extent, h, y: [Row::ZERO; N] };
         let rounds = if let Some(origin) = past.origin(start.t, h) {
             let ratio = h / (past.end - past.begin);
             if origin == 1 && (ratio - 1.0).abs() < ROUNDING {
@@ -176,7 +175,7 @@ impl<const N: usize> Attempt<N> {
             }
             ROUNDS
         } else {
-            at_nodes.go_on();
+            at_nodes.go_on(&start.rates);
             FIRST_ROUNDS
         };
         for _ in 0..rounds {

@@ -64,8 +64,8 @@ const GREATEST: f64 = 1e25;
 /// A state cannot be asked to be more accurate than a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Mean square of the error over the tolerance; at most 1 for a step to be accepted.
-pub fn mean_square<const N: usize, M: Method, P: Problem<N> + ?Sized>(
+/// Root mean square of the error over the tolerance; at most 1 for a step to be accepted.
+pub fn norm<const N: usize, M: Method, P: Problem<N> + ?Sized>(
     attempt: &Attempt<N>,
     y: &[f64; N],
     problem: &P,
@@ -73,22 +73,18 @@ pub fn mean_square<const N: usize, M: Method, P: Problem<N> + ?Sized>(
 ) -> f64 {
     let scales = problem.scales();
     let n = Extent::of(problem).weighed;
-    let tolerable = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
-    // What does not depend on the error is known before it is.
-    let square = |error: &[f64; N]| {
-        let share = 1.0 / n.max(1) as f64;
-        (0..n).map(|i| error[i] * (1.0 / tolerable(i))).map(|e| e * e).sum::<f64>() * share
-    };
-    if (0..n).fold(false, |unseen, i| unseen | (attempt.unseen[i] > UNSEEN * tolerable(i))) {
+    let weight = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
+    let square = |error: &[f64; N]| (0..n).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / n.max(1) as f64;
+    if (0..n).any(|i| attempt.unseen[i] > UNSEEN * weight(i)) {
         return f64::INFINITY;
     }
     let fine = square(&attempt.error);
     if !M::COARSE {
-        return fine;
+        return fine.sqrt();
     }
     // DOP853: the coarse estimate keeps the fine one from vanishing by chance.
     let sum = fine + 0.01 * square(&attempt.coarse_error);
-    if sum == 0.0 { 0.0 } else { fine * (fine / sum) }
+    if sum == 0.0 { 0.0 } else { fine / sum.sqrt() }
 }
 
 /// The state with the largest error over its weight.
@@ -101,16 +97,14 @@ pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt
     (0..Extent::of(problem).weighed).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
 }
 
-/// By how much the next step is longer after an accepted one of this `mean_square` of the error over the tolerance, and
-/// this error of the one before; an error falls with this `power` of the step: the
+/// By how much the next step is longer after an accepted one, whose error falls with this `power` of the step: the
 /// controller of K. Gustafsson as in Hairer, Wanner II, IV.2, where 0.9 and 0.04 are usual. Contacts shorten steps all the
 /// time. One that comes back to its length soon, at the price of more failures, needs fewer evaluations for the same
 /// error, up to a tenth of them with `verner7`.
-pub fn growth(mean_square: f64, last_error: f64, power: f64) -> f64 {
+pub fn growth(error: f64, last_error: f64, power: f64) -> f64 {
+    let error = error.max(1e-10);
     let exponent = 1.0 / power - 0.75 * MEMORY;
-    // The next step waits for the first of these.
-    let factor =
-        math::rough_power(mean_square.max(1e-20), -0.5 * exponent) * (SAFETY * math::rough_power(last_error, MEMORY));
+    let factor = SAFETY * math::rough_power(error, -exponent) * math::rough_power(last_error, MEMORY);
     factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
 }
 

@@ -13,9 +13,9 @@ const SHARE: f64 = 0.4;
 /// The flight after an impact, and every impact after that, make its errors larger than those of a contact that stays:
 /// only this share of what else is tolerable is for them.
 const IMPACT_SHARE: f64 = 0.1;
-/// A step that is predicted from the last is not made longer for an error whose square is above this: one that is as long
-/// is predicted with less work, and can begin before the error is known.
-const STEADY: f64 = 1e-4;
+/// A step that is predicted from the last is not made longer for an error above this: one that is as long is predicted with
+/// less work, and can begin before the error is known.
+const STEADY: f64 = 1e-2;
 /// Most times that one step is cut short at a kink.
 const CUTS: usize = 6;
 /// After so many steps in a row that were cut, the motion creeps along a kink: it is passed over as any error is, until a
@@ -68,17 +68,16 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
             self.attempt(problem, h);
             let full = M::character(self.memory.stiff).error_power;
-            let mean_square = match controller::lost_state(problem, &self.made.y) {
-                None => controller::mean_square::<N, M, P>(&self.made, &self.memory.start.y, problem, tolerance),
+            let error = match controller::lost_state(problem, &self.made.y) {
+                None => controller::norm::<N, M, P>(&self.made, &self.memory.start.y, problem, tolerance),
                 Some(_) => f64::INFINITY,
             };
-            let error = mean_square.sqrt();
-            if mean_square <= 1.0 {
-                let growth = || controller::growth(mean_square, self.memory.last_error, full);
+            if error <= 1.0 {
+                let growth = || controller::growth(error, self.memory.last_error, full);
                 self.memory.step = match first {
                     Some(first) if cut => first,
                     Some(_) => h * growth().min(1.0),
-                    None if M::PREDICTS && mean_square > STEADY => wanted,
+                    None if M::PREDICTS && error > STEADY => wanted,
                     None => h * growth(),
                 };
                 self.memory.last_error = error.max(1e-4);

@@ -68,24 +68,22 @@ pub fn rough_power(x: f64, y: f64) -> f64 {
 
 const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
 const ONE: u64 = 1023 << MANTISSA;
-/// What is added to it loses its fraction, and has its whole part in the last bits.
-const WHOLE: f64 = 1.5 * (1u64 << MANTISSA) as f64;
 
 /// Exponent, and a parabola through log2 of the mantissa at 1, √2 and 2.
 fn rough_log2(x: f64) -> f64 {
     let bits = x.to_bits();
-    let exponent = f64::from((bits >> MANTISSA) as i32 - 1023);
+    let exponent = f64::from((bits >> MANTISSA) as i32) - 1023.0;
     let m = f64::from_bits((bits & ((1 << MANTISSA) - 1)) | ONE) - 1.0;
     exponent + m + 0.343_145_750_507_620 * m * (1.0 - m)
 }
 
-/// Exponent, and a parabola through 2^x at −½, 0 and ½.
+/// Exponent, and a parabola through 2^x at 0, ½ and 1.
 fn rough_exp2(x: f64) -> f64 {
-    let shifted = x.clamp(-1000.0, 1000.0) + WHOLE;
-    let f = x - (shifted - WHOLE);
-    let power = f64::from_bits((shifted.to_bits() << MANTISSA).wrapping_add(ONE));
-    let bend = 2.0 * std::f64::consts::SQRT_2 + std::f64::consts::SQRT_2 - 4.0;
-    (1.0 + f * (std::f64::consts::FRAC_1_SQRT_2 + f * bend)) * power
+    let biased = x.clamp(-1000.0, 1000.0) + 1023.0;
+    let exponent = biased as i32;
+    let f = biased - f64::from(exponent);
+    let mantissa = 1.0 + f - 0.343_145_750_507_620 * f * (1.0 - f);
+    mantissa * f64::from_bits((exponent as u64) << MANTISSA)
 }
 
 #[cfg(test)]

@@ -92,8 +92,8 @@ impl<const R: usize> PartialEq<f64> for Row<R> {
 
 impl<const R: usize> PartialOrd for Row<R> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        let pairs = || self.0.iter().zip(&other.0).flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array()));
-        let mut compared = pairs().map(|(a, b)| a.partial_cmp(&b));
+        let pairs = self.0.iter().zip(&other.0).flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array()));
+        let mut compared = pairs.map(|(a, b)| a.partial_cmp(&b));
         let first = compared.next()?;
         compared.all(|next| next == first).then_some(first).flatten()
     }

@@ -138,7 +138,7 @@ pub fn keeps_time(file: &SceneFile, trace: &Trace) {
     let drift = trace.greatest(|o| o.energy.residual) / energy;
     println!("{turns} turns: energy off by {drift:.1e}, time by {slip:.1e}");
     // Half of an energy error is one of speed. Energy errs by the tolerance in a turn at most, here by far less.
-    assert!(drift < 1.2e-6 && slip.abs() < 1e-6, "energy {drift:e}, time {slip:e}");
+    assert!(drift < 1e-6 && slip.abs() < 1e-6, "energy {drift:e}, time {slip:e}");
 }
 
 /// [kg·m²] Of the ideal mechanism, from its kinetic energy at unit speed.

@@ -31,7 +31,7 @@ cases! {
     friction: [Energy(1e-7), Depth(2.0), Work(1_500_000)]
     grazing: [Energy(1e-7), Depth(2.0), Work(10_000), Rests(1e-6), Also(special::calms_down)]
     grazing_unlimited: [Energy(1e-8), Depth(2.0), Work(100_000)]
-    hour: [Energy(1.2e-6), Work(15_000_000), Also(special::keeps_time)]
+    hour: [Energy(1e-6), Work(15_000_000), Also(special::keeps_time)]
     inner_dead_centre: [Energy(1e-8), Work(10_000), Also(special::stands_and_falls)]
     jammed: [Energy(1e-7), Depth(2.0), Work(5_000_000), Also(special::is_jammed)]
     jumps: [Energy(1e-8), Depth(2.0), Work(300_000), Also(special::jumps_count)]

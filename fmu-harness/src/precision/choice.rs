@@ -39,9 +39,8 @@ impl Diagram {
     /// logarithms. It tells methods apart where the rungs of a ladder are wide; a tolerance that keeps to the error is told by
     /// [`Self::keeping`]. At an error that all its runs keep to, what the coarsest costs; at one that none does, nothing.
     pub fn between(&self, method: Method, error: f64) -> Option<Price> {
-        let is_clear = |point: &&Point| point.keeps(ROUGH) && point.error.is_some_and(|own| own > CLEAR * self.floor);
         let place = |point: &Point| Some([point.error?.ln() - error.ln(), point.cost?.ln()]);
-        let mut runs: Vec<[f64; 2]> = self.of_method(method).filter(is_clear).filter_map(place).collect();
+        let mut runs: Vec<[f64; 2]> = self.clear(method).filter_map(place).collect();
         if runs.iter().all(|[x, _]| *x < 0.0) {
             return runs.first().map(|[_, y]| Price { cost: y.exp(), is_bound: true });
         }
@@ -66,11 +65,15 @@ impl Diagram {
     /// to the finest whose error stands clear of the reference's; `None` over less than one digit.
     pub fn digit(&self, method: Method) -> Option<f64> {
         let coarse = self.keeping(method, ROUGH)?;
-        let is_clear =
-            |point: &&Point| point.keeps(ROUGH) && point.error.is_some_and(|error| error > CLEAR * self.floor);
-        let fine = self.of_method(method).filter(is_clear).last()?;
+        let fine = self.clear(method).last()?;
         let digits = (coarse.error? / fine.error?).log10();
         (digits >= 1.0).then(|| (cost(fine) / cost(coarse)).powf(1.0 / digits))
+    }
+
+    /// The method's runs that tell what accuracy costs: neither rough nor as good as the reference.
+    fn clear(&self, method: Method) -> impl Iterator<Item = &Point> {
+        let is_clear = |own: f64| own > CLEAR * self.floor;
+        self.of_method(method).filter(move |point| point.keeps(ROUGH) && point.error.is_some_and(is_clear))
     }
 
     /// How many runs failed, and how many were stopped.
