@@ -4,8 +4,9 @@ use super::controller;
 use super::error::IntegrationError;
 use super::kink;
 use super::memory::Memory;
-use super::method::Method;
+use super::method::{Character, Method};
 use super::problem::Problem;
+use super::regime::Manner;
 use super::step::Integrator;
 
 /// This share of the tolerance is for one step: the errors of many add up. Those in stiff motion fade.
@@ -45,7 +46,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         P: Problem<N, Modes = D> + ?Sized,
     {
         let time = self.memory.start.t;
-        let share = if self.memory.stiff { 1.0 } else { SHARE };
+        let share = if self.memory.manner == Manner::Implicit { 1.0 } else { SHARE };
         let of_impact = if time < self.memory.start.impact_end { IMPACT_SHARE } else { 1.0 };
         let tolerance = of_impact * share * self.settings.tolerance;
         let (mut first, mut cuts, mut cut) = (None, 0, false);
@@ -67,7 +68,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                 return Err(IntegrationError::StepUnderflow { time, step: wanted, component });
             }
             self.attempt(problem, h);
-            let full = M::character(self.memory.stiff).error_power;
+            let Character { error_power: full, predicts, .. } = M::character(self.memory.manner);
             let error = match controller::lost_state(problem, &self.made.y) {
                 None => controller::norm::<N, M, P>(&self.made, &self.memory.start.y, problem, tolerance),
                 Some(_) => f64::INFINITY,
@@ -77,7 +78,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
                 self.memory.step = match first {
                     Some(first) if cut => first,
                     Some(_) => h * growth().min(1.0),
-                    None if M::PREDICTS && error > STEADY => wanted,
+                    None if predicts && error > STEADY => wanted,
                     None => h * growth(),
                 };
                 self.memory.last_error = error.max(1e-4);
@@ -95,8 +96,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             first.get_or_insert(h);
             self.memory.statistics.rejected += 1;
             failures += 1;
-            if failures == TOO_MANY && self.memory.stiff {
-                self.memory.stiff = false;
+            if failures == TOO_MANY && self.memory.manner == Manner::Implicit {
+                self.memory.manner = Manner::Explicit;
                 self.memory.regime.give_up();
             }
             let look = error.is_finite() && cuts < CUTS && !creeping;

@@ -5,7 +5,7 @@ use super::controller::is_kept;
 use super::dense_output::Step;
 use super::length::CREEPING;
 use super::problem::Extent;
-use super::regime::Regime;
+use super::regime::{Manner, Regime};
 use super::statistics::Statistics;
 
 /// No run counts as far as this.
@@ -35,9 +35,9 @@ pub struct Memory<const N: usize, D> {
     pub end: Front<N, D>,
     /// The same instant after its events: where the next step starts.
     pub front: Front<N, D>,
-    /// The last step was made by the method for stiff motion.
-    pub stiff: bool,
-    /// Which method makes the next one.
+    /// How the last step was made.
+    pub manner: Manner,
+    /// How the next one is to be.
     pub regime: Regime,
     /// [s] The next step.
     pub step: f64,

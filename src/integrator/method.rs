@@ -3,6 +3,7 @@
 use super::block::Past;
 use super::memory::{Front, Memory};
 use super::problem::Problem;
+use super::regime::{Manner, Regime};
 use super::stages::Attempt;
 
 /// What the control of a step needs to know of the method that makes it.
@@ -15,9 +16,11 @@ pub struct Character {
     pub interpolates: bool,
     /// An attempt gives rates and guards at its end.
     pub gives_end: bool,
+    /// A step is predicted from the one before it.
+    pub predicts: bool,
 }
 
-/// A one-step method, or two of them that take turns as the motion is stiff or not.
+/// A one-step method, or some that take turns as the motion is stiff or not.
 pub trait Method: Send + Sync + 'static {
     /// Name in the `solver.method` enumeration.
     const NAME: &'static str;
@@ -29,17 +32,13 @@ pub trait Method: Send + Sync + 'static {
     const COARSE: bool;
     /// Events are located and landed on; otherwise they are noticed at the end of a step.
     const LOCATES: bool;
-    /// A step is predicted from the one before it.
-    const PREDICTS: bool = false;
     /// What is particular to its steps.
     const CHARACTER: Character;
-    /// What is particular to its steps in stiff motion, for a method that changes then.
-    const IN_STIFF: Option<Character> = None;
     /// What an attempt works with besides [`Attempt`].
     type Room<const N: usize>: Room;
 
-    /// Attempts a step of `h` from `start` after what is `past`, as in `stiff` motion or not, and tells how many evaluations
-    /// of the rates it took.
+    /// Attempts a step of `h` from `start` after what is `past`, in this `manner` if there is a choice, and tells how many
+    /// evaluations of the rates it took.
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
         made: &mut Attempt<N>,
         room: &mut Self::Room<N>,
@@ -47,26 +46,28 @@ pub trait Method: Send + Sync + 'static {
         start: &Front<N, P::Modes>,
         past: &Past<N>,
         h: f64,
-        stiff: bool,
+        manner: Manner,
     ) -> u64;
 
     /// To be called after the last attempt has become the last step: which method makes the next one, and of what
     /// length at most.
     fn choose<const N: usize, P: Problem<N> + ?Sized>(
         _made: &Attempt<N>,
-        _room: &Self::Room<N>,
+        _room: &mut Self::Room<N>,
         _problem: &P,
         _memory: &mut Memory<N, P::Modes>,
     ) {
     }
 
-    /// What is particular to its steps in `stiff` motion or not.
+    /// What is particular to its steps of this manner.
     #[inline(always)]
-    fn character(stiff: bool) -> Character {
-        match Self::IN_STIFF {
-            Some(character) if stiff => character,
-            _ => Self::CHARACTER,
-        }
+    fn character(_manner: Manner) -> Character {
+        Self::CHARACTER
+    }
+
+    /// How its first step is made.
+    fn regime<const N: usize, P: Problem<N> + ?Sized>(_problem: &P) -> Regime {
+        Regime::LOOSE
     }
 }
 

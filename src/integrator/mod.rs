@@ -40,7 +40,7 @@ pub use memory::{Front, Memory};
 pub use method::{Character, Method, Room};
 pub use moreau::Moreau;
 pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, by_halves, one_by_one};
-pub use regime::Regime;
+pub use regime::{Manner, Regime};
 pub use statistics::Statistics;
 pub use step::Integrator;
 pub use tableau::{Explicit, STAGES, Tableau};

@@ -116,6 +116,12 @@ pub trait Problem<const N: usize> {
         one_by_one(self, modes, t, y, rates);
     }
 
+    /// Whether rates at eight states take so little more time than at one that steps are best made in blocks, see
+    /// [`block`](super::block).
+    fn suits_blocks(&self) -> bool {
+        false
+    }
+
     /// Writes the rates at the stages of a method after its first and before its end is known into their places in `k`,
     /// for a step of `h` from the state `y` at time `t`; `k[0]` has the rates there. Compiled for a problem of at most
     /// [`IN_REGISTERS`](super::stages::IN_REGISTERS) states, with its rates inside; larger ones are not asked.

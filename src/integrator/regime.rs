@@ -1,4 +1,5 @@
-//! Which of its two methods a changing one uses: an explicit one, or a linearly implicit one where the motion is stiff.
+//! Which of its methods a changing one uses: one that makes a step as a block, an explicit one, or a linearly implicit one
+//! where the motion is stiff.
 //!
 //! A contact that closes slowly gets a damping that grows with the approach speed's inverse; pressed on by a load, it
 //! stays closed, creeps, and bounds the steps of an explicit method by their stability long after its own motion is
@@ -8,6 +9,9 @@
 //! Stiffness is suspected where an explicit step comes near its bound of stability, as two stages at the same instant
 //! tell (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection), and then tried. A trial that
 //! does not pay is given up after a few steps, and the next waits longer.
+//!
+//! A step in a block is the cheapest where its problem suits it, and the least stable: where its own bound is near, the
+//! explicit method is tried in the same way, and kept while its steps are about as long.
 
 use super::problem::{Extent, Jacobian};
 
@@ -20,42 +24,95 @@ const SUSPICIOUS: f64 = 0.6;
 /// two positions to nine.
 const PRICE: f64 = 1.5;
 const PRICE_OF_POSITION: f64 = 0.4;
+/// Where a step in a block is unstable: its length times the rate of a decay. Oscillations may be twice as fast.
+const BLOCK_BOUND: f64 = 1.2;
+/// An explicit step costs so much of what one in a block does: as measured with one play in a pin, rigid and flexible.
+const PRICE_BESIDE_BLOCK: f64 = 0.85;
+/// An explicit stretch in a problem that suits blocks ends after so many steps, to see whether it still pays.
+const STRETCH: u32 = 256;
 /// So many steps in a row that do not pay end a stiff stretch.
 const UNPAID: u32 = 3;
 /// A stiff stretch of fewer steps did not pay.
 const WORTHWHILE: u32 = 10;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Which method makes the next step, and what speaks for a change.
+/// How a step is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Manner {
+    /// By accelerations at several instants together, see [`block`](super::block).
+    Block,
+    /// By the stages of an explicit method, one after the other.
+    Explicit,
+    /// By a linearly implicit method.
+    Implicit,
+}
+
+impl Manner {
+    /// All, in their order.
+    pub const ALL: [Self; 3] = [Self::Block, Self::Explicit, Self::Implicit];
+}
+
+/// How the next step is made, and what speaks for a change.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regime {
-    /// The next step is made by the method for stiff motion.
-    pub stiff: bool,
-    /// Accepted steps since the last look; in a stiff stretch, since its beginning.
+    /// How the next step is made.
+    pub manner: Manner,
+    /// Accepted steps since the last look; in a stretch that is on trial, since its beginning.
     pub steps: u32,
     /// Steps between two looks.
     pub patience: u32,
-    /// The last steps of a stiff stretch that did not pay.
+    /// The last steps of a stretch on trial that did not pay.
     pub unpaid: u32,
+    /// [s] The last step in a block before an explicit stretch; none: 0.
+    pub block: f64,
 }
 
 impl Regime {
     /// Not stiff, and nothing known.
-    pub const LOOSE: Self = Self { stiff: false, steps: 0, patience: PATIENCE, unpaid: 0 };
+    pub const LOOSE: Self = Self { manner: Manner::Explicit, steps: 0, patience: PATIENCE, unpaid: 0, block: 0.0 };
+    /// The same, of a problem that suits blocks.
+    pub const IN_BLOCKS: Self = Self { manner: Manner::Block, ..Self::LOOSE };
 
     /// Whether a run can have come to this.
     pub fn is_sound(&self) -> bool {
-        (PATIENCE..=MOST_PATIENCE).contains(&self.patience) && self.unpaid < UNPAID
+        (PATIENCE..=MOST_PATIENCE).contains(&self.patience) && self.unpaid < UNPAID && self.block.is_finite()
+    }
+
+    /// After an accepted step of `h` [s] in a block: `fastest` tells the fastest rate [1/s] at its end, and is asked only now
+    /// and then.
+    pub fn after_block(&mut self, h: f64, fastest: impl FnOnce() -> f64) {
+        if self.looks(self.patience) && h * fastest() > SUSPICIOUS * BLOCK_BOUND {
+            *self = Self { manner: Manner::Explicit, block: h, ..*self };
+        }
     }
 
     /// After an accepted explicit step: `stiffness` tells its length times the fastest rate seen in it, and is asked only
     /// now and then; `bound` is where the method is unstable.
     pub fn after_explicit(&mut self, bound: f64, stiffness: impl FnOnce() -> f64) {
-        self.steps = self.steps.saturating_add(1);
-        if self.steps >= self.patience {
-            self.steps = 0;
-            self.stiff = stiffness() > SUSPICIOUS * bound;
+        if self.looks(self.patience) && stiffness() > SUSPICIOUS * bound {
+            self.manner = Manner::Implicit;
         }
+    }
+
+    /// The same of an explicit step of `h` [s] where the problem suits blocks.
+    pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
+        self.unpaid = if h < PRICE_BESIDE_BLOCK * self.block { self.unpaid + 1 } else { 0 };
+        if self.looks(STRETCH) {
+            let manner = if stiffness() > SUSPICIOUS * bound { Manner::Implicit } else { Manner::Block };
+            *self = Self { manner, ..Self::LOOSE };
+        } else if self.unpaid == UNPAID {
+            self.end_trial(Self::IN_BLOCKS);
+        }
+    }
+
+    /// Whether it is time for a look, after one more step.
+    fn looks(&mut self, patience: u32) -> bool {
+        self.steps = self.steps.saturating_add(1);
+        let now = self.steps >= patience;
+        if now {
+            self.steps = 0;
+        }
+        now
     }
 
     /// After an accepted linearly implicit step of `h` [s] of a motion with so many positions, whose fastest rate
@@ -68,17 +125,20 @@ impl Regime {
         if self.unpaid < UNPAID {
             return None;
         }
-        if self.steps >= WORTHWHILE {
-            *self = Self::LOOSE;
-        } else {
-            self.give_up();
-        }
+        self.end_trial(Self::LOOSE);
         Some(SUSPICIOUS * stable)
     }
 
     /// Ends a stiff stretch that did not pay.
     pub fn give_up(&mut self) {
-        *self = Self { patience: (2 * self.patience).min(MOST_PATIENCE), ..Self::LOOSE };
+        self.steps = 0;
+        self.end_trial(Self::LOOSE);
+    }
+
+    /// Goes on as `next`, and looks again later the shorter the stretch was.
+    fn end_trial(&mut self, next: Self) {
+        let paid = self.steps >= WORTHWHILE;
+        *self = Self { patience: if paid { PATIENCE } else { (2 * self.patience).min(MOST_PATIENCE) }, ..next };
     }
 }
 
@@ -145,7 +205,7 @@ mod tests {
         let trial = |regime: &mut Regime| {
             let looks = (1..).find(|_| {
                 regime.after_explicit(4.6, || 4.0);
-                regime.stiff
+                regime.manner == Manner::Implicit
             });
             let ends = (1..).find(|_| regime.after_implicit(1e-6, 4.6, 4e6, 2).is_some());
             (looks, ends)
@@ -155,7 +215,7 @@ mod tests {
             assert!(regime.is_sound());
         }
         // One that paid for a while, and then no more.
-        regime.stiff = true;
+        regime.manner = Manner::Implicit;
         let ends = (0..50).find(|step| {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
             regime.after_implicit(h, 4.6, 4e6, 2).is_some()
@@ -169,6 +229,33 @@ mod tests {
         for _ in 0..1000 {
             regime.after_explicit(4.6, || 2.0);
         }
-        assert!(!regime.stiff);
+        assert_eq!(regime.manner, Manner::Explicit);
+    }
+
+    #[test]
+    fn explicit_steps_beside_blocks_are_kept_while_they_are_about_as_long() {
+        let mut regime = Regime::IN_BLOCKS;
+        let trial = |regime: &mut Regime, length: f64| {
+            let blocks = (1..).find(|_| {
+                regime.after_block(1e-6, || 1e6);
+                regime.manner == Manner::Explicit
+            });
+            let steps = (1..).find(|_| {
+                regime.after_explicit_beside_blocks(length, 4.6, || 2.0);
+                assert!(regime.is_sound() || regime.manner != Manner::Explicit);
+                regime.manner == Manner::Block
+            });
+            (blocks, steps)
+        };
+        for patience in [32, 64, 128, 256, 512, 1024, 1024] {
+            assert_eq!(trial(&mut regime, 0.5e-6), (Some(patience), Some(3)));
+        }
+        assert_eq!(trial(&mut regime, 2e-6), (Some(1024), Some(256)));
+        assert_eq!(trial(&mut regime, 2e-6), (Some(32), Some(256)));
+        regime.manner = Manner::Explicit;
+        while regime.manner == Manner::Explicit {
+            regime.after_explicit_beside_blocks(2e-6, 4.6, || 4.0);
+        }
+        assert_eq!(regime, Regime { manner: Manner::Implicit, ..Regime::LOOSE });
     }
 }

@@ -11,6 +11,7 @@ use super::linear::Factors;
 use super::memory::Front;
 use super::method::{Character, Method, Room};
 use super::problem::{Extent, Jacobian, Problem};
+use super::regime::Manner;
 use super::stages::Attempt;
 
 /// Stages of the methods here.
@@ -57,9 +58,9 @@ pub struct Workspace<const N: usize> {
 }
 
 impl<const N: usize> Workspace<N> {
-    /// The derivatives of the rates at the start of the last attempt.
-    pub fn jacobian(&self) -> &Jacobian<N> {
-        &self.jacobian
+    /// The derivatives of the rates at the start of the last attempt, or what was written since.
+    pub fn jacobian(&mut self) -> &mut Jacobian<N> {
+        &mut self.jacobian
     }
 }
 
@@ -74,7 +75,7 @@ impl<R: Rosenbrock> Method for Implicit<R> {
     const COARSE: bool = false;
     const LOCATES: bool = true;
     const CHARACTER: Character =
-        Character { error_power: R::COEFFICIENTS.order as f64, interpolates: false, gives_end: false };
+        Character { error_power: R::COEFFICIENTS.order as f64, interpolates: false, gives_end: false, predicts: false };
     type Room<const N: usize> = Workspace<N>;
 
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
@@ -84,7 +85,7 @@ impl<R: Rosenbrock> Method for Implicit<R> {
         start: &Front<N, P::Modes>,
         _past: &Past<N>,
         h: f64,
-        _stiff: bool,
+        _manner: Manner,
     ) -> u64 {
         let Workspace { jacobian, factors, stages: u } = room;
         let method = const { &R::COEFFICIENTS };

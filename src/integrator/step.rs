@@ -8,7 +8,6 @@ use super::event;
 use super::memory::{Front, Memory};
 use super::method::{Method, Room};
 use super::problem::{Extent, GUARDS, Guard, Problem};
-use super::regime::Regime;
 use super::stages::Attempt;
 use super::statistics::Statistics;
 
@@ -36,11 +35,12 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         let statistics = Statistics { evaluations: 1, ..Statistics::default() };
         let step = controller::first_step(problem, &front);
         let (last_error, cuts) = (1e-4, 0);
-        let (stiff, regime) = (false, Regime::LOOSE);
+        let regime = M::regime(problem);
+        let manner = regime.manner;
         let past = Past::NONE;
         let (end, crossings) = (front, 0);
         let memory =
-            Memory { start: front, end, front, stiff, regime, step, last_error, cuts, crossings, past, statistics };
+            Memory { start: front, end, front, manner, regime, step, last_error, cuts, crossings, past, statistics };
         Self::resume(problem, settings, memory)
     }
 
@@ -133,12 +133,12 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Memory { start, front, stiff, past, .. } = &self.memory;
+        let Memory { start, front, manner, past, .. } = &self.memory;
         if t >= front.t {
             return (front.y, front.modes);
         }
-        if !M::character(*stiff).interpolates && t > start.t {
-            M::attempt(&mut self.made, &mut self.room, problem, start, past, t - start.t, *stiff);
+        if !M::character(*manner).interpolates && t > start.t {
+            M::attempt(&mut self.made, &mut self.room, problem, start, past, t - start.t, *manner);
             if controller::lost_state(problem, &self.made.y).is_none() {
                 return (self.made.y, start.modes);
             }
@@ -154,8 +154,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
     where
         P: Problem<N, Modes = D> + ?Sized,
     {
-        let Memory { start, stiff, past, statistics, .. } = &mut self.memory;
-        statistics.evaluations += M::attempt(&mut self.made, &mut self.room, problem, start, past, h, *stiff);
+        let Memory { start, manner, past, statistics, .. } = &mut self.memory;
+        statistics.evaluations += M::attempt(&mut self.made, &mut self.room, problem, start, past, h, *manner);
     }
 
     /// To be called when the problem has changed at the front: rates and guards are taken anew.
@@ -177,13 +177,13 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             return Err(IntegrationError::NotFinite { time: *t, component });
         }
         let kink = self.foreseen_kink(problem);
-        let Memory { start: earlier, stiff: earlier_stiff, .. } = self.memory;
+        let Memory { start: earlier, manner: earlier_manner, .. } = self.memory;
         self.memory.start = self.memory.front;
-        self.memory.stiff = self.memory.regime.stiff;
+        self.memory.manner = self.memory.regime.manner;
         let h = match self.accepted(problem, kink) {
             Ok(h) => h,
             Err(error) => {
-                (self.memory.start, self.memory.stiff) = (earlier, earlier_stiff);
+                (self.memory.start, self.memory.manner) = (earlier, earlier_manner);
                 self.memory.past.forget();
                 return Err(error);
             }
@@ -193,7 +193,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if let Some(component) = controller::lost_state(problem, &self.memory.end.rates) {
             return self.take_back(before, h, component);
         }
-        M::choose(&self.made, &self.room, problem, &mut self.memory);
+        M::choose(&self.made, &mut self.room, problem, &mut self.memory);
         if problem.guard_count() == 0 {
             return Ok(());
         }
@@ -215,7 +215,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
 
     /// Takes back the last step, of `h` from where the guards were `guards`: this `component` was lost in it.
     fn take_back(&mut self, guards: [Guard; GUARDS], h: f64, component: usize) -> Result<(), IntegrationError> {
-        let Memory { start, end, front, stiff, step, past, crossings, statistics, .. } = &mut self.memory;
+        let Memory { start, end, front, manner, step, past, crossings, statistics, .. } = &mut self.memory;
         (*end, *front) = (*start, *start);
         statistics.steps -= 1;
         statistics.events -= *crossings;
@@ -225,7 +225,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         if M::ADAPTIVE {
             // Nothing had estimated the error of what was lost: a shorter step may end before that.
             statistics.rejected += 1;
-            *step = controller::shrinkage(f64::INFINITY, M::character(*stiff).error_power) * h;
+            *step = controller::shrinkage(f64::INFINITY, M::character(*manner).error_power) * h;
             return Ok(());
         }
         // Without an error estimate a step may have led anywhere.
@@ -234,7 +234,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
 
     /// An attempt has given rates and guards at its end.
     pub(super) fn gives_end(&self) -> bool {
-        M::character(self.memory.stiff).gives_end
+        M::character(self.memory.manner).gives_end
     }
 
     /// Takes rates and guards at the end of the attempt, at `t`.
@@ -266,7 +266,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
 
     /// Predicts the next attempt from the last one, which ends at `t`, if the method predicts any.
     pub(super) fn predict_from_attempt(&mut self, t: f64) {
-        if M::PREDICTS {
+        if M::character(self.memory.manner).predicts {
             let start = &self.memory.start;
             self.memory.past = Past { begin: start.t, end: t, start: start.rates, nodes: self.made.nodes };
         }

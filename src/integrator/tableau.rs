@@ -4,6 +4,7 @@ use super::block::Past;
 use super::memory::Front;
 use super::method::{Character, Method};
 use super::problem::Problem;
+use super::regime::Manner;
 use super::stages::Attempt;
 
 /// Most stages that a method may have.
@@ -49,8 +50,12 @@ impl<E: Explicit> Method for E {
     const ADAPTIVE: bool = E::TABLEAU.first_weighed_stage() != 0;
     const COARSE: bool = E::TABLEAU.coarse_error.is_some();
     const LOCATES: bool = E::LOCATES;
-    const CHARACTER: Character =
-        Character { error_power: E::TABLEAU.error_power, interpolates: true, gives_end: E::TABLEAU.first_same_as_last };
+    const CHARACTER: Character = Character {
+        error_power: E::TABLEAU.error_power,
+        interpolates: true,
+        gives_end: E::TABLEAU.first_same_as_last,
+        predicts: false,
+    };
     type Room<const N: usize> = ();
 
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
@@ -60,7 +65,7 @@ impl<E: Explicit> Method for E {
         start: &Front<N, P::Modes>,
         _past: &Past<N>,
         h: f64,
-        _stiff: bool,
+        _manner: Manner,
     ) -> u64 {
         made.explicitly::<E, P>(problem, start, h);
         E::TABLEAU.stages as u64 - 1

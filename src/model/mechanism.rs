@@ -34,6 +34,14 @@ pub struct Topology {
 }
 
 impl Topology {
+    /// Whether its one play is that of a pin or of the main bearing: with more contacts, or with those of the slider's corners,
+    /// steps in blocks take as long as others.
+    pub const fn has_one_play_in_a_pin(self) -> bool {
+        self.a as u8 + self.b as u8 + self.c as u8 == 2 && self.t
+    }
+}
+
+impl Topology {
     /// Of a scene.
     pub fn of(scene: &Scene) -> Self {
         let ideal = |model| model == JointModel::Ideal;

@@ -81,6 +81,10 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         self.linkage.rates(Self::ARRANGEMENT, contacts, *t, y, rates);
     }
 
+    fn suits_blocks(&self) -> bool {
+        Self::ARRANGEMENT.topology.has_one_play_in_a_pin() && !Self::ROOMY
+    }
+
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
         let states = Extent::of(self).states;
         differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));

@@ -1,7 +1,7 @@
 //! A run's memory in a snapshot.
 
 use super::snapshot::{Reader, Snapshot};
-use crate::integrator::{Extent, Front, Impulses, Memory, Past, Regime, Statistics};
+use crate::integrator::{Extent, Front, Impulses, Manner, Memory, Past, Regime, Statistics};
 use crate::math::{Real, Row};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
@@ -57,11 +57,11 @@ impl<const N: usize> Discrete for Impulses<N> {
 
 /// Appends the inputs in force and the integrator's memory.
 pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N, D>, snapshot: &mut Snapshot) {
-    let Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, past, statistics } = memory;
+    let Memory { start, end, front, manner, regime, step, last_error, cuts, crossings, past, statistics } = memory;
     let InputSignal { at, value, rate } = plant.signal();
     let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
     snapshot.reals.extend(inputs);
-    snapshot.reals.extend([plant.start_time(), *step, *last_error]);
+    snapshot.reals.extend([plant.start_time(), *step, *last_error, regime.block]);
     for Front { t, y, rates, modes, impact_end } in [start, end, front] {
         snapshot.reals.extend([*t, *impact_end]);
         snapshot.reals.extend(y.iter().chain(rates));
@@ -69,7 +69,7 @@ pub fn save<const N: usize, D: Discrete>(plant: &dyn Plant<N>, memory: &Memory<N
     }
     let Statistics { steps, rejected, evaluations, events } = *statistics;
     snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
-    snapshot.integers.extend([u64::from(*stiff), u64::from(regime.stiff)]);
+    snapshot.integers.extend([*manner as u64, regime.manner as u64]);
     snapshot.integers.extend([regime.steps, regime.patience, regime.unpaid].map(u64::from));
     snapshot.integers.extend([N as u64, u64::from(past.is_some())]);
     if past.is_some() {
@@ -89,7 +89,7 @@ pub fn load<const N: usize, D: Discrete>(
     let [at, torque, load, torque_rate, load_rate] = reader.reals()?;
     let value = Inputs { crank_torque: torque, slider_load: load };
     let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
-    let [start_time, step, last_error] = reader.reals()?;
+    let [start_time, step, last_error, block] = reader.reals()?;
     let (start, end, front) = (take_front(reader)?, take_front(reader)?, take_front(reader)?);
     let cuts = reader.integer()?.try_into().ok()?;
     let crossings = reader.integer()?;
@@ -99,12 +99,13 @@ pub fn load<const N: usize, D: Discrete>(
         evaluations: reader.integer()?,
         events: reader.integer()?,
     };
-    let stiff = reader.integer()? != 0;
+    let manner = take_manner(reader)?;
     let regime = Regime {
-        stiff: reader.integer()? != 0,
+        manner: take_manner(reader)?,
         steps: reader.integer()?.try_into().ok()?,
         patience: reader.integer()?.try_into().ok()?,
         unpaid: reader.integer()?.try_into().ok()?,
+        block,
     };
     if reader.integer()? != N as u64 {
         return None;
@@ -112,8 +113,13 @@ pub fn load<const N: usize, D: Discrete>(
     let past = if reader.integer()? == 0 { Past::NONE } else { take_past(reader)? };
     plant.set_signal(InputSignal { at, value, rate });
     plant.set_start_time(start_time);
-    let memory = Memory { start, end, front, stiff, regime, step, last_error, cuts, crossings, past, statistics };
+    let memory = Memory { start, end, front, manner, regime, step, last_error, cuts, crossings, past, statistics };
     memory.is_sound(time, Extent::of(plant), plant.longest_step()).then_some(memory)
+}
+
+fn take_manner(reader: &mut Reader<'_>) -> Option<Manner> {
+    let place = usize::try_from(reader.integer()?).ok()?;
+    Manner::ALL.get(place).copied()
 }
 
 fn take_past<const N: usize>(reader: &mut Reader<'_>) -> Option<Past<N>> {

@@ -1,8 +1,8 @@
 //! A method that changes to a linearly implicit one where the motion is stiff, on a motion that is so for a while.
 
-use slidercrank::integrator::methods::{Automatic, Rodas4, Verner7};
+use slidercrank::integrator::methods::{Automatic, Cong8, Rodas4, Verner7};
 use slidercrank::integrator::{
-    Crossed, Effort, GUARDS, Guard, Integrator, Jacobian, Memory, Method, Problem, Reset, Settings,
+    Crossed, Effort, GUARDS, Guard, Integrator, Jacobian, Manner, Memory, Method, Problem, Reset, Settings,
 };
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -15,6 +15,7 @@ const END: f64 = 10.0;
 /// 145): from (0, 1), both are at sin t.
 struct Following {
     rate: f64,
+    blocks: bool,
 }
 
 impl Following {
@@ -42,6 +43,10 @@ impl Problem<4> for Following {
         let [damping, slope] = self.damping(t);
         jacobian.state = [[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, -damping]];
         jacobian.time = [0.0, 0.0, 0.0, -cos - damping * sin - slope * (y[3] - cos)];
+    }
+
+    fn suits_blocks(&self) -> bool {
+        self.blocks
     }
 
     fn scales(&self) -> &[f64; 4] {
@@ -93,7 +98,7 @@ fn run<M: Method>(problem: &Following, tolerance: f64) -> (f64, Memory<4, ()>) {
 #[test]
 fn a_stiff_stretch_costs_little_and_no_accuracy() {
     for (rate, tolerance) in [(1e4, 1e-4), (1e5, 1e-6), (1e6, 1e-8)] {
-        let problem = Following { rate };
+        let problem = Following { rate, blocks: false };
         let (error, memory) = run::<Automatic>(&problem, tolerance);
         let (explicit_error, explicit) = run::<Verner7>(&problem, tolerance);
         let (implicit_error, implicit) = run::<Rodas4>(&problem, tolerance);
@@ -105,14 +110,14 @@ fn a_stiff_stretch_costs_little_and_no_accuracy() {
         let evaluations = memory.statistics.evaluations;
         assert!(evaluations * 20 < explicit.statistics.evaluations, "{:?}", memory.statistics);
         assert!(evaluations < 2 * implicit.statistics.evaluations, "{:?}", memory.statistics);
-        assert!(!memory.regime.stiff, "the damper is gone");
+        assert_eq!(memory.regime.manner, Manner::Explicit, "the damper is gone");
     }
 }
 
 #[test]
 fn what_is_not_stiff_is_left_to_the_explicit_method_to_the_bit() {
     for tolerance in [1e-3, 1e-7, 1e-11] {
-        let problem = Following { rate: 1.0 };
+        let problem = Following { rate: 1.0, blocks: false };
         let (_, memory) = run::<Automatic>(&problem, tolerance);
         let (_, explicit) = run::<Verner7>(&problem, tolerance);
         assert_eq!((memory.front, memory.statistics), (explicit.front, explicit.statistics), "at {tolerance:e}");
@@ -121,10 +126,10 @@ fn what_is_not_stiff_is_left_to_the_explicit_method_to_the_bit() {
 
 #[test]
 fn a_stiff_stretch_is_gone_on_with_from_a_saved_state_and_from_a_step_taken_back() {
-    let problem = Following { rate: 1e5 };
+    let problem = Following { rate: 1e5, blocks: false };
     let mut whole = start::<Automatic>(&problem, 1e-6);
     whole.advance(&problem, 4.0).expect("no trouble");
-    assert!(whole.memory().stiff && whole.memory().regime.stiff, "{:?}", whole.memory().regime);
+    assert_eq!([whole.memory().manner, whole.memory().regime.manner], [Manner::Implicit; 2]);
     let mut again = Integrator::<4, (), Automatic>::resume(&problem, settings(1e-6), *whole.memory());
     let mut taken_back = Integrator::<4, (), Automatic>::resume(&problem, settings(1e-6), *whole.memory());
     whole.advance(&problem, END).expect("no trouble");
@@ -135,7 +140,34 @@ fn a_stiff_stretch_is_gone_on_with_from_a_saved_state_and_from_a_step_taken_back
     assert_eq!((taken_back.memory().front.t, taken_back.memory().front.y), (4.0, told));
     taken_back.advance(&problem, END).expect("no trouble");
     let (y, ()) = taken_back.state_at(&problem, END);
-    assert!((y[1] - END.sin()).abs() < 1e-5 && !taken_back.memory().regime.stiff);
+    assert!((y[1] - END.sin()).abs() < 1e-5 && taken_back.memory().regime.manner == Manner::Explicit);
+}
+
+#[test]
+fn what_suits_blocks_is_made_in_blocks_until_a_damper_asks_for_other_steps() {
+    let calm = Following { rate: 1.0, blocks: true };
+    let (_, memory) = run::<Automatic>(&calm, 1e-9);
+    let (_, in_blocks) = run::<Cong8>(&calm, 1e-9);
+    assert_eq!((memory.front, memory.statistics.steps), (in_blocks.front, in_blocks.statistics.steps));
+    // Too fast for blocks of the accuracy, not yet for the explicit method.
+    let damped = Following { rate: 400.0, blocks: true };
+    let mut whole = start::<Automatic>(&damped, 1e-9);
+    whole.advance(&damped, 4.0).expect("no trouble");
+    assert_ne!(whole.memory().manner, Manner::Block, "{:?}", whole.memory().regime);
+    let mut again = Integrator::<4, (), Automatic>::resume(&damped, settings(1e-9), *whole.memory());
+    for integrator in [&mut whole, &mut again] {
+        integrator.advance(&damped, END).expect("no trouble");
+    }
+    assert_eq!(again.memory(), whole.memory());
+    let (y, ()) = whole.state_at(&damped, END);
+    assert!((y[1] - END.sin()).abs() < 1e-7, "{y:?}");
+    let (_, in_blocks) = run::<Cong8>(&damped, 1e-9);
+    let [found, all] = [whole.memory(), &in_blocks].map(|memory| memory.statistics.evaluations);
+    assert!(3 * found < 2 * all, "{found} evaluations, in blocks alone {all}");
+    // And on to the implicit one.
+    let mut stiff = start::<Automatic>(&Following { rate: 1e5, ..damped }, 1e-6);
+    stiff.advance(&Following { rate: 1e5, ..damped }, 4.0).expect("no trouble");
+    assert_eq!(stiff.memory().manner, Manner::Implicit, "{:?}", stiff.memory().regime);
 }
 
 /// The same motion, but without derivatives.
@@ -177,7 +209,7 @@ impl Problem<4> for Unknown {
 
 #[test]
 fn where_derivatives_are_none_the_explicit_method_goes_on() {
-    let problem = Unknown(Following { rate: 1e4 });
+    let problem = Unknown(Following { rate: 1e4, blocks: false });
     let mut integrator = Integrator::<4, (), Automatic>::start(&problem, settings(1e-6), 0.0, [0.0, 0.0, 1.0, 1.0], ());
     integrator.advance(&problem, END).expect("a motion without trouble");
     let (y, ()) = integrator.state_at(&problem, END);

@@ -1,10 +1,10 @@
-//! `verner7`, and `rodas4` where the motion is stiff.
+//! `verner7`, and `rodas4` where the motion is stiff; `cong8` where it is not at all, if the mechanism suits it.
 
 use super::rodas4::Rodas;
 use super::verner7::Verner7;
 use crate::integrator::switching::{Pair, Switching};
 
-/// The order-7 pair that changes to the L-stable order-4 pair in stiff motion.
+/// The order-7 pair that changes to the L-stable order-4 pair in stiff motion, and to steps in blocks where they pay.
 pub type Automatic = Switching<VernerRodas>;
 
 /// Its two methods.

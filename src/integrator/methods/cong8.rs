@@ -4,6 +4,7 @@ use crate::integrator::Past;
 use crate::integrator::memory::Front;
 use crate::integrator::method::{Character, Method};
 use crate::integrator::problem::Problem;
+use crate::integrator::regime::Manner;
 use crate::integrator::stages::Attempt;
 
 /// The method of eight nodes at a time.
@@ -16,8 +17,7 @@ impl Method for Cong8 {
     const ADAPTIVE: bool = true;
     const COARSE: bool = false;
     const LOCATES: bool = true;
-    const PREDICTS: bool = true;
-    const CHARACTER: Character = Character { error_power: 12.0, interpolates: true, gives_end: true };
+    const CHARACTER: Character = Character { error_power: 12.0, interpolates: true, gives_end: true, predicts: true };
     type Room<const N: usize> = ();
 
     fn attempt<const N: usize, P: Problem<N> + ?Sized>(
@@ -27,7 +27,7 @@ impl Method for Cong8 {
         start: &Front<N, P::Modes>,
         past: &Past<N>,
         h: f64,
-        _stiff: bool,
+        _manner: Manner,
     ) -> u64 {
         made.in_block(problem, start, past, h)
     }

@@ -35,7 +35,7 @@ use super::controller::Settings;
 use super::error::IntegrationError;
 use super::memory::{Front, Memory};
 use super::problem::{Extent, GUARDS, Guard, Problem};
-use super::regime::Regime;
+use super::regime::{Manner, Regime};
 use super::statistics::Statistics;
 use super::unilateral::{Impulses, Unilateral};
 use attempt::{Made, attempt};
@@ -57,7 +57,7 @@ impl<const N: usize> Moreau<N> {
             start: front,
             end: front,
             front,
-            stiff: false,
+            manner: Manner::Explicit,
             regime: Regime::LOOSE,
             step: settings.fixed_step,
             last_error: 0.0,

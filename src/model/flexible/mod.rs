@@ -44,6 +44,7 @@ use written::Stages;
 pub struct Flexible<const N: usize, const S: usize, const K: usize, const F: usize> {
     all: Assembly<S, K, F>,
     stages: Option<Stages<Assembly<S, K, F>, N>>,
+    suits_blocks: bool,
     scales: [f64; N],
     longest_step: f64,
     guard_scale: f64,
@@ -86,8 +87,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         for (scale, (_, deflection)) in scales[2 * positions..].iter_mut().zip(bristled_contacts(scene)) {
             *scale = deflection;
         }
-        let stages = written::stages(frame.arrangement.topology, all.modes.counts);
-        Self { all, stages, scales, longest_step: scale.longest_step, guard_scale: scale.length }
+        let topology = frame.arrangement.topology;
+        let stages = written::stages(topology, all.modes.counts);
+        let (_, row) = written::rates::<S, K, F>(topology, all.modes.counts);
+        let suits_blocks = topology.has_one_play_in_a_pin() && row.is_some() && !Self::ROOMY;
+        Self { all, stages, suits_blocks, scales, longest_step: scale.longest_step, guard_scale: scale.length }
     }
 }
 
@@ -104,6 +108,10 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
 
     fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
         by_halves(t, y, rates, |t, y, rates| (self.all.functions.row)(&self.all, contacts, t, y, rates));
+    }
+
+    fn suits_blocks(&self) -> bool {
+        self.suits_blocks
     }
 
     fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
