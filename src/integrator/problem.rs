@@ -75,6 +75,11 @@ impl Extent {
         Self { positions: states / 2, weighed: states, states }
     }
 
+    /// There are no states but positions and their rates.
+    pub fn is_second_order(self) -> bool {
+        self.states == 2 * self.positions
+    }
+
     /// Of a problem, as a constant where it is one.
     #[inline(always)]
     pub fn of<const N: usize, P: Problem<N> + ?Sized>(problem: &P) -> Self {

@@ -148,6 +148,11 @@ impl<const N: usize> Problem<N> for Audited<N> {
         rates[self.first()..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
     }
 
+    /// As without the audit, whose steps these are.
+    fn suits_blocks(&self) -> bool {
+        self.plant.suits_blocks()
+    }
+
     /// The audit's own rows are exact, too; its columns are 0.
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
         let first = self.first();

@@ -82,7 +82,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     fn suits_blocks(&self) -> bool {
-        Self::ARRANGEMENT.topology.has_one_play_in_a_pin() && !Self::ROOMY
+        Self::ARRANGEMENT.topology.has_one_play_in_a_pin() && Extent::of(self).is_second_order()
     }
 
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {

@@ -68,7 +68,8 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
     pub fn assemble(scene: &Scene, time: f64, rod: Rod) -> Self {
         const { assert!(S == most_equations(K) && F == most_functions(K)) };
         let all = Assembly::new(scene, time, rod);
-        let Extent { positions, states, .. } = all.extent();
+        let extent = all.extent();
+        let Extent { positions, states, .. } = extent;
         assert!(states <= N && (Self::ROOMY || states == N), "room for every state, or exactly as many");
         let (frame, rod) = (all.frame(), &all.geometry.rod);
         let (rigid, modal) = (frame.arrangement.positions, all.geometry.modes(frame));
@@ -90,7 +91,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         let topology = frame.arrangement.topology;
         let stages = written::stages(topology, all.modes.counts);
         let (_, row) = written::rates::<S, K, F>(topology, all.modes.counts);
-        let suits_blocks = topology.has_one_play_in_a_pin() && row.is_some() && !Self::ROOMY;
+        let suits_blocks = topology.has_one_play_in_a_pin() && row.is_some() && extent.is_second_order();
         Self { all, stages, suits_blocks, scales, longest_step: scale.longest_step, guard_scale: scale.length }
     }
 }
