@@ -70,7 +70,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             let better = t - value / rate;
             let useful = rate < 0.0 && better < start.t + h && better != t;
             if landing == LANDINGS || value.abs() <= close || !useful {
-                self.commit(problem, t);
+                self.look_at_end_if_due(problem, t);
+                self.commit(t);
                 break;
             }
             t = better;

@@ -59,6 +59,11 @@ pub trait Method: Send + Sync + 'static {
     ) {
     }
 
+    /// The manners that attempt a step which time and again cannot be made in this one, in their order.
+    fn others(_manner: Manner) -> &'static [Manner] {
+        &[]
+    }
+
     /// What is particular to its steps of this manner.
     #[inline(always)]
     fn character(_manner: Manner) -> Character {

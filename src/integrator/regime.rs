@@ -129,10 +129,10 @@ impl Regime {
         Some(SUSPICIOUS * stable)
     }
 
-    /// Ends a stiff stretch that did not pay.
-    pub fn give_up(&mut self) {
+    /// After a step that was made in this `manner`, since it could not be made as it was to be.
+    pub fn hand_over(&mut self, manner: Manner) {
         self.steps = 0;
-        self.end_trial(Self::LOOSE);
+        self.end_trial(Self { manner, ..Self::LOOSE });
     }
 
     /// Goes on as `next`, and looks again later the shorter the stretch was.

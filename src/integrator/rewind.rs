@@ -27,7 +27,8 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         } else {
             self.attempt_to(problem, t);
             self.keep(problem, t);
-            self.commit(problem, t);
+            self.look_at_end_if_due(problem, t);
+            self.commit(t);
         }
     }
 

@@ -189,7 +189,7 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
             }
         };
         let before = self.guards;
-        self.commit(problem, self.memory.start.t + h);
+        self.commit(self.memory.start.t + h);
         if let Some(component) = controller::lost_state(problem, &self.memory.end.rates) {
             return self.take_back(before, h, component);
         }
@@ -244,14 +244,15 @@ impl<const N: usize, D: Copy, M: Method> Integrator<N, D, M> {
         self.memory.statistics.evaluations += 1;
     }
 
-    /// Makes the attempt the step that ends at `t`.
-    pub(super) fn commit<P>(&mut self, problem: &P, t: f64)
-    where
-        P: Problem<N, Modes = D> + ?Sized,
-    {
+    /// The same, if the attempt has not given them.
+    pub(super) fn look_at_end_if_due<P: Problem<N, Modes = D> + ?Sized>(&mut self, problem: &P, t: f64) {
         if !self.gives_end() {
             self.look_at_end(problem, t);
         }
+    }
+
+    /// Makes the attempt, whose end has been looked at, the step that ends at `t`.
+    pub(super) fn commit(&mut self, t: f64) {
         let Front { modes, impact_end, .. } = self.memory.start;
         let Attempt { y, rates, guards, .. } = &self.made;
         let end = Front { t, y: *y, rates: *rates, modes, impact_end };

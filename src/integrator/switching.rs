@@ -80,6 +80,14 @@ impl<S: Pair> Method for Switching<S> {
         }
     }
 
+    fn others(manner: Manner) -> &'static [Manner] {
+        match manner {
+            Manner::Block => &[Manner::Explicit, Manner::Implicit],
+            Manner::Explicit => &[Manner::Implicit, Manner::Block],
+            Manner::Implicit => &[Manner::Explicit, Manner::Block],
+        }
+    }
+
     #[inline(always)]
     fn character(manner: Manner) -> Character {
         match manner {
