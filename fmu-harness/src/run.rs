@@ -85,7 +85,8 @@ pub struct Cost {
     pub cpu: Duration,
 }
 
-/// Runs the experiment and tells `progress` now and then which share of it is done.
+/// Runs the experiment and tells `progress` now and then which share of it is done. The FMU is asked to say why it
+/// refuses something.
 pub fn run(
     fmu: &Fmu,
     experiment: &Experiment,
@@ -93,7 +94,7 @@ pub fn run(
     progress: impl Fn(f64),
 ) -> Result<Recording> {
     ensure!(experiment.step > 0.0, "the communication step is {} s, wanted more than 0", experiment.step);
-    let mut runner = Runner::start(fmu, experiment, Arc::new(Log::new(log)), false)?;
+    let mut runner = Runner::start(fmu, experiment, Arc::new(Log::new(log)), true)?;
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
     let mut stepping = Duration::ZERO;
     for point in 1..=MOST_POINTS {

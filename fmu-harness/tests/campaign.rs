@@ -1,13 +1,13 @@
 //! A small campaign, and what a campaign promises: the same scenes from the same seed, over all that a scene may be.
 
-use fmu_harness::campaign::Campaign;
 use fmu_harness::campaign::trial::Verdict;
+use fmu_harness::campaign::{Campaign, Kind};
 use fmu_harness::report::campaign::table;
 use slidercrank::scene::write::write;
 use slidercrank::scene::{JointModel, Method, PARAMETERS};
 use std::process::exit;
 
-const SMALL: Campaign = Campaign { scenes: 150, seed: 1, turns: 5.0 };
+const SMALL: Campaign = Campaign { kind: Kind::Legal, scenes: 150, seed: 1, turns: 5.0 };
 
 #[test]
 fn none_of_150_scenes_drawn_by_lot_fails() {
@@ -35,7 +35,7 @@ fn none_of_150_scenes_drawn_by_lot_fails() {
 /// A mechanism that all but stands turns so little energy over that the balance says nothing: found by the campaign.
 #[test]
 fn a_balance_below_what_the_error_norm_notices_is_no_failure() {
-    let outcome = Campaign { scenes: 1, seed: 6, turns: 5.0 }.outcome(2635);
+    let outcome = Campaign { kind: Kind::Legal, scenes: 1, seed: 6, turns: 5.0 }.outcome(2635);
     assert!(!matches!(outcome.verdict, Verdict::Failed(_)), "{:?}", outcome.verdict);
 }
 

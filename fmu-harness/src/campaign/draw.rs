@@ -107,9 +107,9 @@ fn within(min: f64, max: f64, place: f64) -> f64 {
     logarithmic(tiny(most), most, signed.abs()).copysign(signed)
 }
 
-/// Between two positive numbers, by the logarithm.
+/// Between two positive numbers, from the first to the second, by the logarithm.
 pub fn logarithmic(low: f64, high: f64, place: f64) -> f64 {
-    (low * (high / low).powf(place)).clamp(low, high)
+    (low * (high / low).powf(place)).clamp(low.min(high), high.max(low))
 }
 
 /// An input as drawn.

@@ -9,6 +9,7 @@ use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::{Method, Scene};
 use slidercrank::simulation::{Simulation, SimulationError, Snapshot, System};
+use std::f64::consts::TAU;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How a trial ended.
@@ -60,10 +61,27 @@ enum Stop {
     Failed(String),
 }
 
+/// What a trial took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// Evaluations of the equations of motion.
+    pub evaluations: i32,
+    /// Turns of the crank, backwards or forwards.
+    pub turns: f64,
+}
+
+impl Cost {
+    /// Evaluations for each turn.
+    pub fn per_turn(&self) -> f64 {
+        f64::from(self.evaluations) / self.turns
+    }
+}
+
 /// Runs the scene of a file with its inputs.
-pub fn trial(file: &SceneFile, terms: Terms) -> Verdict {
-    let outcome = catch_unwind(AssertUnwindSafe(|| Trial::run(file, terms)));
-    match outcome {
+pub fn trial(file: &SceneFile, terms: Terms) -> (Verdict, Cost) {
+    let mut cost = Cost::default();
+    let outcome = catch_unwind(AssertUnwindSafe(|| Trial::run(file, terms, &mut cost)));
+    let verdict = match outcome {
         Ok(Ok(())) => Verdict::Finished,
         Ok(Err(Stop::Spent)) => Verdict::Spent,
         Ok(Err(Stop::Overflow(why))) => Verdict::Ended(why.into()),
@@ -74,7 +92,8 @@ pub fn trial(file: &SceneFile, terms: Terms) -> Verdict {
             let text = text.or(payload.downcast_ref::<&str>().copied()).unwrap_or_default();
             Verdict::Failed(format!("panic: {text}"))
         }
-    }
+    };
+    (verdict, cost)
 }
 
 /// The sentence of an error with `#` for its numbers and without its time.
@@ -107,7 +126,7 @@ struct Saved {
 }
 
 impl<'a> Trial<'a> {
-    fn run(file: &'a SceneFile, terms: Terms) -> Result<(), Stop> {
+    fn run(file: &'a SceneFile, terms: Terms, cost: &mut Cost) -> Result<(), Stop> {
         let inputs = inputs(file, 0.0, file.scene.crank.angle_start);
         let simulation = Simulation::start(&file.scene, 0.0, inputs).map_err(Stop::Ended)?;
         let mut trial = Self { file, simulation, inputs, outputs: Outputs::default(), residual: 0.0, turned_over: 0.0 };
@@ -120,7 +139,10 @@ impl<'a> Trial<'a> {
                 let (snapshot, angle) = (trial.simulation.snapshot(), trial.outputs.crank.angle);
                 saved = Some(Saved { snapshot, point, angle, after: vec![] });
             }
-            trial.step(point, points)?;
+            let stepped = trial.step(point, points);
+            cost.evaluations = trial.outputs.solver.evaluations;
+            cost.turns = (trial.outputs.crank.angle - file.scene.crank.angle_start).abs() / TAU;
+            stepped?;
             if let Some(saved) = saved.as_mut().filter(|saved| saved.after.len() < COMPARED) {
                 saved.after.push(format!("{:?}", trial.outputs));
                 if saved.after.len() == COMPARED || point == points {
@@ -263,7 +285,7 @@ fn reals(outputs: &Outputs) -> impl Iterator<Item = (&'static str, f64)> {
 }
 
 /// The inputs of a communication point, to be held until the next.
-fn inputs(file: &SceneFile, time: f64, crank_angle: f64) -> Inputs {
+pub fn inputs(file: &SceneFile, time: f64, crank_angle: f64) -> Inputs {
     Inputs {
         crank_torque: file.inputs.crank_torque.value(time, crank_angle),
         slider_load: file.inputs.slider_load.value(time, crank_angle),

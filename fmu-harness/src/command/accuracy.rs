@@ -3,6 +3,7 @@
 use super::{out_directory, shown};
 use crate::accuracy::{Plan, comparisons};
 use crate::report::accuracy as report;
+use crate::report::table::Table;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -42,12 +43,13 @@ impl Accuracy {
         let cases = parts.iter().map(|(_, cases)| cases.len() as u64).sum();
         let style = ProgressStyle::with_template("{wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4} (eta {eta})")?;
         let bar = ProgressBar::new(cases).with_style(style);
-        let (mut page, mut all, mut found) = (String::new(), Vec::new(), Vec::new());
+        let (mut page, mut all, mut found, mut tables) = (String::new(), Vec::new(), Vec::new(), Vec::new());
         for (heading, cases) in parts {
             let measured = plan.measure_all(&cases, || bar.inc(1));
             let table = report::table(heading, &cases, &measured);
             bar.suspend(|| println!("{}", table.print()));
             page += &(table.markdown() + "\n");
+            tables.push(table);
             all.extend(cases);
             found.extend(measured);
         }
@@ -56,6 +58,6 @@ impl Accuracy {
         report::frame(&all, &found).save(&base)?;
         fs::write(base.with_extension("md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
         ["md", "csv", "parquet"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
-        Ok(())
+        Table::complete(&tables)
     }
 }

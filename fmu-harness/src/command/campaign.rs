@@ -2,10 +2,10 @@
 
 use super::{out_directory, shown};
 use crate::campaign::trial::Verdict;
-use crate::campaign::{Campaign as Draws, HANGS};
-use crate::report::campaign::table;
+use crate::campaign::{Campaign as Draws, HANGS, Kind};
+use crate::report::campaign::{slowest, table};
 use anyhow::{Context, Result, ensure};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::write::write;
@@ -13,37 +13,67 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::exit;
 
-/// Draws scenes by lot over all that a scene may be and puts each to the test.
+/// Draws scenes by lot and puts each to the test: over all that is legal, and machines of plausible sizes, loads and
+/// speeds.
 ///
 /// Every legal scene must run without a panic and without a hang; every output, its derivative and its sensitivity must
 /// be a number at every communication point; a state that is saved on the way must go on to the bit; the audited energy
-/// must balance. A run that ends by an error in plain words, or by its budget of work, is counted as such. A scene that
-/// fails is kept under campaign/ of the output directory, as it was drawn and as simple as it can be and still fail: run
-/// it with --scene.
+/// must balance. A run that ends by an error in plain words is run with the other adaptive methods: it has failed if one
+/// of them finishes it. A second table lists the scenes that took the most evaluations a turn, and what is stiff in them:
+/// the fastest rate of the equations, which joints were closed, and which of these contacts had closed so slowly that their
+/// damping is that of the least approach speed. A scene that fails is kept under campaign/ of the output directory, as it
+/// was drawn and as simple as it can be and still fail: run it with --scene.
 #[derive(Args)]
 pub struct Campaign {
-    /// How many scenes
-    #[arg(long, value_name = "NUMBER", default_value_t = 2000)]
+    /// Scenes of one kind [default: of both]
+    #[arg(long, value_name = "KIND")]
+    kind: Option<Kind>,
+    /// How many scenes of each kind
+    #[arg(long, value_name = "NUMBER", default_value_t = 1000)]
     scenes: u64,
     /// The same seed draws the same scenes
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
-    /// Crank turns of each run
-    #[arg(long, value_name = "NUMBER", default_value_t = 5.0)]
-    turns: f64,
+    /// Crank turns of each run [default: 5 of a legal scene, 60 of a machine]
+    #[arg(long, value_name = "NUMBER")]
+    turns: Option<f64>,
+    /// How many of the slowest scenes of each kind are listed
+    #[arg(long, value_name = "NUMBER", default_value_t = 10)]
+    slowest: usize,
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
 }
 
+/// Turns of a run of each kind.
+fn turns(kind: Kind) -> f64 {
+    match kind {
+        Kind::Legal => 5.0,
+        Kind::Machines => 60.0,
+    }
+}
+
 impl Campaign {
     /// Draws, runs, reports.
     pub fn execute(&self) -> Result<()> {
-        ensure!(self.turns > 0.0 && self.turns <= 1e6, "turns must be above 0, at most 1e6");
-        let out = self.output.clone().unwrap_or_else(out_directory).join("campaign");
+        ensure!(self.turns.is_none_or(|turns| turns > 0.0 && turns <= 1e6), "turns must be above 0, at most 1e6");
+        let kinds = self.kind.map_or(vec![Kind::Legal, Kind::Machines], |kind| vec![kind]);
+        let mut failed = 0;
+        for kind in &kinds {
+            failed += self.of_kind(*kind)?;
+        }
+        ensure!(failed == 0, "{failed} of {} scenes failed", self.scenes * kinds.len() as u64);
+        Ok(())
+    }
+
+    /// Draws and runs scenes of one kind, and tells how many failed.
+    fn of_kind(&self, kind: Kind) -> Result<usize> {
+        let name = kind.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+        let out = self.output.clone().unwrap_or_else(out_directory).join("campaign").join(&name);
         let style = ProgressStyle::with_template("{msg:30} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4}")?;
-        let bar = ProgressBar::new(self.scenes).with_style(style).with_message(format!("seed {}", self.seed));
-        let draws = Draws { scenes: self.scenes, seed: self.seed, turns: self.turns };
+        let bar = ProgressBar::new(self.scenes).with_style(style).with_message(format!("{name}, seed {}", self.seed));
+        let turns = self.turns.unwrap_or_else(|| turns(kind));
+        let draws = Draws { kind, scenes: self.scenes, seed: self.seed, turns };
         let hangs = |number: u64, file: &SceneFile| {
             let name = format!("{}-{number}-hangs", self.seed);
             let kept = keep(&out, &name, "It does not end.", file);
@@ -54,7 +84,10 @@ impl Campaign {
         };
         let outcomes = draws.run(|| bar.inc(1), hangs);
         bar.finish_and_clear();
-        println!("{}", table(&outcomes).print());
+        println!("{name}: {turns} turns, seed {}\n{}", self.seed, table(&outcomes).print());
+        if self.slowest > 0 {
+            println!("{}", slowest(&draws.slowest(&outcomes, self.slowest)).print());
+        }
         let mut failed = 0;
         for outcome in &outcomes {
             if let (Verdict::Failed(what), Some([drawn, simplest])) = (&outcome.verdict, &outcome.failure) {
@@ -64,8 +97,7 @@ impl Campaign {
                 println!("{}: {what}", shown(&file));
             }
         }
-        ensure!(failed == 0, "{failed} of {} scenes failed", self.scenes);
-        Ok(())
+        Ok(failed)
     }
 }
 

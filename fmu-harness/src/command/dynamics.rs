@@ -4,6 +4,7 @@ use super::{out_directory, shown};
 use crate::dynamics::bifurcation::{From, Range};
 use crate::dynamics::portrait::Plan;
 use crate::report::dynamics as report;
+use crate::report::table::Table;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -89,7 +90,7 @@ impl Dynamics {
         let table = report::table(&portrait);
         println!("{}\n{name}: {}\n", table.print(), report::sentence(&portrait));
         let mut written = vec![write(&base, "svg", &report::sheet(name, scene, &portrait).svg()?)?];
-        let mut page = table.markdown();
+        let (mut page, mut tables) = (table.markdown(), vec![table]);
         for (part, frame) in [
             ("section", report::visits(&portrait.visits)),
             ("path", report::visits(&portrait.path)),
@@ -109,6 +110,7 @@ impl Dynamics {
             let verdicts = report::verdicts(&range, &branches);
             println!("{}", verdicts.print());
             page += &format!("\n{}", verdicts.markdown());
+            tables.push(verdicts);
             let base = out.join(format!("dynamics-{name}-bifurcation"));
             written.push(write(&base, "svg", &report::bifurcation(name, scene, &range, &branches).svg()?)?);
             report::bifurcation_frame(&range, &branches).save(&base)?;
@@ -116,7 +118,7 @@ impl Dynamics {
         }
         written.push(write(&base, "md", &page)?);
         written.iter().for_each(|file| println!("{}", shown(file)));
-        Ok(())
+        Table::complete(&tables)
     }
 
     fn range(&self) -> Result<Option<Range>> {

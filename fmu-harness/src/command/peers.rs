@@ -3,6 +3,7 @@
 use super::{out_directory, shown};
 use crate::peers::{Contest, Task, contest, scene, scenes};
 use crate::report::contest::{sentence, sheet, summary, table, write_csv};
+use crate::report::table::Table;
 use anyhow::{Context, Result};
 use clap::Args;
 use std::fs;
@@ -53,11 +54,12 @@ fn report(contests: &[Contest], out: &Path) -> Result<()> {
     write_csv(contests, &csv)?;
     let summary = summary(contests);
     println!("{}", summary.print());
-    let tables = contests.iter().map(|contest| table(contest).markdown() + "\n" + &sentence(contest));
-    let text: Vec<String> = std::iter::once(summary.markdown()).chain(tables).collect();
+    let tables: Vec<Table> = contests.iter().map(table).collect();
+    let pages = contests.iter().zip(&tables).map(|(contest, table)| table.markdown() + "\n" + &sentence(contest));
+    let text: Vec<String> = std::iter::once(summary.markdown()).chain(pages).collect();
     for (file, text) in [(&page, text.join("\n\n") + "\n"), (&drawing, sheet(contests).svg()?)] {
         fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
     }
     [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
-    Ok(())
+    Table::complete(&tables)
 }

@@ -11,6 +11,7 @@ use crate::precision::ruler::Ruler;
 use crate::precision::{Lengths, SCENES, Subject};
 use crate::python::{Missing, environment};
 use crate::report::precision as report;
+use crate::report::table::Table;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -68,7 +69,9 @@ impl Precision {
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenes = self.scene.clone().map_or(SCENES.map(String::from).into(), |scene| vec![scene]);
         let python = environment("hosts", if self.host { Missing::Make } else { Missing::Refuse });
-        let python = python.context("`precision --host` makes what FMPy needs");
+        if let (Err(error), false) = (&python, self.host) {
+            eprintln!("FMPy is left out: {error:#}; `precision --host` makes what it needs");
+        }
         let stock = Stock::build()?;
         let runs: usize = methods().0.into_iter().map(|method| rungs(method, self.quick).len()).sum();
         let style = ProgressStyle::with_template("{msg:34} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4}")?;
@@ -106,7 +109,10 @@ impl Precision {
             bar.inc(1);
         })?;
         bar.set_message(format!("{} FMPy", scenario.name));
-        let points = hosts::measure(python, &subject, &file, &ruler, &reference, diagram.span);
+        let points = match python {
+            Err(_) if !self.host => vec![],
+            _ => hosts::measure(python, &subject, &file, &ruler, &reference, diagram.span),
+        };
         bar.inc(1);
         Ok((diagram, points))
     }
@@ -127,10 +133,14 @@ fn write(diagrams: &[Diagram], points: &[HostPoint], out: &Path) -> Result<()> {
     println!("{}\n", sentences.join("\n"));
     let [csv, page] = ["csv", "md"].map(|ending| out.join(format!("precision.{ending}")));
     report::write_csv(diagrams, points, &csv)?;
-    let text = tables.map(|table| table.markdown()).into_iter().chain(sentences.into_iter().map(|line| line + "\n"));
+    let text = tables
+        .each_ref()
+        .map(|table| table.markdown())
+        .into_iter()
+        .chain(sentences.into_iter().map(|line| line + "\n"));
     fs::write(&page, text.collect::<Vec<_>>().join("\n"))
         .with_context(|| format!("cannot write {}", page.display()))?;
     written.extend([csv, page]);
     written.iter().for_each(|file| println!("{}", shown(file)));
-    Ok(())
+    Table::complete(&tables)
 }

@@ -93,12 +93,13 @@ impl Realtime {
         let [settings, scatter] = ["csv", "svg"].map(|ending| out.join(format!("realtime-settings.{ending}")));
         report::write_csv(&timings, &csv)?;
         deadline::write_csv(&trials, &settings)?;
-        let text = format!("{}\n{}\n", tables.map(|table| table.markdown()).join("\n"), sentences.join("\n\n"));
+        let text =
+            format!("{}\n{}\n", tables.each_ref().map(|table| table.markdown()).join("\n"), sentences.join("\n\n"));
         let by_setting = deadline::sheet(&trials).svg()?;
         for (file, text) in [(&page, text), (&drawing, report::sheet(&timings).svg()?), (&scatter, by_setting)] {
             fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
         [csv, settings, page, drawing, scatter].iter().for_each(|file| println!("{}", shown(file)));
-        Ok(())
+        Table::complete(&tables)
     }
 }

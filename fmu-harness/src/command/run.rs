@@ -1,7 +1,7 @@
 //! `run`: a scene, or any FMU, through time; figures and numbers of it.
 
 use super::{out_directory, package, shown};
-use crate::host::{Archive, Fmu, LogLine, Setting};
+use crate::host::{Archive, Fmu, LogLine, Setting, Status};
 use crate::inputs;
 use crate::package::MODES;
 use crate::report::figure::{self, Pair};
@@ -169,13 +169,15 @@ pub(super) fn beside_ideal(fmu: &Fmu, scene: &SceneFile, name: &str) -> Result<[
     Ok([watched(fmu, &experiment, name)?, with_ideal_joints(fmu, &experiment)?])
 }
 
-/// Runs with a progress bar; log lines of the FMU go above it.
+/// Runs with a progress bar; warnings and errors of the FMU go above it.
 fn watched(fmu: &Fmu, experiment: &Experiment, name: &str) -> Result<Recording> {
     let style = ProgressStyle::with_template("{msg:30} {wide_bar:.cyan/blue} {percent:>3} % {elapsed:>4}")?;
     let bar = ProgressBar::new(1000).with_style(style).with_message(name.to_owned());
     let above = bar.clone();
     let log = move |line: &LogLine| {
-        above.suspend(|| eprintln!("{} [{}] {}", line.status, line.category, line.message));
+        if line.status != Status::Ok {
+            above.suspend(|| eprintln!("{} [{}] {}", line.status, line.category, line.message));
+        }
     };
     let recording = run(fmu, experiment, log, |share| bar.set_position((share.min(1.0) * 1000.0) as u64));
     bar.finish_and_clear();

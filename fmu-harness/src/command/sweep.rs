@@ -3,6 +3,7 @@
 use super::{out_directory, shown};
 use crate::package::Stock;
 use crate::report::study as report;
+use crate::report::table::Table;
 use crate::scenes::Scenario;
 use crate::sweep::{Journal, Plan, Study, Sweep as Studied, journal};
 use anyhow::{Context, Result};
@@ -74,6 +75,6 @@ impl Sweep {
         fs::write(base.with_extension("md"), table.markdown())
             .with_context(|| format!("cannot write {}.md", base.display()))?;
         ["parquet", "csv", "md"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
-        Ok(())
+        Table::complete([&table])
     }
 }

@@ -35,11 +35,11 @@ pub fn table(heading: &str, cases: &[Case], found: &[Result<Accuracy>]) -> Table
     let mut table = Table::default();
     table.line([heading].into_iter().chain(ENTRIES.map(|(name, ..)| name)).map(String::from).collect());
     for (case, found) in cases.iter().zip(found) {
-        let cells = match found {
-            Ok(accuracy) => ENTRIES.map(|(_, factor, of)| three_digits(factor * of(accuracy))).to_vec(),
-            Err(error) => vec![format!("{error:#}")],
-        };
-        table.line([case.name.clone()].into_iter().chain(cells).collect());
+        let line = |cells: [String; ENTRIES.len()]| [case.name.clone()].into_iter().chain(cells).collect();
+        match found {
+            Ok(accuracy) => table.line(line(ENTRIES.map(|(_, factor, of)| three_digits(factor * of(accuracy))))),
+            Err(error) => table.gap(line(ENTRIES.map(|_| "–".into())), &format!("{error:#}")),
+        }
     }
     table
 }

@@ -84,8 +84,9 @@ pub fn table(contest: &Contest) -> Table {
             let ratio = reached.cost().zip(own).map_or("–".into(), |(theirs, own)| three_digits(theirs / own));
             line.extend([reached.print(), ratio]);
         }
-        line.push(series.notes.join("; "));
-        table.line(line);
+        let notes = series.notes.join("; ");
+        line.push(notes.clone());
+        if series.points.is_empty() { table.gap(line, &notes) } else { table.line(line) }
     }
     table
 }

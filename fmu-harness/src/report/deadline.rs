@@ -23,7 +23,11 @@ pub fn table(scenes: &[Trials]) -> Table {
         let mut line = vec![scene.scene.clone()];
         line.extend(scene.trials.iter().map(cell));
         line.push(scene.choice().map_or("none".into(), name));
-        table.line(line);
+        let failures: Vec<&str> = scene.trials.iter().filter_map(|trial| trial.failure()).collect();
+        match failures.first() {
+            Some(why) if failures.len() == scene.trials.len() => table.gap(line, why),
+            _ => table.line(line),
+        }
     }
     table
 }

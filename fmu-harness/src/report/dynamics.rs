@@ -290,7 +290,11 @@ pub fn verdicts(range: &Range, branches: &[Branch]) -> Table {
     for end in 1..=branches.len() {
         if end == branches.len() || name(&branches[end]) != name(&branches[start]) {
             let [from, to] = [start, end - 1].map(|place| format!("{:.4e}", branches[place].value));
-            table.row([from, to, (end - start).to_string(), name(&branches[start])]);
+            let line = vec![from, to, (end - start).to_string(), name(&branches[start])];
+            match &branches[start].outcome {
+                Ok(_) => table.line(line),
+                Err(error) => table.gap(line, &format!("{error:#}")),
+            }
             start = end;
         }
     }

@@ -31,6 +31,10 @@ pub fn summary(study: &Study, frame: &Frame) -> Table {
         let numbers = [mean, half, deviation, least, low, median, high, greatest].map(significant);
         let [mean, half, deviation, least, low, median, high, greatest] = numbers;
         let runs = kept.len().to_string();
+        if kept.is_empty() {
+            table.gap(vec![name.clone(), runs], "no run came to its end");
+            continue;
+        }
         table.row([name, &runs, &mean, &format!("± {half}"), &deviation, &least, &low, &median, &high, &greatest]);
     }
     table

@@ -1,32 +1,55 @@
 //! Text in columns for the terminal.
 
-/// Lines of cells: the first column flush left, the others flush right.
+use anyhow::{Result, ensure};
+
+/// Lines of cells: the first column flush left, the others flush right. Under them, a sentence for each line that ought to
+/// have numbers and has none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Table(Vec<Vec<String>>);
+pub struct Table {
+    lines: Vec<Vec<String>>,
+    gaps: Vec<String>,
+}
 
 impl Table {
     /// Adds a line.
     pub fn row<const N: usize>(&mut self, cells: [impl Into<String>; N]) {
-        self.0.push(cells.map(Into::into).into());
+        self.lines.push(cells.map(Into::into).into());
     }
 
     /// Adds a line of as many cells as there are.
     pub fn line(&mut self, cells: Vec<String>) {
-        self.0.push(cells);
+        self.lines.push(cells);
+    }
+
+    /// Adds a line that ought to have numbers and has none, and why: the reason stands under the table.
+    pub fn gap(&mut self, cells: Vec<String>, why: &str) {
+        let name = cells.first().cloned().unwrap_or_default();
+        self.gaps.push(format!("{name} has no numbers: {why}"));
+        self.line(cells);
+    }
+
+    /// Refuses tables in which a line has no numbers.
+    ///
+    /// # Errors
+    /// How many such lines there are.
+    pub fn complete<'a>(tables: impl IntoIterator<Item = &'a Self>) -> Result<()> {
+        let gaps: usize = tables.into_iter().map(|table| table.gaps.len()).sum();
+        ensure!(gaps == 0, "{gaps} of the rows above {} no numbers", if gaps == 1 { "has" } else { "have" });
+        Ok(())
     }
 
     /// Its lines, cell by cell.
     pub fn lines(&self) -> &[Vec<String>] {
-        &self.0
+        &self.lines
     }
 
     /// The lines, aligned.
     pub fn print(&self) -> String {
-        let columns = self.0.iter().map(Vec::len).max().unwrap_or_default();
-        let width = |column: usize| self.0.iter().filter_map(|row| Some(row.get(column)?.chars().count())).max();
+        let columns = self.lines.iter().map(Vec::len).max().unwrap_or_default();
+        let width = |column: usize| self.lines.iter().filter_map(|row| Some(row.get(column)?.chars().count())).max();
         let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or_default()).collect();
         let mut text = String::new();
-        for row in &self.0 {
+        for row in &self.lines {
             let mut line = String::from(" ");
             for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
                 let padding = " ".repeat(width - cell.chars().count());
@@ -35,14 +58,19 @@ impl Table {
             text += line.trim_end();
             text.push('\n');
         }
-        text
+        text + &self.told_gaps()
     }
 
     /// The same for a Markdown page; the first line is the head.
     pub fn markdown(&self) -> String {
         let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-        let Some((head, rows)) = self.0.split_first() else { return String::new() };
+        let Some((head, rows)) = self.lines.split_first() else { return String::new() };
         let alignment = format!("|---|{}\n", "--:|".repeat(head.len().saturating_sub(1)));
-        line(head) + &alignment + &rows.iter().map(|row| line(row)).collect::<String>()
+        line(head) + &alignment + &rows.iter().map(|row| line(row)).collect::<String>() + &self.told_gaps()
+    }
+
+    /// The sentences under the table.
+    fn told_gaps(&self) -> String {
+        self.gaps.iter().map(|gap| format!("\n{gap}.\n")).collect()
     }
 }
