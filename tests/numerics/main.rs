@@ -8,6 +8,7 @@ mod events;
 mod failures;
 mod first_order;
 mod free;
+mod hand_over;
 mod kinks;
 mod order;
 mod polynomials;

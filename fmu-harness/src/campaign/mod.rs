@@ -5,14 +5,16 @@
 //! run by the other adaptive methods, too: where one of them finishes it, it has failed. What fails is made simpler as
 //! long as it fails, and kept as a scene file.
 
+mod agreement;
 mod draw;
 mod machine;
+mod shipped;
 pub mod stiffness;
 pub mod trial;
 mod usual;
 mod watch;
 
-use proptest::strategy::{BoxedStrategy, Strategy, ValueTree};
+use proptest::strategy::{BoxedStrategy, Just, Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use rayon::prelude::*;
 use slidercrank::scene::read::{SceneFile, read};
@@ -30,6 +32,9 @@ pub enum Kind {
     Legal,
     /// Machines of plausible sizes, loads and speeds.
     Machines,
+    /// The shipped scenes with every choice of play, under both drives, at three tolerances, by the default method: where
+    /// another adaptive method arrives, so must it, and by the same motion.
+    Shipped,
 }
 
 /// What is drawn.
@@ -82,10 +87,17 @@ pub const HANGS: Duration = Duration::from_secs(600);
 /// Evaluations of the equations of motion that a trial of a rigid mechanism may spend: of any legal scene, and for each turn of
 /// a machine.
 const EVALUATIONS: f64 = 1.2e6;
-const EVALUATIONS_PER_TURN: f64 = 5e5;
+const EVALUATIONS_PER_TURN: f64 = 1e5;
 /// The methods that keep to a tolerance.
 const ADAPTIVE: [Method; 7] =
     [Method::Automatic, Method::Verner7, Method::Dop853, Method::Dopri5, Method::Rodas4, Method::Cong8, Method::Bs3];
+
+impl Kind {
+    /// How many scenes there are of this kind, if they are not drawn.
+    pub fn count(self) -> Option<u64> {
+        (self == Self::Shipped).then(shipped::count)
+    }
+}
 
 impl Campaign {
     /// Runs all trials on all threads; `progress` is called after each, `late` with the scene of one that hangs.
@@ -145,6 +157,10 @@ impl Campaign {
         let scenes: BoxedStrategy<SceneFile> = match self.kind {
             Kind::Legal => draw::scene_files(self.turns).boxed(),
             Kind::Machines => machine::scene_files(self.turns).boxed(),
+            Kind::Shipped => match shipped::scene_file(number, self.turns) {
+                Ok(file) => Just(file).boxed(),
+                Err(error) => unreachable!("{error:#}"),
+            },
         };
         for refused in 0..DRAWS {
             // These strategies reject nothing.
@@ -175,20 +191,29 @@ impl Campaign {
         };
         let own = file.scene.solver.method;
         let (verdict, cost) = by(own);
-        if let (Verdict::Ended(why), true) = (&verdict, ADAPTIVE.contains(&own)) {
-            let finishes = |other: &&Method| **other != own && by(**other).0 == Verdict::Finished;
-            if let Some(other) = ADAPTIVE.iter().find(finishes) {
-                return (Verdict::Failed(format!("{} ends where {} finishes: {why}", own.name(), other.name())), cost);
+        let why = match &verdict {
+            Verdict::Ended(why) if ADAPTIVE.contains(&own) => why.clone(),
+            Verdict::Spent if self.kind == Kind::Shipped => "its work is beyond its bound".into(),
+            Verdict::Finished if self.kind == Kind::Shipped => match agreement::parts(file) {
+                Some(how) => return (Verdict::Failed(format!("{} leaves the motion: {how}", own.name())), cost),
+                None => return (verdict, cost),
+            },
+            _ => return (verdict, cost),
+        };
+        let finishes = |other: &&Method| **other != own && by(**other).0 == Verdict::Finished;
+        match ADAPTIVE.iter().find(finishes) {
+            Some(other) => {
+                (Verdict::Failed(format!("{} ends where {} finishes: {why}", own.name(), other.name())), cost)
             }
+            None => (verdict, cost),
         }
-        (verdict, cost)
     }
 
     /// How many evaluations a trial may spend: those of a rod with many modes, with an audit or a Jacobian, are dear.
     fn evaluations(&self, scene: &Scene) -> i32 {
         let most = match self.kind {
             Kind::Legal => EVALUATIONS,
-            Kind::Machines => EVALUATIONS_PER_TURN * self.turns,
+            Kind::Machines | Kind::Shipped => EVALUATIONS_PER_TURN * self.turns,
         };
         let modes = f64::from(scene.rod.flexible.bending_modes + scene.rod.flexible.axial_modes);
         let mut price = if modes > 0.0 { 2.0 + 0.25 * modes * modes } else { 1.0 };
