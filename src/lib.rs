@@ -1,7 +1,10 @@
-//! An FMI 2.0 co-simulation unit of the slider-crank mechanism with clearance joints.
-//!
-//! Path of the data: `scene.toml → scene::read → Scene → Model::assemble → Model → Simulation
-//! (integrator on Problem) → fmi::Instance → fmi::abi → importer`.
+// The README's pictures and pages, as seen from target/doc/slidercrank/: the first definition of a link counts.
+#![doc = "[picture]: ../../../fmu-harness/assets/model.png"]
+#![doc = "[benchmarks]: ../../../fmu-harness/docs/benchmarks.md"]
+#![doc = "[guide]: ../../../fmu-harness/docs/guide.md"]
+#![doc = "[how-to-add]: ../../../fmu-harness/docs/how-to-add.md"]
+#![doc = ""]
+#![doc = include_str!("../README.md")]
 
 pub mod fmi;
 pub mod integrator;

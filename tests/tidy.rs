@@ -61,6 +61,45 @@ fn elementary_functions_come_from_one_module() {
     }
 }
 
+/// Longest README, in lines.
+const LONGEST_README: usize = 150;
+
+#[test]
+fn the_readme_is_short_and_its_map_is_that_of_the_source() {
+    let readme = read(&root().join("README.md"));
+    let lines = readme.lines().count();
+    assert!(lines <= LONGEST_README, "README.md has {lines} lines, more than {LONGEST_README}");
+    exist(&readme, "README.md");
+    let map = readme.split("\n## ").find(|section| section.starts_with("Map\n")).unwrap_or_default();
+    for entry in fs::read_dir(root().join("src")).into_iter().flatten().flatten().filter(|entry| entry.path().is_dir())
+    {
+        let folder = format!("`src/{}/`", entry.file_name().to_string_lossy());
+        assert!(map.contains(&folder), "the README's map lacks {folder}");
+    }
+}
+
+#[test]
+fn the_documents_name_files_that_exist() {
+    for document in ["benchmarks.md", "guide.md", "how-to-add.md"] {
+        let document = format!("fmu-harness/docs/{document}");
+        exist(&read(&root().join(&document)), &document);
+    }
+}
+
+/// Every path of this tree that stands between backticks in `text` exists.
+fn exist(text: &str, document: &str) {
+    let tops = ["src/", "modelDescription/", "fmu-harness/", "tests/"];
+    let quoted = text.split('`').skip(1).step_by(2);
+    let paths =
+        quoted.filter(|path| tops.iter().any(|top| path.starts_with(top)) && !path.contains(char::is_whitespace));
+    let mut named = 0;
+    for path in paths {
+        assert!(root().join(path).exists(), "{document} names {path}, which does not exist");
+        named += 1;
+    }
+    assert!(named > 0, "{document} names no path");
+}
+
 /// No line of code under `place`, comments and tests apart, holds any of `words`.
 fn lacks(place: &str, words: &[&str]) {
     for file in sources(place) {

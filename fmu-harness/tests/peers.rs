@@ -121,7 +121,7 @@ fn a_run_ends_where_its_motion_is_not_known_any_longer() {
     let mut long = Task::of("wornpin").expect("a scene");
     let (span, step) = (long.span, long.span / long.points as f64);
     let ruler = Ruler::new(&mut long).expect("a reference");
-    // Two of its motions part after 18 ms (README, `precision`), of 240.
+    // Two of its motions part after 18 ms (`fmu-harness/docs/benchmarks.md`, `precision`), of 240.
     assert!(long.span > 0.01 && long.span < 0.5 * span, "{} s", long.span);
     assert!((long.span / long.points as f64 / step - 1.0).abs() < 1e-9, "whole steps");
     assert!(ruler.own_error > 0.0 && ruler.own_error <= 5e-8, "{:e}", ruler.own_error);

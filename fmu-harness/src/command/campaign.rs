@@ -4,6 +4,7 @@ use super::{out_directory, shown};
 use crate::campaign::trial::Verdict;
 use crate::campaign::{Campaign as Draws, HANGS, Kind};
 use crate::report::campaign::{slowest, table};
+use crate::report::docs::Docs;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -44,6 +45,8 @@ pub struct Campaign {
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    docs: Docs,
 }
 
 /// Scenes of a kind that is drawn.
@@ -57,22 +60,29 @@ fn turns(kind: Kind) -> f64 {
     }
 }
 
+/// The name of a kind on the command line.
+fn name(kind: Kind) -> String {
+    kind.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+}
+
 impl Campaign {
     /// Draws, runs, reports.
     pub fn execute(&self) -> Result<()> {
         ensure!(self.turns.is_none_or(|turns| turns > 0.0 && turns <= 1e6), "turns must be above 0, at most 1e6");
+        let section = self.docs.section("campaign", self.kind.map(name).as_deref())?;
         let kinds = self.kind.map_or(vec![Kind::Legal, Kind::Machines], |kind| vec![kind]);
-        let mut failed = 0;
+        let (mut failed, mut text) = (0, String::new());
         for kind in &kinds {
-            failed += self.of_kind(*kind)?;
+            failed += self.of_kind(*kind, &mut text)?;
         }
+        section.map_or(Ok(()), |section| section.write(&text))?;
         ensure!(failed == 0, "{failed} scenes failed");
         Ok(())
     }
 
-    /// Draws and runs scenes of one kind, and tells how many failed.
-    fn of_kind(&self, kind: Kind) -> Result<usize> {
-        let name = kind.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+    /// Draws and runs scenes of one kind, adds their tables to `text`, and tells how many failed.
+    fn of_kind(&self, kind: Kind, text: &mut String) -> Result<usize> {
+        let name = name(kind);
         let out = self.output.clone().unwrap_or_else(out_directory).join("campaign").join(&name);
         let style = ProgressStyle::with_template("{msg:30} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4}")?;
         let all = kind.count();
@@ -90,9 +100,14 @@ impl Campaign {
         };
         let outcomes = draws.run(|| bar.inc(1), hangs);
         bar.finish_and_clear();
-        println!("{name}: {turns} turns, seed {}\n{}", self.seed, table(&outcomes).print());
+        let heading = format!("{name}: {turns} turns, seed {}", self.seed);
+        let counts = table(&outcomes);
+        println!("{heading}\n{}", counts.print());
+        *text += &format!("Scenes of the kind {heading}.\n\n{}\n", counts.markdown());
         if self.slowest > 0 {
-            println!("{}", slowest(&draws.slowest(&outcomes, self.slowest)).print());
+            let slowest = slowest(&draws.slowest(&outcomes, self.slowest));
+            println!("{}", slowest.print());
+            *text += &(slowest.markdown() + "\n");
         }
         let mut failed = 0;
         for outcome in &outcomes {

@@ -4,6 +4,7 @@ use super::{out_directory, shown};
 use crate::effects::Price;
 use crate::host::Fmu;
 use crate::package::Stock;
+use crate::report::docs::{Docs, Section};
 use crate::report::price;
 use crate::scenes::{Scenario, ladder};
 use anyhow::{Context, Result};
@@ -29,11 +30,14 @@ pub struct Effects {
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    docs: Docs,
 }
 
 impl Effects {
     /// Packages, measures, reports.
     pub fn execute(&self) -> Result<()> {
+        let section = self.docs.section("effects", None)?;
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let stock = Stock::build()?;
@@ -51,19 +55,19 @@ impl Effects {
             bar.inc(1);
         }
         bar.finish_and_clear();
-        self.report(&prices, &out)
+        self.report(&prices, &out, section)
     }
 
-    fn report(&self, prices: &[Price], out: &std::path::Path) -> Result<()> {
+    fn report(&self, prices: &[Price], out: &std::path::Path, section: Option<Section>) -> Result<()> {
         let tables = [price::prices(prices), price::increments(prices)];
         tables.iter().for_each(|table| println!("{}", table.print()));
         let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("effects.{ending}")));
         price::write_csv(prices, &csv)?;
         let text = tables.map(|table| table.markdown()).join("\n");
-        for (file, text) in [(&page, text), (&drawing, price::sheet(prices).svg()?)] {
+        for (file, text) in [(&page, &text), (&drawing, &price::sheet(prices).svg()?)] {
             fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
         [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
-        Ok(())
+        section.map_or(Ok(()), |section| section.write(&text))
     }
 }

@@ -3,6 +3,7 @@
 use super::{out_directory, shown};
 use crate::peers::{Contest, Task, contest, scene, scenes};
 use crate::report::contest::{sentence, sheet, summary, table, write_csv};
+use crate::report::docs::{Docs, Section};
 use crate::report::table::Table;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -29,11 +30,14 @@ pub struct Peers {
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    docs: Docs,
 }
 
 impl Peers {
     /// Runs and reports.
     pub fn execute(&self) -> Result<()> {
+        let section = self.docs.section("peers", self.scene.as_deref())?;
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenes = self.scene.as_ref().map_or_else(scenes, |name| vec![scene(name)]);
@@ -45,21 +49,22 @@ impl Peers {
             println!("{}\n{}\n", table(&found).print(), sentence(&found));
             done.push(found);
         }
-        report(&done, &out)
+        report(&done, &out, section)
     }
 }
 
-fn report(contests: &[Contest], out: &Path) -> Result<()> {
+fn report(contests: &[Contest], out: &Path, section: Option<Section>) -> Result<()> {
     let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("peers.{ending}")));
     write_csv(contests, &csv)?;
     let summary = summary(contests);
     println!("{}", summary.print());
     let tables: Vec<Table> = contests.iter().map(table).collect();
     let pages = contests.iter().zip(&tables).map(|(contest, table)| table.markdown() + "\n" + &sentence(contest));
-    let text: Vec<String> = std::iter::once(summary.markdown()).chain(pages).collect();
-    for (file, text) in [(&page, text.join("\n\n") + "\n"), (&drawing, sheet(contests).svg()?)] {
+    let text = std::iter::once(summary.markdown()).chain(pages).collect::<Vec<_>>().join("\n\n") + "\n";
+    for (file, text) in [(&page, &text), (&drawing, &sheet(contests).svg()?)] {
         fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
     }
     [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
-    Table::complete(&tables)
+    Table::complete(&tables)?;
+    section.map_or(Ok(()), |section| section.write(&text))
 }

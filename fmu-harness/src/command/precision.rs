@@ -10,6 +10,7 @@ use crate::precision::reference::Reference;
 use crate::precision::ruler::Ruler;
 use crate::precision::{Lengths, SCENES, Subject};
 use crate::python::{Missing, environment};
+use crate::report::docs::{Docs, Section};
 use crate::report::precision as report;
 use crate::report::table::Table;
 use crate::scenes::Scenario;
@@ -50,6 +51,8 @@ pub struct Precision {
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    docs: Docs,
 }
 
 /// A duration with its unit, in seconds.
@@ -65,6 +68,7 @@ fn duration(text: &str) -> Result<f64, String> {
 impl Precision {
     /// Packages, measures, reports.
     pub fn execute(&self) -> Result<()> {
+        let section = self.docs.section("precision", self.scene.as_deref())?;
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenes = self.scene.clone().map_or(SCENES.map(String::from).into(), |scene| vec![scene]);
@@ -84,7 +88,7 @@ impl Precision {
             points.extend(more);
         }
         bar.finish_and_clear();
-        write(&diagrams, &points, &out)
+        write(&diagrams, &points, &out, section)
     }
 
     fn scene(
@@ -119,7 +123,7 @@ impl Precision {
 }
 
 /// Figures, tables and the CSV.
-fn write(diagrams: &[Diagram], points: &[HostPoint], out: &Path) -> Result<()> {
+fn write(diagrams: &[Diagram], points: &[HostPoint], out: &Path, section: Option<Section>) -> Result<()> {
     let mut written = Vec::new();
     for diagram in diagrams {
         let file = out.join(format!("precision-{}.svg", diagram.scene));
@@ -138,9 +142,10 @@ fn write(diagrams: &[Diagram], points: &[HostPoint], out: &Path) -> Result<()> {
         .map(|table| table.markdown())
         .into_iter()
         .chain(sentences.into_iter().map(|line| line + "\n"));
-    fs::write(&page, text.collect::<Vec<_>>().join("\n"))
-        .with_context(|| format!("cannot write {}", page.display()))?;
+    let text = text.collect::<Vec<_>>().join("\n");
+    fs::write(&page, &text).with_context(|| format!("cannot write {}", page.display()))?;
     written.extend([csv, page]);
     written.iter().for_each(|file| println!("{}", shown(file)));
-    Table::complete(&tables)
+    Table::complete(&tables)?;
+    section.map_or(Ok(()), |section| section.write(&text))
 }

@@ -7,6 +7,7 @@ use crate::precision::ladder::told;
 use crate::precision::{Lengths, Subject};
 use crate::realtime::Timing;
 use crate::realtime::deadline::{TRIED, Trials};
+use crate::report::docs::Docs;
 use crate::report::table::Table;
 use crate::report::{deadline, realtime as report};
 use crate::scenes::{Scenario, directory, names};
@@ -41,6 +42,8 @@ pub struct Realtime {
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    docs: Docs,
 }
 
 /// A time above 0 that is not endless.
@@ -52,6 +55,7 @@ fn budget(text: &str) -> Result<f64, String> {
 impl Realtime {
     /// Packages, measures, reports.
     pub fn execute(&self) -> Result<()> {
+        let section = self.docs.section("realtime", self.scene.as_deref())?;
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenes = self.scene.clone().map_or_else(|| names(&directory()), |scene| vec![scene]);
@@ -96,10 +100,11 @@ impl Realtime {
         let text =
             format!("{}\n{}\n", tables.each_ref().map(|table| table.markdown()).join("\n"), sentences.join("\n\n"));
         let by_setting = deadline::sheet(&trials).svg()?;
-        for (file, text) in [(&page, text), (&drawing, report::sheet(&timings).svg()?), (&scatter, by_setting)] {
+        for (file, text) in [(&page, &text), (&drawing, &report::sheet(&timings).svg()?), (&scatter, &by_setting)] {
             fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
         [csv, settings, page, drawing, scatter].iter().for_each(|file| println!("{}", shown(file)));
-        Table::complete(&tables)
+        Table::complete(&tables)?;
+        section.map_or(Ok(()), |section| section.write(&text))
     }
 }

@@ -18,6 +18,7 @@ pub fn table(outcomes: &[Outcome]) -> Table {
         }
     }
     let mut table = Table::default();
+    table.row(["scenes", "number"]);
     table.row(["drawn and refused as no legal scene".to_owned(), refused.to_string()]);
     table.row(["run".to_owned(), outcomes.len().to_string()]);
     table.row(["finished".to_owned(), count(|verdict| *verdict == Verdict::Finished).to_string()]);

@@ -5,6 +5,7 @@ pub mod bars;
 pub mod campaign;
 pub mod contest;
 pub mod deadline;
+pub mod docs;
 pub mod dynamics;
 pub mod figure;
 pub mod interactive;
