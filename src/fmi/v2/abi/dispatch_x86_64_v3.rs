@@ -3,15 +3,15 @@
 //! A package for Linux on x86-64 has the library twice: `NAME.so`, which importers look for, runs on every such
 //! processor; `NAME.x86-64-v3.so` needs one of the level v3 (System V ABI, AMD64 supplement, 3.1.1: AVX2, fused
 //! multiplication and addition; usual since 2013 to 2015) and takes a tenth to three fifths less time. Where the
-//! second is missing, or of no use, the first does it all.
+//! second is missing, damaged or too new for the processor, the first does the work itself.
 
-/// Name of the level, as compilers have it.
+/// Name of the level, as compilers spell it.
 pub const LEVEL: &str = "x86-64-v3";
 
+#[cfg(not(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma"))))]
+pub use absent::{Library, open};
 #[cfg(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma")))]
 pub use beside::{Library, open};
-#[cfg(not(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma"))))]
-pub use none::{Library, open};
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma")))]
 mod beside {
@@ -44,13 +44,13 @@ mod beside {
             return None;
         }
         let beside = CString::new(beside).ok()?;
-        // SAFETY: what lies there under this name the package has put there; its initialisers are Rust's.
+        // SAFETY: the package has put the file of this name there; its initialisers are Rust's.
         let library = unsafe { libc::dlopen(beside.as_ptr(), libc::RTLD_NOW | libc::RTLD_LOCAL) };
         if library.is_null() { None } else { Some(Library(library)) }
     }
 
-    /// Whether an ELF file was not cut short: the loader maps what is not there, and the process ends where it looks at
-    /// it. The table of sections comes last (System V ABI, ELF header: e_shoff, e_shentsize, e_shnum).
+    /// Whether an ELF file is not cut short: the loader would map the missing part as well, and the process would end
+    /// when it reads there. The table of sections comes last (System V ABI, ELF header: e_shoff, e_shentsize, e_shnum).
     fn is_whole(path: &OsStr) -> Option<bool> {
         let mut file = File::open(path).ok()?;
         let mut header = [0; 64];
@@ -88,18 +88,18 @@ mod beside {
 }
 
 #[cfg(not(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma"))))]
-mod none {
-    /// Of which there is none.
+mod absent {
+    /// There is no such library.
     pub enum Library {}
 
     impl Library {
-        /// Never asked.
+        /// Never called.
         pub fn find(&self, _: &str) -> Option<*const ()> {
             match *self {}
         }
     }
 
-    /// This library is for the level itself, or there are no levels.
+    /// Nothing: this library is built for the level itself, or the platform has no levels.
     pub fn open() -> Option<Library> {
         None
     }

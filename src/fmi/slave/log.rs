@@ -1,24 +1,34 @@
 //! One line to the importer, and only where it asked for the line's category.
 //!
-//! By the standard the importer hears enabled categories only, errors included: with
-//! `loggingOn = fmi2False` an instance is silent. A failed `fmi2Instantiate` is the exception, since
-//! no instance is left to ask. Nothing is logged of what went well, so a run without trouble is
-//! silent with logging on, too.
+//! By the standard the importer hears enabled categories only, errors included: with logging off a
+//! slave is silent. Success is not logged, so a run without trouble is silent with logging on, too.
 
-use super::abi::host_logger::HostLogger;
 use super::error::Error;
-use super::lifecycle::Call;
-use super::status::Status;
+use super::severity::Severity;
 use super::variables::LogCategory;
 use std::ffi::{CStr, CString};
 use std::fmt::{Display, Write as _};
+
+/// Where lines go: the importer, through the callback of its version of FMI.
+pub trait Host {
+    /// Hands one line to the importer.
+    fn log(&self, instance_name: &CStr, severity: Severity, category: &CStr, line: &CStr);
+}
+
+/// A host that does not listen.
+#[derive(Clone, Copy, Debug)]
+pub struct Silent;
+
+impl Host for Silent {
+    fn log(&self, _: &CStr, _: Severity, _: &CStr, _: &CStr) {}
+}
 
 /// Which categories are enabled: one bit each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Enabled(u8);
 
 impl Enabled {
-    const NONE: Self = Self(0);
+    const NOTHING: Self = Self(0);
     const ALL: Self = Self(u8::MAX);
 
     fn with(self, category: LogCategory) -> Self {
@@ -32,21 +42,21 @@ impl Enabled {
 
 /// Where messages go and which of them.
 pub struct Logger {
-    host: HostLogger,
+    host: Box<dyn Host>,
     instance_name: CString,
     enabled: Enabled,
 }
 
 impl Logger {
-    /// A logger for the instance of this name, with all categories or none.
-    pub fn new(host: HostLogger, instance_name: CString, logging_on: bool) -> Self {
-        let enabled = if logging_on { Enabled::ALL } else { Enabled::NONE };
+    /// A logger for the instance of this name, with all categories enabled or without any.
+    pub fn new(host: Box<dyn Host>, instance_name: CString, logging_on: bool) -> Self {
+        let enabled = if logging_on { Enabled::ALL } else { Enabled::NOTHING };
         Self { host, instance_name, enabled }
     }
 
-    /// Enables the named categories alone, or all if none is named; or nothing at all.
+    /// Enables the named categories alone, or all if no category is named; or nothing at all.
     pub fn enable(&mut self, logging_on: bool, categories: &[&CStr]) -> Result<(), Error> {
-        let named = categories.iter().try_fold(Enabled::NONE, |enabled, name| {
+        let named = categories.iter().try_fold(Enabled::NOTHING, |enabled, name| {
             let declared = |category: &&LogCategory| category.name().as_bytes() == name.to_bytes();
             match LogCategory::ALL.iter().find(declared) {
                 Some(LogCategory::All) => Ok(Enabled::ALL),
@@ -55,29 +65,27 @@ impl Logger {
             }
         })?;
         self.enabled = match (logging_on, categories.is_empty()) {
-            (false, _) => Enabled::NONE,
+            (false, _) => Enabled::NOTHING,
             (true, true) => Enabled::ALL,
             (true, false) => named,
         };
         Ok(())
     }
 
-    /// Sends one line, if its category is enabled.
-    pub fn say(&self, status: Status, call: Call, message: &dyn Display) {
-        match status.category() {
-            Some(category) if self.enabled.has(category) => {
-                let category = CString::new(category.name()).unwrap_or_default();
-                self.host.log(&self.instance_name, status, &category, &line(call, message));
-            }
-            _ => {}
+    /// Sends one line about a call to `function`, if the category of its severity is enabled.
+    pub fn say(&self, severity: Severity, function: &str, message: &dyn Display) {
+        let category = severity.category();
+        if self.enabled.has(category) {
+            let category = CString::new(category.name()).unwrap_or_default();
+            self.host.log(&self.instance_name, severity, &category, &line(function, message));
         }
     }
 }
 
-/// One line that no `printf` changes: the standard gives meaning to `%` and `#`, so they are told
+/// One line that no `printf` changes: the standard gives meaning to `%` and `#`, so they are written
 /// by number, as control characters are.
-fn line(call: Call, message: &dyn Display) -> CString {
-    let text = format!("{}: {message}", call.name());
+fn line(function: &str, message: &dyn Display) -> CString {
+    let text = format!("{function}: {message}");
     let mut safe = String::with_capacity(text.len());
     for character in text.chars() {
         match character {
@@ -99,7 +107,7 @@ mod tests {
 
     #[test]
     fn a_line_has_no_format_and_no_control_characters() {
-        let safe = line(Call::DoStep, &"50% of #r1#\nnext\0");
-        assert_eq!(safe.as_c_str(), c"fmi2DoStep: 50\\x25 of \\x23r1\\x23\\nnext\\u{0}");
+        let safe = line("step", &"50% of #r1#\nnext\0");
+        assert_eq!(safe.as_c_str(), c"step: 50\\x25 of \\x23r1\\x23\\nnext\\u{0}");
     }
 }

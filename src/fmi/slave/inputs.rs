@@ -2,7 +2,7 @@
 //!
 //! Value and derivative set at one communication point belong together, in either order. A value
 //! set alone is held: its derivative becomes 0. A derivative set alone starts from the value
-//! reached. Where nothing is set the line goes on, and the simulation hears nothing.
+//! reached. Where nothing is set the line goes on, and the simulation is left alone.
 
 use super::variables::{Access, VARIABLES};
 use crate::model::signals::Inputs;
@@ -25,7 +25,7 @@ pub struct InputLines {
     in_force: Lines,
     /// What is to be followed from this communication point on, if anything was set here.
     wanted: Option<Lines>,
-    /// Derivatives set at this communication point; 0 where none was.
+    /// Derivatives set at this communication point; 0 where none has been set.
     rates_set: Inputs,
 }
 
@@ -65,7 +65,7 @@ impl Lines {
     }
 }
 
-/// Whether both are numbers.
+/// Whether both are finite.
 pub fn are_finite(inputs: &Inputs) -> bool {
     inputs.crank_torque.is_finite() && inputs.slider_load.is_finite()
 }
@@ -102,7 +102,7 @@ impl InputLines {
         self.at(time).shifted(later - time).values
     }
 
-    /// Whether all of them are numbers, as those that an importer can set are.
+    /// Whether all of them are finite, as those that an importer can set are.
     pub fn are_finite(&self) -> bool {
         let Self { since, in_force, wanted, rates_set } = self;
         let lines = [Some(in_force), wanted.as_ref()];
@@ -124,7 +124,7 @@ impl InputLines {
         Ok(simulation)
     }
 
-    /// Tells the simulation what was set at its communication point, if that changes anything.
+    /// Passes to the simulation what was set at its communication point, if that changes anything.
     pub fn pass_on(&mut self, simulation: &mut Simulation) {
         let Some(lines) = self.wanted else { return };
         let time = simulation.time();

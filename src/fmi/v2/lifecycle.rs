@@ -5,6 +5,7 @@
 //! instantiation on, as hosts do; so the rows of `fmi2Get…` are open there, and the rows of
 //! [`Touch`] say which variables they reach.
 
+use crate::fmi::slave::Permission;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -48,11 +49,10 @@ impl State {
         Self::Error,
         Self::Fatal,
     ];
-}
 
-impl fmt::Display for State {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+    /// Name for messages.
+    pub fn name(self) -> &'static str {
+        match self {
             Self::StartAndEnd => "not instantiated",
             Self::Instantiated => "instantiated",
             Self::InitializationMode => "initialization mode",
@@ -63,7 +63,28 @@ impl fmt::Display for State {
             Self::Terminated => "terminated",
             Self::Error => "error",
             Self::Fatal => "fatal",
-        })
+        }
+    }
+
+    /// What a call may read in this state.
+    pub fn reading(self) -> Permission {
+        self.permission([Touch::GetInput, Touch::GetOutput, Touch::GetParameter])
+    }
+
+    /// What a call may write in this state.
+    pub fn writing(self) -> Permission {
+        self.permission([Touch::SetInput, Touch::SetOutput, Touch::SetParameter])
+    }
+
+    fn permission(self, touches: [Touch; 3]) -> Permission {
+        let [inputs, outputs, parameters] = touches.map(|touch| touch.allowed(self));
+        Permission { inputs, outputs, parameters, state: self.name() }
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

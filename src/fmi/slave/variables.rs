@@ -5,7 +5,7 @@ use crate::scene::parameter::Parameter;
 
 /// One variable; its value reference is its index in `VARIABLES`, unique over all types.
 pub struct Variable {
-    /// Name on the FMU's face.
+    /// Name in the model description.
     pub name: &'static str,
     /// Type and place.
     pub access: Access,
@@ -28,7 +28,7 @@ pub enum Access {
     IntegerOutput(fn(&Outputs) -> i32),
     /// A Boolean output.
     BooleanOutput(fn(&Outputs) -> bool),
-    /// A fixed parameter of any type; FMI calls reach an enumeration as an integer.
+    /// A fixed parameter of any type; an enumeration passes as an integer.
     Parameter(&'static Parameter),
 }
 

@@ -7,35 +7,13 @@ use std::fmt;
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Argument(error) => error.fmt(f),
             Self::Variable(error) => error.fmt(f),
-            Self::CallOrder(state) => write!(f, "not allowed in state '{state}'"),
-            Self::ModelExchange => f.write_str("of model exchange, and this FMU is for co-simulation"),
-            Self::Instantiate(error) => error.fmt(f),
             Self::Time(error) => error.fmt(f),
             Self::Category(name) => write!(f, "log category '{name}' is not declared"),
-            Self::StatusKind(kind) => write!(f, "there is no {} to tell here", kind.name()),
-            Self::NoStatusKind(value) => write!(f, "{value} is not an fmi2StatusKind"),
-            Self::FmuState(error) => error.fmt(f),
+            Self::SavedState(error) => error.fmt(f),
             Self::Scene(error) => error.fmt(f),
-            Self::NoNumber(name, value) => write!(f, "{name} = {value} is not a finite number"),
+            Self::OutputNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
             Self::Simulation(error) => error.fmt(f),
-            Self::Panic(what) => write!(f, "fault of the FMU: {what}"),
-        }
-    }
-}
-
-impl fmt::Display for ArgumentError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Null(argument) => write!(f, "argument '{argument}' is NULL"),
-            Self::Misaligned(argument) => {
-                write!(f, "argument '{argument}' is not aligned for its type")
-            }
-            Self::TooLong(argument, length) => {
-                write!(f, "argument '{argument}' cannot have {length} elements")
-            }
-            Self::NotText(argument) => write!(f, "argument '{argument}' is not UTF-8"),
         }
     }
 }
@@ -59,22 +37,6 @@ impl fmt::Display for VariableError {
     }
 }
 
-impl fmt::Display for InstantiateError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Type(kind) => write!(f, "fmuType {kind}: only fmi2CoSimulation (1) can be instantiated"),
-            Self::Name => write!(f, "instanceName is NULL or empty"),
-            Self::Slot(error) => error.fmt(f),
-            Self::Guid { expected, given: Some(given) } => {
-                write!(f, "fmuGUID '{given}' does not match this library's '{expected}'")
-            }
-            Self::Guid { expected, given: None } => {
-                write!(f, "fmuGUID is NULL; this library's is '{expected}'")
-            }
-        }
-    }
-}
-
 impl fmt::Display for TimeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -93,7 +55,7 @@ impl fmt::Display for TimeError {
     }
 }
 
-impl fmt::Display for FmuStateError {
+impl fmt::Display for SavedStateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Null => f.write_str("FMUstate is NULL"),

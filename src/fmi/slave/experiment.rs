@@ -1,8 +1,9 @@
-//! What the importer said of the experiment, and where a step leads.
+//! Times and tolerance of the importer's experiment, and where a step ends.
 
 use super::error::TimeError;
 use crate::scene::parameter::{Kind, Parameter};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// Times and tolerance that the importer defined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -11,7 +12,7 @@ pub struct Experiment {
     pub start: f64,
     /// [s] No step may end later, if defined.
     pub stop: Option<f64>,
-    /// Relative tolerance, if defined; it comes before the scene's.
+    /// Relative tolerance, if defined; it takes precedence over the scene's.
     pub tolerance: Option<f64>,
 }
 
@@ -22,7 +23,7 @@ const PART_OF_STEP: f64 = 1e-9;
 const PART_OF_TIME: f64 = 1e-12;
 
 impl Experiment {
-    /// An experiment from `fmi2SetupExperiment`'s arguments.
+    /// An experiment from an importer's arguments.
     pub fn new(tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Self, TimeError> {
         finite("startTime", start)?;
         if let Some(stop) = stop {
@@ -37,7 +38,7 @@ impl Experiment {
         Ok(Self { start, stop, tolerance })
     }
 
-    /// The same with a tolerance that the solver takes: the nearest.
+    /// The same with the nearest tolerance that the solver takes.
     pub fn limited(self) -> Self {
         let nearest = |tolerance: f64| match Parameter::named("solver.tolerance").map(|parameter| &parameter.kind) {
             Some(Kind::Real { min, max, .. }) => tolerance.clamp(*min, *max),
@@ -46,7 +47,7 @@ impl Experiment {
         Self { tolerance: self.tolerance.map(nearest), ..self }
     }
 
-    /// Whether an importer can have brought it about.
+    /// Whether an importer can have set it.
     pub fn is_sound(&self) -> bool {
         Self::new(self.tolerance, self.start, self.stop).map(Self::limited) == Ok(*self)
     }
@@ -68,6 +69,28 @@ impl Experiment {
             // A step below the rounding of time must not lead back.
             _ => Ok(end.max(reached)),
         }
+    }
+}
+
+/// A tolerance that the solver cannot meet, and the one it uses instead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    asked: f64,
+    granted: f64,
+}
+
+impl Limit {
+    /// What was limited, if anything.
+    pub fn between(asked: &Experiment, granted: &Experiment) -> Option<Self> {
+        let (asked, granted) = (asked.tolerance?, granted.tolerance?);
+        (asked != granted).then_some(Self { asked, granted })
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { asked, granted } = self;
+        write!(f, "tolerance {asked:?} is beyond the solver's range; {granted:?} is used")
     }
 }
 

@@ -1,7 +1,9 @@
-//! The importer's logger as a safe function.
+//! The importer's logger as a safe host of log lines.
 
 use super::super::status::Status;
 use super::types::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2ComponentEnvironment};
+use crate::fmi::slave::Severity;
+use crate::fmi::slave::log::Host;
 use std::ffi::CStr;
 
 /// The importer's logger, if it has one.
@@ -12,9 +14,6 @@ pub struct HostLogger {
 }
 
 impl HostLogger {
-    /// A logger that says nothing.
-    pub const SILENT: Self = Self { logger: None, environment: std::ptr::null_mut() };
-
     /// The logger among the importer's callbacks.
     ///
     /// # Safety
@@ -23,14 +22,16 @@ impl HostLogger {
     pub unsafe fn new(callbacks: &fmi2CallbackFunctions) -> Self {
         Self { logger: callbacks.logger, environment: callbacks.component_environment }
     }
+}
 
-    /// Hands one line to the importer.
-    pub fn log(&self, instance_name: &CStr, status: Status, category: &CStr, line: &CStr) {
+impl Host for HostLogger {
+    fn log(&self, instance_name: &CStr, severity: Severity, category: &CStr, line: &CStr) {
         if let Some(logger) = self.logger {
+            let status = Status::from(severity) as i32;
             let (name, category, line) = (instance_name.as_ptr(), category.as_ptr(), line.as_ptr());
             // SAFETY: `new` was promised that the function may be called; the strings end in zero
             // and outlive the call; the line has no conversions that would ask for more arguments.
-            unsafe { logger(self.environment, name, status as i32, category, line) }
+            unsafe { logger(self.environment, name, status, category, line) }
         }
     }
 }

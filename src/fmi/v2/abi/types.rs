@@ -33,7 +33,7 @@ pub const FMI2_TRUE: fmi2Boolean = 1;
 /// `fmi2False`.
 pub const FMI2_FALSE: fmi2Boolean = 0;
 /// `fmi2CoSimulation`.
-pub const FMI2_CO_SIMULATION: fmi2Type = 1;
+pub const FMI2_CO_SIMULATION: fmi2Type = super::super::instance::CO_SIMULATION;
 
 /// Takes a message to the user.
 pub type fmi2CallbackLogger = unsafe extern "C" fn(

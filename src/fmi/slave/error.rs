@@ -1,60 +1,45 @@
-//! Why a call is refused: each cause with the names and numbers that the importer needs.
+//! Why a slave refuses or breaks off: each cause with the names and numbers that the importer needs.
 
 mod display;
 
-use super::lifecycle::State;
-use super::status::StatusKind;
+use super::severity::Severity;
 use crate::scene::check::SceneError;
 use crate::scene::parameter::Refusal;
-use crate::scene::slot::SlotError;
 use crate::simulation::SimulationError;
 
 /// Why a call is refused or a step not finished.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A pointer from outside cannot be used.
-    Argument(ArgumentError),
     /// A value reference or a value cannot be used.
     Variable(VariableError),
-    /// The call does not belong in this state.
-    CallOrder(State),
-    /// The function belongs to model exchange.
-    ModelExchange,
-    /// Instantiation was asked for something else than this unit.
-    Instantiate(InstantiateError),
     /// A time or a tolerance cannot be used.
     Time(TimeError),
     /// The log category is not declared.
     Category(String),
-    /// The status asked for is not known here.
-    StatusKind(StatusKind),
-    /// A number that is no status kind.
-    NoStatusKind(i32),
     /// A saved state cannot be used.
-    FmuState(FmuStateError),
+    SavedState(SavedStateError),
     /// The parameters do not go together.
     Scene(SceneError),
     /// An output that is NaN or infinite.
-    NoNumber(&'static str, f64),
+    OutputNotFinite(&'static str, f64),
     /// The mechanism cannot start or go on.
     Simulation(SimulationError),
-    /// A fault of ours, with what is known of it.
-    Panic(String),
 }
 
-/// Why a pointer from outside cannot be used. Each holds the argument's name.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ArgumentError {
-    /// NULL where data are needed.
-    Null(&'static str),
-    /// Not where such a datum can lie.
-    Misaligned(&'static str),
-    /// More elements than any sensible call has.
-    TooLong(&'static str, usize),
-    /// Not UTF-8.
-    NotText(&'static str),
+impl Error {
+    /// How bad it is.
+    pub fn severity(&self) -> Severity {
+        match self {
+            Self::Variable(_)
+            | Self::Time(_)
+            | Self::Category(_)
+            | Self::SavedState(_)
+            | Self::Scene(_)
+            | Self::Simulation(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => Severity::Error,
+            Self::OutputNotFinite(..) | Self::Simulation(SimulationError::Integration { .. }) => Severity::Discard,
+        }
+    }
 }
 
 /// Why a value reference or a value cannot be used.
@@ -80,8 +65,8 @@ pub enum VariableError {
         write: bool,
         /// What it is: input, output or fixed parameter.
         causality: &'static str,
-        /// State of the instance.
-        state: State,
+        /// State of the importer's lifecycle.
+        state: &'static str,
     },
     /// NaN or infinite.
     NotFinite(&'static str, f64),
@@ -89,27 +74,8 @@ pub enum VariableError {
     Refused(Refusal),
     /// Derivatives are of order 1 only.
     Order(&'static str, i32),
-    /// The function is about the other kind of variable. The last field says which it needs.
+    /// The function is for another kind of variable. The last field says which it needs.
     Kind(&'static str, &'static str),
-}
-
-/// Why there is no instance.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum InstantiateError {
-    /// Not co-simulation.
-    Type(i32),
-    /// NULL or empty.
-    Name,
-    /// The packaged scene inside the library cannot be read.
-    Slot(SlotError),
-    /// The XML that the importer read is not this library's.
-    Guid {
-        /// The library's.
-        expected: String,
-        /// The importer's, if any.
-        given: Option<String>,
-    },
 }
 
 /// Why a time or a tolerance cannot be used.
@@ -127,11 +93,11 @@ pub enum TimeError {
         /// [s]
         stop: f64,
     },
-    /// The importer's communication point is not where the instance is.
+    /// The importer's communication point is not where the slave is.
     Elsewhere {
         /// [s] The importer's.
         given: f64,
-        /// [s] The instance's.
+        /// [s] The slave's.
         reached: f64,
     },
     /// The step would end after the experiment's stop time.
@@ -146,10 +112,10 @@ pub enum TimeError {
 /// Why a saved state cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum FmuStateError {
+pub enum SavedStateError {
     /// NULL.
     Null,
-    /// Not a live state of this instance.
+    /// Not a live state of this slave.
     Foreign,
     /// The buffer is shorter than the state.
     Buffer {
@@ -160,7 +126,7 @@ pub enum FmuStateError {
     },
     /// Too short or without our magic number.
     NotOurs,
-    /// Written by another version of the format.
+    /// Written in another version of the format.
     Version {
         /// Theirs.
         found: u32,
@@ -171,7 +137,7 @@ pub enum FmuStateError {
     Declaration,
     /// Cut or with bytes after the end.
     Length {
-        /// Bytes that the header tells of.
+        /// Bytes that the header promises.
         expected: usize,
         /// Bytes given.
         given: usize,
@@ -200,8 +166,7 @@ macro_rules! from {
 }
 
 from! {
-    ArgumentError => Argument, VariableError => Variable, InstantiateError => Instantiate,
-    TimeError => Time, FmuStateError => FmuState,
+    VariableError => Variable, TimeError => Time, SavedStateError => SavedState,
     SceneError => Scene, SimulationError => Simulation
 }
 
