@@ -1,11 +1,18 @@
 //! The rules of the README's "Invariants" that a program can check.
 #![allow(clippy::panic)]
 
+#[path = "tidy/imports.rs"]
+mod imports;
+
+use imports::{cycle, imports_within};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Longest file, in lines.
 const LONGEST: usize = 300;
+
+/// Folders whose files import one another in one direction.
+const WITHOUT_IMPORT_CYCLES: &[&str] = &["src/fmi"];
 
 #[test]
 fn the_integrator_knows_no_mechanism() {
@@ -21,6 +28,19 @@ fn the_model_knows_neither_fmi_nor_files() {
 fn nothing_below_the_face_knows_it() {
     for place in ["src/integrator", "src/model", "src/simulation", "src/scene"] {
         lacks(place, &["crate::fmi", "fmi2"]);
+    }
+}
+
+#[test]
+fn the_slave_knows_no_version_of_fmi() {
+    lacks("src/fmi/slave", &["::v2", "::v3", "fmi2", "fmi3", "extern "]);
+}
+
+#[test]
+fn no_file_imports_itself_by_way_of_others() {
+    for folder in WITHOUT_IMPORT_CYCLES {
+        let cycle = cycle(&imports_within(folder));
+        assert!(cycle.is_empty(), "{folder}: {}", cycle.join(" -> "));
     }
 }
 
