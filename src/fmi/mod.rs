@@ -11,8 +11,10 @@
 //!   ([`slave::Permission`]);
 //! - `status.rs`: the version's statuses, from [`slave::Severity`];
 //! - `instance.rs`: a [`slave::Slave`] with the version's state, each function a safe method;
-//! - `abi/`: the version's C types and the one list of its functions. Pointers are checked by
-//!   [`v2::abi::borrow`], and a component is lent to one call at a time by [`v2::abi::component`].
+//! - `abi/`: the version's C types and the one list of its functions, from which the macro of
+//!   `v2/abi/declare.rs` makes bodies, exports and types. Pointers are checked by [`v2::abi::borrow`],
+//!   a component is lent to one call at a time by [`v2::abi::component`], and panics end in
+//!   [`v2::abi::panic_guard`].
 //!
 //! A new kind of interface within FMI 2.0, such as model exchange, has its rows in `v2/lifecycle.rs`
 //! and its entries in `v2/abi/functions.rs` already; what it computes belongs to the slave.

@@ -1,7 +1,7 @@
-//! What one entry of the list of functions stands for.
+//! What one entry of a list of functions stands for.
 
 /// Declares the functions of a version of FMI. An entry is a function's signature in C and its body,
-/// which may be unsafe. From the entries the macro makes
+/// which is unsafe code under the argument given below. From the entries the macro makes
 /// - `function_types`: the C type of each function, under the function's name;
 /// - `bodies`: each function as this library has it;
 /// - `Functions`: a table of all of them, and their `NAMES`;
@@ -77,4 +77,4 @@ macro_rules! functions {
     };
 }
 
-pub(super) use functions;
+pub(crate) use functions;

@@ -1,5 +1,5 @@
-//! The list of the functions of FMI 2.0: an entry is a function's signature in C and its body, from
-//! which [`functions!`] makes the function, its export and its type.
+//! The list of the functions of FMI 2.0. An entry is a function's signature in C and its body; the macro
+//! of `declare.rs` makes the function, its export and its type from it.
 //!
 //! A body borrows what the pointers point to and calls a safe method of [`Instance`]; [`call`] does
 //! the rest: the lifecycle, panics, the log and the status.

@@ -5,13 +5,13 @@
 //! points to as many entries as the importer says, and that a component is a live one of ours) the
 //! importer vouches for by the standard.
 //!
-//! [`borrow`], [`component`] and [`panic_guard`] know no version of FMI.
+//! [`borrow`], [`component`], [`panic_guard`] and the macro of `declare.rs` know no version of FMI.
 #![allow(unsafe_code, reason = "pointers of the C interface")]
 
 pub mod borrow;
 pub mod call;
 pub mod component;
-mod declare;
+pub(crate) mod declare;
 pub mod dispatch_x86_64_v3;
 pub mod functions;
 pub mod host_logger;
