@@ -2,10 +2,10 @@
 //! inputs with slopes, outputs, derivatives and sensitivities.
 #![allow(unsafe_code, reason = "a counting allocator, and calls of the C functions")]
 
-use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::functions::{co_simulation::*, variables::*, *};
-use slidercrank::fmi::abi::types::*;
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::abi::functions::bodies::*;
+use slidercrank::fmi::v2::abi::types::*;
 use slidercrank::scene::slot;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

@@ -1,11 +1,18 @@
 //! The rules of the README's "Invariants" that a program can check.
 #![allow(clippy::panic)]
 
+#[path = "tidy/imports.rs"]
+mod imports;
+
+use imports::{cycle, imports_within};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Longest file, in lines.
 const LONGEST: usize = 300;
+
+/// Folders whose files import one another in one direction.
+const WITHOUT_IMPORT_CYCLES: &[&str] = &["src/fmi"];
 
 #[test]
 fn the_integrator_knows_no_mechanism() {
@@ -25,8 +32,21 @@ fn nothing_below_the_face_knows_it() {
 }
 
 #[test]
+fn the_slave_knows_no_version_of_fmi() {
+    lacks("src/fmi/slave", &["::v2", "::v3", "fmi2", "fmi3", "extern "]);
+}
+
+#[test]
+fn no_file_imports_itself_by_way_of_others() {
+    for folder in WITHOUT_IMPORT_CYCLES {
+        let cycle = cycle(&imports_within(folder));
+        assert!(cycle.is_empty(), "{folder}: {}", cycle.join(" -> "));
+    }
+}
+
+#[test]
 fn unsafe_code_lives_in_three_places() {
-    let allowed = ["src/fmi/abi", "fmu-harness/src/host/library.rs", "fmu-harness/peers"];
+    let allowed = ["src/fmi/v2/abi", "fmu-harness/src/host/library.rs", "fmu-harness/peers"];
     for file in ["src", "fmu-harness/src", "fmu-harness/peers"].into_iter().flat_map(sources) {
         if !allowed.iter().any(|place| file.strip_prefix(root()).is_ok_and(|path| path.starts_with(place))) {
             let text = read(&file);

@@ -6,7 +6,7 @@ use fmu_harness::package::archive::{Part, write};
 use fmu_harness::package::{Package, Stock};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
-use slidercrank::fmi::abi::newer;
+use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
 use std::fs;
 use tempfile::TempDir;
 
@@ -34,7 +34,7 @@ fn damaged(directory: &TempDir, package: &[u8], damage: fn(Vec<u8>) -> Vec<u8>) 
     fs::write(&file, package).expect("written");
     let mut archive = Archive::open(&file).expect("an archive");
     archive.unpack(&unpacked).expect("unpacked");
-    let is_newer = |name: &str| name.contains(newer::LEVEL);
+    let is_newer = |name: &str| name.contains(dispatch_x86_64_v3::LEVEL);
     assert_eq!(archive.names().iter().filter(|name| is_newer(name)).count(), 1);
     let content = |name: &str| {
         let bytes = fs::read(unpacked.join(name)).expect("read");

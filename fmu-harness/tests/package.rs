@@ -5,7 +5,7 @@ use fmu_harness::inspect::declared;
 use fmu_harness::package::Package;
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
-use slidercrank::fmi::abi::newer;
+use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use tempfile::TempDir;
@@ -65,7 +65,7 @@ fn everything_is_in_the_archive_and_the_description_is_first() {
     let archive = Archive::open(&file).expect("an archive");
     let names = archive.names();
     let binary = format!("binaries/{PLATFORM}/SliderCrank{}", std::env::consts::DLL_SUFFIX);
-    let newer = format!("binaries/{PLATFORM}/SliderCrank.{}.so", newer::LEVEL);
+    let newer = format!("binaries/{PLATFORM}/SliderCrank.{}.so", dispatch_x86_64_v3::LEVEL);
     let mut wanted = vec![
         "modelDescription.xml",
         "model.png",

@@ -1,25 +1,29 @@
-//! The FMI 2.0 co-simulation face: an importer's calls become safe methods of an [`Instance`].
+//! The FMI face: one slave, and a folder for each version of FMI that importers speak.
 //!
-//! `abi` turns pointers into borrows, [`lifecycle`] says which call is allowed when, the instance
-//! does what was asked, [`status`] turns its errors into the standard's statuses, and [`logger`]
-//! tells the importer why, in one line.
+//! | folder | what it knows |
+//! |---|---|
+//! | [`slave`] | values, experiment, inputs, saved states, errors and log of one slave; no version of FMI |
+//! | [`v2`] | FMI 2.0: lifecycle, statuses, C types, exported functions |
+//!
+//! A new version goes beside [`v2`], into a folder of its own (`v3`), and takes nothing from [`v2`] but
+//! the version-neutral part of its C boundary. The folder holds
+//! - `lifecycle.rs`: the version's table of calls and states, which also says what a call may touch
+//!   ([`slave::Permission`]);
+//! - `status.rs`: the version's statuses, from [`slave::Severity`];
+//! - `instance.rs`: a [`slave::Slave`] with the version's state, each function a safe method;
+//! - `abi/`: the version's C types and the one list of its functions, from which the macro of
+//!   `v2/abi/declare.rs` makes bodies, exports and types. Pointers are checked by [`v2::abi::borrow`],
+//!   a component is lent to one call at a time by [`v2::abi::component`], and panics end in
+//!   [`v2::abi::panic_guard`].
+//!
+//! A new kind of interface within FMI 2.0, such as model exchange, has its rows in `v2/lifecycle.rs`
+//! and its entries in `v2/abi/functions.rs` already; what it computes belongs to the slave.
+//!
+//! Dependencies point one way: a version imports [`slave`], and [`slave`] imports no version.
+//! `unsafe` lives in `abi` alone, and no panic crosses it.
 //!
 //! A refused call changes nothing: values set together are applied all or none, and an instance that
-//! answered `fmi2Error` is where it was before, so that the importer may correct the call.
+//! answered with an error is where it was before, so that the importer may correct the call.
 
-pub mod abi;
-pub mod description;
-pub mod error;
-pub mod experiment;
-pub mod fmu_state;
-pub mod inputs;
-pub mod instance;
-pub mod lifecycle;
-pub mod logger;
-pub mod resource_location;
-pub mod status;
-pub mod variables;
-
-pub use error::Error;
-pub use instance::Instance;
-pub use status::Status;
+pub mod slave;
+pub mod v2;

@@ -3,7 +3,7 @@
 use crate::host::api::Api;
 use crate::host::guid;
 use crate::host::log::Log;
-use slidercrank::fmi::abi::types::fmi2CallbackFunctions;
+use slidercrank::fmi::v2::abi::types::fmi2CallbackFunctions;
 use std::ffi::{CStr, CString};
 use std::ptr::null;
 

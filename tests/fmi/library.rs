@@ -2,17 +2,21 @@
 
 use crate::host::api::Api;
 use crate::host::library;
-use slidercrank::fmi::lifecycle::Call;
+use slidercrank::fmi::v2::abi::functions::Functions;
+use slidercrank::fmi::v2::lifecycle::Call;
 use std::process::Command;
 
 #[test]
-fn the_list_of_calls_is_the_list_of_functions() {
+fn the_library_the_lifecycle_and_the_standard_have_the_same_functions() {
     let mut calls: Vec<_> = Call::ALL.iter().map(|call| call.name()).collect();
     let mut functions = Api::NAMES.to_vec();
     calls.sort_unstable();
     functions.sort_unstable();
     assert_eq!(calls, functions);
     assert_eq!(calls.len(), 44);
+    let mut declared = Functions::NAMES.to_vec();
+    declared.sort_unstable();
+    assert_eq!(declared, functions);
 }
 
 #[test]

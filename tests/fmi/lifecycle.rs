@@ -1,6 +1,6 @@
 //! The table of calls and states, against the standard's told the other way round: by state.
 
-use slidercrank::fmi::lifecycle::{Call, State, Touch};
+use slidercrank::fmi::v2::lifecycle::{Call, State, Touch};
 
 use Call::*;
 

@@ -3,8 +3,8 @@
 use crate::host::Slave;
 use crate::host::api::Api;
 use crate::host::log::variadic;
-use slidercrank::fmi::Status;
-use slidercrank::fmi::variables::LogCategory;
+use slidercrank::fmi::slave::variables::LogCategory;
+use slidercrank::fmi::v2::Status;
 use std::ffi::CString;
 
 fn choose(slave: &Slave, on: i32, names: &[&str]) -> Status {
@@ -84,7 +84,7 @@ fn a_line_names_call_variable_and_cause() {
 
 #[test]
 fn a_logger_that_calls_back_is_refused() {
-    use slidercrank::fmi::abi::types::*;
+    use slidercrank::fmi::v2::abi::types::*;
     use std::ffi::{c_int, c_void};
     use std::sync::atomic::{AtomicPtr, Ordering};
     unsafe extern "C" fn call_back(e: *mut c_void, _: fmi2String, _: c_int, _: fmi2String, _: fmi2String) {

@@ -10,6 +10,7 @@ mod instantiate;
 mod library;
 mod lifecycle;
 mod logging;
+mod slave;
 mod states;
 mod steps;
 mod threads;

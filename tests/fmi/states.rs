@@ -1,11 +1,10 @@
 //! Saved states: the run goes on as if never stopped.
 
 use crate::host::Slave;
-use slidercrank::fmi::Status;
-use slidercrank::fmi::experiment::Experiment;
-use slidercrank::fmi::fmu_state::FmuState;
-use slidercrank::fmi::inputs::InputLines;
-use slidercrank::fmi::lifecycle::State;
+use slidercrank::fmi::slave::Settings;
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::fmu_state::FmuState;
+use slidercrank::fmi::v2::lifecycle::State;
 use slidercrank::scene::Scene;
 use std::ptr::null_mut;
 
@@ -146,9 +145,7 @@ fn a_scene_s_modes_are_part_of_its_states() {
     scene.energy.audit = true;
     let state = FmuState {
         state: State::InitializationMode,
-        scene,
-        experiment: Experiment::default(),
-        inputs: InputLines::default(),
+        settings: Settings::of(scene),
         last_step: Status::Ok,
         snapshot: None,
     };

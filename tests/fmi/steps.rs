@@ -1,7 +1,7 @@
 //! Communication points, stop time, and steps that fail.
 
 use crate::host::Slave;
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 
 /// The next number above.
 fn up(x: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Several instances: interleaved, made here and freed there.
 
 use crate::host::Slave;
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 use std::thread;
 
 const H: f64 = 1e-4;

@@ -1,8 +1,8 @@
 //! Start values, inputs and outputs.
 
 use crate::host::{Slave, vr};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
+use slidercrank::fmi::v2::Status;
 use slidercrank::scene::parameter::{Kind, Parameter};
 
 #[test]

@@ -1,6 +1,6 @@
 //! The importer's logger.
 
-use slidercrank::fmi::abi::types::*;
+use slidercrank::fmi::v2::abi::types::*;
 use std::ffi::{CStr, c_int, c_void};
 use std::sync::Mutex;
 

@@ -7,9 +7,9 @@ pub mod log;
 
 use api::Api;
 use log::Log;
-use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::types::*;
-use slidercrank::fmi::variables::VARIABLES;
+use slidercrank::fmi::slave::variables::VARIABLES;
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::abi::types::*;
 use slidercrank::scene::slot;
 use std::ffi::{CString, c_char};
 use std::path::PathBuf;
@@ -250,7 +250,7 @@ impl Slave {
 
     /// Every real output and input, as bits.
     pub fn picture(&self) -> Vec<u64> {
-        use slidercrank::fmi::variables::Access;
+        use slidercrank::fmi::slave::variables::Access;
         let real = VARIABLES.iter().filter(|v| matches!(v.access, Access::RealOutput(_) | Access::Input { .. }));
         real.map(|variable| self.get(variable.name).to_bits()).collect()
     }

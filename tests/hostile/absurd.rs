@@ -3,8 +3,8 @@
 use crate::brief;
 use crate::host::{Slave, vr};
 use crate::scenes::{MECHANISMS, Mechanism};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
+use slidercrank::fmi::v2::Status;
 
 /// [s]
 const H: f64 = 1e-3;

@@ -7,9 +7,9 @@ use crate::invoke::{NULL, Word};
 use crate::stage::{Stage, odd};
 use numbers::{communication, experiment};
 use references::References;
-use slidercrank::fmi::Status;
-use slidercrank::fmi::lifecycle::Call;
-use slidercrank::fmi::lifecycle::Call::*;
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::lifecycle::Call;
+use slidercrank::fmi::v2::lifecycle::Call::*;
 use std::ptr::without_provenance_mut;
 
 /// What a value is refused for.

@@ -3,7 +3,7 @@
 use crate::brief;
 use crate::host::Slave;
 use crate::scenes::MECHANISMS;
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 
 /// What the magic and the format's version take, and the digest of the declaration after them.
 const VERSION: std::ops::Range<usize> = 8..12;

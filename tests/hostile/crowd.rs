@@ -3,7 +3,7 @@
 use crate::brief;
 use crate::host::Slave;
 use crate::scenes::MECHANISMS;
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 use std::sync::Barrier;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;

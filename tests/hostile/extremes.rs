@@ -7,7 +7,7 @@ use crate::host::Slave;
 use crate::scenes::MECHANISMS;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 use slidercrank::scene::PARAMETERS;
 use slidercrank::scene::parameter::{Kind, Parameter};
 

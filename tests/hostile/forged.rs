@@ -7,9 +7,9 @@ use crate::scenes::MECHANISMS;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::fmu_state::FmuState;
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::fmu_state::FmuState;
 use slidercrank::simulation::Snapshot;
 use std::ops::Range;
 

@@ -1,9 +1,9 @@
 //! Any function of the standard with any arguments: the words of a call, made into its types.
 
 use crate::host::api::{Api, C, S};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::types::*;
-use slidercrank::fmi::lifecycle::Call;
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::abi::types::*;
+use slidercrank::fmi::v2::lifecycle::Call;
 use std::ffi::{c_char, c_void};
 
 /// One argument.

@@ -3,7 +3,7 @@
 use crate::brief;
 use crate::host::Slave;
 use crate::scenes::MECHANISMS;
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::process::Command;

@@ -5,9 +5,10 @@ use crate::bytes::{HEADER, resealed};
 use crate::forged::{Fate, begun, fate};
 use crate::host::Slave;
 use crate::scenes::MECHANISMS;
-use slidercrank::fmi::Status;
-use slidercrank::fmi::fmu_state::FmuState;
-use slidercrank::fmi::lifecycle::State;
+use slidercrank::fmi::slave::Settings;
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::fmu_state::FmuState;
+use slidercrank::fmi::v2::lifecycle::State;
 
 /// Number of pieces that [`mixed`] takes from either state.
 const PIECES: usize = 6;
@@ -17,9 +18,11 @@ fn mixed(one: &FmuState, other: &FmuState, bits: usize) -> FmuState {
     let of = |piece: usize| if bits >> piece & 1 == 1 { other } else { one };
     FmuState {
         state: of(0).state,
-        scene: of(1).scene.clone(),
-        experiment: of(2).experiment,
-        inputs: of(3).inputs,
+        settings: Settings {
+            scene: of(1).settings.scene.clone(),
+            experiment: of(2).settings.experiment,
+            inputs: of(3).settings.inputs,
+        },
         last_step: of(4).last_step,
         snapshot: of(5).snapshot.clone(),
     }

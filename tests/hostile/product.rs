@@ -6,9 +6,9 @@ use crate::brief;
 use crate::host::{Slave, log::Line};
 use crate::invoke::{Word, invoke};
 use crate::stage::{STATES, Stage};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::types::fmi2FMUstate;
-use slidercrank::fmi::lifecycle::{Call, State};
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
+use slidercrank::fmi::v2::lifecycle::{Call, State};
 
 /// What a call must answer.
 struct Verdict {

@@ -5,9 +5,9 @@ use crate::host::Slave;
 use crate::scenes::MECHANISMS;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::types::fmi2FMUstate;
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
 
 /// What a host does.
 #[derive(Clone, Debug)]

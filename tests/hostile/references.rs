@@ -2,10 +2,10 @@
 
 use crate::host::{Slave, vr};
 use crate::stage::{STATES, Stage};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::lifecycle::Call::{self, *};
-use slidercrank::fmi::lifecycle::Touch;
-use slidercrank::fmi::variables::{Access, VARIABLES, Variable};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES, Variable};
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::lifecycle::Call::{self, *};
+use slidercrank::fmi::v2::lifecycle::Touch;
 use slidercrank::scene::parameter::{Kind, Parameter};
 
 /// What a variable is to the functions that reach it.

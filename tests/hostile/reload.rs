@@ -4,7 +4,7 @@ use crate::brief;
 use crate::host::api::Api;
 use crate::host::{Slave, library};
 use libloading::Library;
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 
 /// [s]
 const H: f64 = 1e-4;

@@ -1,7 +1,7 @@
 //! Mechanisms that differ in all that a saved state holds.
 
 use crate::host::Slave;
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 
 /// A mechanism, by what its start values differ in.
 pub struct Mechanism {

@@ -2,10 +2,10 @@
 
 use crate::host::Slave;
 use crate::invoke::{NULL, Word};
-use slidercrank::fmi::Status;
-use slidercrank::fmi::abi::types::fmi2FMUstate;
-use slidercrank::fmi::fmu_state::FmuState;
-use slidercrank::fmi::lifecycle::State;
+use slidercrank::fmi::v2::Status;
+use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
+use slidercrank::fmi::v2::fmu_state::FmuState;
+use slidercrank::fmi::v2::lifecycle::State;
 use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::CString;

@@ -1,7 +1,7 @@
 //! What an output depends on is what the description says: a parameter or input that is not on its list
 //! does not move it.
 
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::model_description::{self, rows::Role};
 use slidercrank::scene::parameter::{Kind, Parameter};

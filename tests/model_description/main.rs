@@ -5,8 +5,8 @@ mod dependencies;
 mod rules;
 
 use rules::problems;
-use slidercrank::fmi::description::{declared_experiment, documentation, model_description};
-use slidercrank::fmi::variables::{Access, LogCategory, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, LogCategory, VARIABLES};
+use slidercrank::fmi::v2::description::{declared_experiment, documentation, model_description};
 use slidercrank::model_description::rows::read;
 use slidercrank::scene::parameter::Kind;
 use slidercrank::scene::{PARAMETERS, Scene, slot};

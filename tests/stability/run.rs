@@ -1,6 +1,6 @@
 //! A scene file through a simulation, communication point by communication point, as a host does it.
 
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::Scene;
 use slidercrank::scene::read::{SceneFile, read};

@@ -4,11 +4,11 @@
 //! `cargo fuzz` wants a nightly compiler, or one that lets itself be taken for one:
 //! `cd fmu-harness && RUSTC_BOOTSTRAP=1 cargo fuzz run scene fuzz/seeds/scene -- -max_total_time=120`.
 
-use slidercrank::fmi::abi::host_logger::HostLogger;
-use slidercrank::fmi::fmu_state::FmuState;
-use slidercrank::fmi::instance::{Instance, Request};
-use slidercrank::fmi::lifecycle::Call;
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::log::Silent;
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
+use slidercrank::fmi::v2::fmu_state::FmuState;
+use slidercrank::fmi::v2::instance::{Instance, Request};
+use slidercrank::fmi::v2::lifecycle::Call;
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::read::{SceneFile, read_with};
 use slidercrank::scene::slot;
@@ -64,7 +64,7 @@ pub fn state(data: &[u8]) {
     let own = saved(&mut instance, kind >> 1);
     let bytes = if kind & 1 == 0 { sealed(&own, rest) } else { edited(&own, rest) };
     let Ok(mut state) = FmuState::from_bytes(&bytes) else { return };
-    state.scene.solver.max_evaluations = EVALUATIONS;
+    state.settings.scene.solver.max_evaluations = EVALUATIONS;
     let bytes = state.to_bytes().expect("what was read can be written");
     let handle = instance.deserialize(&bytes, 0).expect("its own bytes");
     if instance.set_fmu_state(handle).is_err() {
@@ -99,15 +99,9 @@ fn look(instance: &mut Instance) {
 fn instance() -> Instance {
     let (_, guid) = slot::read().expect("a packaged scene");
     let (name, guid) = (CString::new("fuzz").expect("no zero"), CString::new(guid).expect("no zero"));
-    let request = Request {
-        name: Some(&name),
-        fmu_type: 1,
-        guid: Some(&guid),
-        resource_location: None,
-        host: HostLogger::SILENT,
-        logging_on: false,
-    };
-    Instance::instantiate(&request).expect("an instance")
+    let request =
+        Request { name: Some(&name), fmu_type: 1, guid: Some(&guid), resource_location: None, logging_on: false };
+    Instance::instantiate(&request, Box::new(Silent)).expect("an instance")
 }
 
 /// The bytes of an instance with joints, drive, method and rod by the bits of `kind`, after some steps.

@@ -4,7 +4,7 @@
 //! as steps succeed, and outputs after a step that did not, too; a state saved on the way goes on to the bit; where the
 //! energy is audited and the method keeps to a tolerance, its balance closes.
 
-use slidercrank::fmi::variables::{Access, VARIABLES};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::{Method, Scene};

@@ -1,7 +1,7 @@
 //! The FMU's library, built by cargo so that its bytes do not tell where it was built.
 
 use anyhow::{Context, Result, ensure};
-use slidercrank::fmi::abi::newer;
+use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
 use std::env;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub fn cargo() -> Command {
 pub struct Libraries {
     /// For every processor of this platform.
     pub every: PathBuf,
-    /// For newer ones, where the platform has levels of them; see [`newer`].
+    /// For newer ones, where the platform has levels of them; see [`dispatch_x86_64_v3`].
     pub newer: Option<PathBuf>,
 }
 
@@ -40,7 +40,7 @@ pub fn libraries() -> Result<Libraries> {
     let zig = zig_is_here();
     let levels = cfg!(all(target_os = "linux", target_arch = "x86_64"));
     let every = Build::start(&workspace, zig, None)?;
-    let newer = levels.then(|| Build::start(&workspace, zig, Some(newer::LEVEL))).transpose();
+    let newer = levels.then(|| Build::start(&workspace, zig, Some(dispatch_x86_64_v3::LEVEL))).transpose();
     let every = every.finish();
     let newer = newer?.map(Build::finish).transpose();
     Ok(Libraries { every: every?, newer: newer? })

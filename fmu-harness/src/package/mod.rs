@@ -9,8 +9,8 @@ use crate::scenes::Scenario;
 use anyhow::{Context, Result, bail};
 use archive::Part;
 use build::Libraries;
-use slidercrank::fmi::abi::newer;
-use slidercrank::fmi::description::documentation;
+use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
+use slidercrank::fmi::v2::description::documentation;
 use slidercrank::model_description::raw::Experiment;
 use slidercrank::model_description::rows::Declaration;
 use slidercrank::model_description::{self, xml};
@@ -86,7 +86,7 @@ impl Stock {
             Part::new("documentation/licenses/third-party.txt", self.third_party.as_str()),
         ];
         if let Some(library) = &self.newer {
-            let name = format!("binaries/{}/{identifier}.{}{DLL_SUFFIX}", platform()?, newer::LEVEL);
+            let name = format!("binaries/{}/{identifier}.{}{DLL_SUFFIX}", platform()?, dispatch_x86_64_v3::LEVEL);
             parts.insert(3, Part::new(name, with_scene(library)?));
         }
         if let Some(table) = &scene.rod.flexible.table {

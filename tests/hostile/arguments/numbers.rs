@@ -3,7 +3,7 @@
 use super::{Argument, Fault, Value, bad, flag, good};
 use crate::invoke::Word;
 use crate::stage::{STOP, Stage};
-use slidercrank::fmi::Status;
+use slidercrank::fmi::v2::Status;
 
 /// No times.
 pub const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];

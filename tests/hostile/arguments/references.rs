@@ -5,9 +5,9 @@ use super::{Argument, array, bad, count, good};
 use crate::host::vr;
 use crate::invoke::NULL;
 use crate::stage::Stage;
-use slidercrank::fmi::lifecycle::Call::{self, *};
-use slidercrank::fmi::lifecycle::Touch;
-use slidercrank::fmi::variables::VARIABLES;
+use slidercrank::fmi::slave::variables::VARIABLES;
+use slidercrank::fmi::v2::lifecycle::Call::{self, *};
+use slidercrank::fmi::v2::lifecycle::Touch;
 
 /// A function that takes value references, and the instance to call it on.
 pub struct References<'a> {

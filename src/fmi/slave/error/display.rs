@@ -1,0 +1,81 @@
+//! What the importer reads: each error in one line, with what was asked and what is allowed.
+
+use super::*;
+use crate::model_description::number::number;
+use std::fmt;
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Variable(error) => error.fmt(f),
+            Self::Time(error) => error.fmt(f),
+            Self::Category(name) => write!(f, "log category '{name}' is not declared"),
+            Self::SavedState(error) => error.fmt(f),
+            Self::Scene(error) => error.fmt(f),
+            Self::OutputNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
+            Self::Simulation(error) => error.fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for VariableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown(reference) => write!(f, "no variable has value reference {reference}"),
+            Self::Type { name, is, asked } => write!(f, "{name} is of type {is}, not {asked}"),
+            Self::Moment { name, write, causality, state } => {
+                let verb = if *write { "set" } else { "read" };
+                write!(f, "{name} ({causality}) cannot be {verb} in state '{state}'")
+            }
+            Self::NotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
+            Self::Refused(Refusal { name, found, allowed }) => {
+                write!(f, "{name} = {} is out of range; allowed: {allowed}", number(*found))
+            }
+            Self::Order(name, order) => write!(f, "derivative of order {order} of {name}: only order 1 is known"),
+            Self::Kind(name, needed) => write!(f, "{name} is not {needed}"),
+        }
+    }
+}
+
+impl fmt::Display for TimeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
+            Self::NotPositive(name, value) => write!(f, "{name} = {value:?} is not above 0"),
+            Self::StopBeforeStart { start, stop } => {
+                write!(f, "stopTime {stop:?} s lies before startTime {start:?} s")
+            }
+            Self::Elsewhere { given, reached } => {
+                write!(f, "currentCommunicationPoint {given:?} s is not the point reached, {reached:?} s")
+            }
+            Self::PastStop { end, stop } => {
+                write!(f, "the step ends at {end:?} s, after the stopTime {stop:?} s")
+            }
+        }
+    }
+}
+
+impl fmt::Display for SavedStateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Null => f.write_str("FMUstate is NULL"),
+            Self::Foreign => write!(
+                f,
+                "the FMUstate is not a live one of this instance; between instances, states travel serialized"
+            ),
+            Self::Buffer { given, needed } => {
+                write!(f, "the buffer has {given} bytes, the serialized state needs {needed}")
+            }
+            Self::NotOurs => write!(f, "these bytes are not a state of this FMU"),
+            Self::Version { found, known } => {
+                write!(f, "the state has format version {found}; this FMU reads version {known}")
+            }
+            Self::Declaration => f.write_str("the state is of an FMU with other variables"),
+            Self::Length { expected, given } => {
+                write!(f, "the state has {given} bytes instead of {expected}")
+            }
+            Self::Checksum => write!(f, "the state is damaged: its checksum does not match"),
+            Self::Content => write!(f, "the state's content contradicts itself"),
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Times and tolerance of the importer's experiment, and where a step ends.
+
+use super::error::TimeError;
+use crate::scene::parameter::{Kind, Parameter};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Times and tolerance that the importer defined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Experiment {
+    /// [s] Start time.
+    pub start: f64,
+    /// [s] No step may end later, if defined.
+    pub stop: Option<f64>,
+    /// Relative tolerance, if defined; it takes precedence over the scene's.
+    pub tolerance: Option<f64>,
+}
+
+/// Two times are the same communication point when they differ by less than this part of the step …
+const PART_OF_STEP: f64 = 1e-9;
+/// … or of the time itself. Importers that add steps up, multiply them, or read them from text
+/// differ by some 1e-13 (measured: `fmuCheck` sends h = 0.0099999999999993).
+const PART_OF_TIME: f64 = 1e-12;
+
+impl Experiment {
+    /// An experiment from an importer's arguments.
+    pub fn new(tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Self, TimeError> {
+        finite("startTime", start)?;
+        if let Some(stop) = stop {
+            finite("stopTime", stop)?;
+            if stop < start {
+                return Err(TimeError::StopBeforeStart { start, stop });
+            }
+        }
+        if let Some(tolerance) = tolerance {
+            positive("tolerance", tolerance)?;
+        }
+        Ok(Self { start, stop, tolerance })
+    }
+
+    /// The same with the nearest tolerance that the solver takes.
+    pub fn limited(self) -> Self {
+        let nearest = |tolerance: f64| match Parameter::named("solver.tolerance").map(|parameter| &parameter.kind) {
+            Some(Kind::Real { min, max, .. }) => tolerance.clamp(*min, *max),
+            _ => tolerance,
+        };
+        Self { tolerance: self.tolerance.map(nearest), ..self }
+    }
+
+    /// Whether an importer can have set it.
+    pub fn is_sound(&self) -> bool {
+        Self::new(self.tolerance, self.start, self.stop).map(Self::limited) == Ok(*self)
+    }
+
+    /// [s] Where a step of `size` from the importer's `point` ends, for an instance at `reached`.
+    ///
+    /// The standard's own step hc_s = (tc_i − tc_s) + hc_i from tc_s ends at the importer's next
+    /// point: so time is the importer's, and no rounding of ours adds up.
+    pub fn step_end(&self, reached: f64, point: f64, size: f64) -> Result<f64, TimeError> {
+        finite("currentCommunicationPoint", point)?;
+        positive("communicationStepSize", size)?;
+        if (point - reached).abs() > slack(size, point, reached) {
+            return Err(TimeError::Elsewhere { given: point, reached });
+        }
+        let end = point + size;
+        finite("the end of the step", end)?;
+        match self.stop {
+            Some(stop) if end - stop > slack(size, end, stop) => Err(TimeError::PastStop { end, stop }),
+            // A step below the rounding of time must not lead back.
+            _ => Ok(end.max(reached)),
+        }
+    }
+}
+
+/// A tolerance that the solver cannot meet, and the one it uses instead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    asked: f64,
+    granted: f64,
+}
+
+impl Limit {
+    /// What was limited, if anything.
+    pub fn between(asked: &Experiment, granted: &Experiment) -> Option<Self> {
+        let (asked, granted) = (asked.tolerance?, granted.tolerance?);
+        (asked != granted).then_some(Self { asked, granted })
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { asked, granted } = self;
+        write!(f, "tolerance {asked:?} is beyond the solver's range; {granted:?} is used")
+    }
+}
+
+/// [s] Difference up to which two times `a` and `b` are the same, seen from a step of `size`.
+fn slack(size: f64, a: f64, b: f64) -> f64 {
+    (PART_OF_STEP * size).max(PART_OF_TIME * a.abs().max(b.abs()))
+}
+
+fn finite(name: &'static str, value: f64) -> Result<(), TimeError> {
+    if value.is_finite() { Ok(()) } else { Err(TimeError::NotFinite(name, value)) }
+}
+
+fn positive(name: &'static str, value: f64) -> Result<(), TimeError> {
+    finite(name, value)?;
+    if value > 0.0 { Ok(()) } else { Err(TimeError::NotPositive(name, value)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FROM_TWO_TO_THREE: Experiment = Experiment { start: 2.0, stop: Some(3.0), tolerance: None };
+
+    #[test]
+    fn a_step_ends_at_the_importers_next_point() {
+        let end = FROM_TWO_TO_THREE.step_end(2.1, 2.1_f64.next_up(), 0.1);
+        assert_eq!(end, Ok(2.1_f64.next_up() + 0.1));
+    }
+
+    #[test]
+    fn the_last_step_may_overshoot_by_rounding_only() {
+        assert!(FROM_TWO_TO_THREE.step_end(2.9, 2.9, 3.0_f64.next_up() - 2.9).is_ok());
+        assert_eq!(FROM_TWO_TO_THREE.step_end(2.9, 2.9, 0.2), Err(TimeError::PastStop { end: 2.9 + 0.2, stop: 3.0 }));
+    }
+
+    #[test]
+    fn a_step_below_rounding_does_not_move_time() {
+        assert_eq!(FROM_TWO_TO_THREE.step_end(2.5, 2.5, 1e-30), Ok(2.5));
+        assert_eq!(FROM_TWO_TO_THREE.step_end(2.5, 2.5_f64.next_down(), 1e-30), Ok(2.5));
+    }
+}

@@ -1,0 +1,145 @@
+//! Inputs between communication points: u(t) = u + u̇·(t − t_set).
+//!
+//! Value and derivative set at one communication point belong together, in either order. A value
+//! set alone is held: its derivative becomes 0. A derivative set alone starts from the value
+//! reached. Where nothing is set the line goes on, and the simulation is left alone.
+
+use super::variables::{Access, VARIABLES};
+use crate::model::signals::Inputs;
+use crate::simulation::{Simulation, SimulationError};
+use serde::{Deserialize, Serialize};
+
+/// Every input as a straight line, from a point in time on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Lines {
+    values: Inputs,
+    rates: Inputs,
+}
+
+/// The inputs of an instance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InputLines {
+    /// [s] Where the lines in force have their values.
+    since: f64,
+    /// What the simulation follows.
+    in_force: Lines,
+    /// What is to be followed from this communication point on, if anything was set here.
+    wanted: Option<Lines>,
+    /// Derivatives set at this communication point; 0 where none has been set.
+    rates_set: Inputs,
+}
+
+impl Default for InputLines {
+    fn default() -> Self {
+        let mut in_force = Lines::default();
+        for variable in VARIABLES {
+            if let Access::Input { start, set, .. } = variable.access {
+                set(&mut in_force.values, start);
+            }
+        }
+        Self { since: 0.0, in_force, wanted: None, rates_set: Inputs::default() }
+    }
+}
+
+impl Lines {
+    /// These lines with their values at a point `later` seconds on.
+    fn shifted(&self, later: f64) -> Self {
+        let Self { values, rates } = *self;
+        let values = Inputs {
+            crank_torque: reached(values.crank_torque, rates.crank_torque, later),
+            slider_load: reached(values.slider_load, rates.slider_load, later),
+        };
+        Self { values, rates }
+    }
+
+    fn are_finite(&self) -> bool {
+        are_finite(&self.values) && are_finite(&self.rates)
+    }
+
+    fn same_bits(&self, other: &Self) -> bool {
+        let bits = |lines: &Self| {
+            let Self { values, rates } = lines;
+            [values.crank_torque, values.slider_load, rates.crank_torque, rates.slider_load].map(f64::to_bits)
+        };
+        bits(self) == bits(other)
+    }
+}
+
+/// Whether both are finite.
+pub fn are_finite(inputs: &Inputs) -> bool {
+    inputs.crank_torque.is_finite() && inputs.slider_load.is_finite()
+}
+
+/// Value of one line; a constant stays the same to the bit.
+fn reached(value: f64, rate: f64, later: f64) -> f64 {
+    if rate == 0.0 { value } else { value + rate * later }
+}
+
+impl InputLines {
+    /// Sets the value of an input at the communication point `time`.
+    pub fn set_value(&mut self, set: fn(&mut Inputs, f64), get: fn(&Inputs) -> f64, time: f64, value: f64) {
+        let mut lines = self.at(time);
+        set(&mut lines.values, value);
+        set(&mut lines.rates, get(&self.rates_set));
+        self.wanted = Some(lines);
+    }
+
+    /// Sets the first time derivative of an input at the communication point `time`.
+    pub fn set_rate(&mut self, set: fn(&mut Inputs, f64), time: f64, rate: f64) {
+        let mut lines = self.at(time);
+        set(&mut lines.rates, rate);
+        set(&mut self.rates_set, rate);
+        self.wanted = Some(lines);
+    }
+
+    /// Values at the communication point `time`.
+    pub fn values(&self, time: f64) -> Inputs {
+        self.at(time).values
+    }
+
+    /// Values at `later`, when nothing is set after the communication point `time`.
+    pub fn values_until(&self, time: f64, later: f64) -> Inputs {
+        self.at(time).shifted(later - time).values
+    }
+
+    /// Whether all of them are finite, as those that an importer can set are.
+    pub fn are_finite(&self) -> bool {
+        let Self { since, in_force, wanted, rates_set } = self;
+        let lines = [Some(in_force), wanted.as_ref()];
+        since.is_finite() && lines.into_iter().flatten().all(Lines::are_finite) && are_finite(rates_set)
+    }
+
+    /// Makes a simulation by `start` at `time`, with the inputs wanted there in force.
+    pub fn start(
+        &mut self,
+        time: f64,
+        start: impl FnOnce(Inputs) -> Result<Simulation, SimulationError>,
+    ) -> Result<Simulation, SimulationError> {
+        let lines = self.at(time);
+        let mut simulation = start(lines.values)?;
+        if lines.rates != Inputs::default() {
+            simulation.set_inputs(lines.values, lines.rates);
+        }
+        (self.since, self.in_force) = (time, lines);
+        Ok(simulation)
+    }
+
+    /// Passes to the simulation what was set at its communication point, if that changes anything.
+    pub fn pass_on(&mut self, simulation: &mut Simulation) {
+        let Some(lines) = self.wanted else { return };
+        let time = simulation.time();
+        if !lines.same_bits(&self.in_force.shifted(time - self.since)) {
+            simulation.set_inputs(lines.values, lines.rates);
+            (self.since, self.in_force) = (time, lines);
+        }
+    }
+
+    /// Closes the communication point: what is set from now on belongs to the next one.
+    pub fn move_on(&mut self) {
+        (self.wanted, self.rates_set) = (None, Inputs::default());
+    }
+
+    fn at(&self, time: f64) -> Lines {
+        self.wanted.unwrap_or_else(|| self.in_force.shifted(time - self.since))
+    }
+}

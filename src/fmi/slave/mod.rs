@@ -1,0 +1,296 @@
+//! One slave, whichever version of FMI its importer speaks.
+//!
+//! A [`Slave`] holds what an importer can set and the simulation that follows from it. It knows
+//! neither states of a lifecycle nor C types: a version of FMI says with each call what the call
+//! may touch ([`Permission`]), turns an [`Error`] into a status of its own, and keeps what else its
+//! lifecycle needs. Saved states, their bytes and the log serve every version as well.
+//!
+//! The scene is the ground state. Until initialization is over, setting a start value edits the
+//! scene and drops the simulation, which is made anew when an output is asked for; so outputs follow
+//! start values in initialization mode. From then on only inputs change.
+//!
+//! A refused call changes nothing: values set together are applied all or none.
+
+pub mod access;
+pub mod error;
+pub mod experiment;
+pub mod inputs;
+pub mod log;
+pub mod saved_states;
+pub mod sealed;
+pub mod settings;
+pub mod severity;
+pub mod variables;
+
+pub use access::{Permission, ValueType};
+pub use error::Error;
+pub use settings::Settings;
+pub use severity::Severity;
+
+use crate::model::signals::{Inputs, Outputs};
+use crate::scene::Scene;
+use crate::simulation::{Simulation, Snapshot};
+use access::{RealInput, check_first_order, finite, finite_output, real_input, real_output, typed, variable};
+use error::VariableError;
+use experiment::{Experiment, Limit};
+use inputs::are_finite;
+use variables::{Access, VARIABLES};
+
+/// One slave.
+pub struct Slave {
+    /// The scene that the FMU was packaged with.
+    packaged: Scene,
+    settings: Settings,
+    /// Whether initialization is over: parameters are fixed and the simulation is there.
+    initialized: bool,
+    /// Absent until an output is needed.
+    simulation: Option<Simulation>,
+    /// Outputs at this communication point, once they have been asked for.
+    outputs: Option<Outputs>,
+}
+
+impl Slave {
+    /// A slave with the start values of the packaged scene.
+    pub fn new(packaged: Scene) -> Self {
+        let settings = Settings::of(packaged.clone());
+        Self { packaged, settings, initialized: false, simulation: None, outputs: None }
+    }
+
+    /// As after [`Slave::new`].
+    pub fn reset(&mut self) {
+        self.settings = Settings::of(self.packaged.clone());
+        self.initialized = false;
+        (self.simulation, self.outputs) = (None, None);
+    }
+
+    /// [s] The communication point reached.
+    pub fn time(&self) -> f64 {
+        self.simulation.as_ref().map_or(self.settings.experiment.start, Simulation::time)
+    }
+
+    /// Sets times and tolerance. A tolerance that the solver cannot meet is limited: that limit.
+    pub fn set_up(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Option<Limit>, Error> {
+        let asked = Experiment::new(tolerance, start, stop)?;
+        let granted = asked.limited();
+        self.settings.experiment = granted;
+        Ok(Limit::between(&asked, &granted))
+    }
+
+    /// Fixes the parameters; the first step can follow. If the scene contradicts itself, the slave
+    /// stays as it was, so that the importer may correct it.
+    pub fn initialize(&mut self) -> Result<(), Error> {
+        self.live()?;
+        self.initialized = true;
+        Ok(())
+    }
+
+    /// Reads variables of one type, none if one of them is refused. Every value fits an `f64`: reals, 32-bit integers,
+    /// Booleans.
+    pub fn get<T>(
+        &mut self,
+        asked: ValueType,
+        permission: Permission,
+        references: &[u32],
+        values: &mut [T],
+        convert: fn(f64) -> T,
+    ) -> Result<(), Error> {
+        let mut outputs = false;
+        for &reference in references {
+            let variable = typed(reference, asked)?;
+            permission.check_read(variable)?;
+            outputs |= !matches!(variable.access, Access::Input { .. } | Access::Parameter(_));
+        }
+        if outputs {
+            self.outputs()?;
+        }
+        for (&reference, value) in references.iter().zip(values) {
+            let variable = variable(reference)?;
+            *value = convert(match &variable.access {
+                Access::Input { get, .. } => finite_output(variable, get(&self.settings.inputs.values(self.time())))?,
+                Access::RealOutput(get) => finite_output(variable, get(self.outputs()?))?,
+                Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
+                Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
+                Access::Parameter(parameter) => parameter.value(&self.settings.scene),
+            });
+        }
+        Ok(())
+    }
+
+    /// Writes variables of one type: into drafts first, which count once every value is legal.
+    pub fn set<T: Copy>(
+        &mut self,
+        asked: ValueType,
+        permission: Permission,
+        references: &[u32],
+        values: &[T],
+        convert: fn(T) -> f64,
+    ) -> Result<(), Error> {
+        // Inputs are set every step: the scene is copied only where one of its parameters is set.
+        let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.time());
+        for (&reference, &value) in references.iter().zip(values) {
+            let variable = typed(reference, asked)?;
+            permission.check_write(variable)?;
+            let value = finite(variable, convert(value))?;
+            match &variable.access {
+                Access::Input { get, set, .. } => inputs.set_value(*set, *get, time, value),
+                Access::Parameter(parameter) => {
+                    parameter.write(scene.get_or_insert_with(|| self.settings.scene.clone()), value)?;
+                }
+                // `check_write` lets no write to an output pass.
+                Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => {}
+            }
+        }
+        self.settings.inputs = inputs;
+        if let Some(scene) = scene {
+            self.settings.scene = scene;
+        }
+        self.drop_what_followed_from_settings();
+        Ok(())
+    }
+
+    /// Strings, of which there are none: only an empty list is right.
+    pub fn check_strings(&self, references: &[u32]) -> Result<(), Error> {
+        match references {
+            [] => Ok(()),
+            [first, ..] => {
+                let variable = variable(*first)?;
+                let is = ValueType::of(variable).name();
+                Err(VariableError::Type { name: variable.name, is, asked: "String" }.into())
+            }
+        }
+    }
+
+    /// Sets first time derivatives of real inputs.
+    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Error> {
+        let (mut inputs, time) = (self.settings.inputs, self.time());
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            let variable = variable(reference)?;
+            let RealInput { set, .. } = real_input(variable)?;
+            check_first_order(variable, order)?;
+            inputs.set_rate(set, time, finite(variable, value)?);
+        }
+        self.settings.inputs = inputs;
+        self.drop_what_followed_from_settings();
+        Ok(())
+    }
+
+    /// Reads first time derivatives of real outputs.
+    pub fn get_output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        for (&reference, &order) in references.iter().zip(orders) {
+            let variable = variable(reference)?;
+            real_output(variable)?;
+            check_first_order(variable, order)?;
+        }
+        let rates = self.live()?.output_rates();
+        fill(references, &rates, values)
+    }
+
+    /// Derivatives of real outputs along a direction of real inputs. An input named twice counts twice.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seeds: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        let mut direction = Inputs::default();
+        for (&known, &seed) in knowns.iter().zip(seeds) {
+            let variable = variable(known)?;
+            let RealInput { get, set } = real_input(variable)?;
+            let sum = get(&direction) + finite(variable, seed)?;
+            set(&mut direction, sum);
+        }
+        for &unknown in unknowns {
+            real_output(variable(unknown)?)?;
+        }
+        let sensitivity = self.live()?.output_sensitivity(direction);
+        fill(unknowns, &sensitivity, values)
+    }
+
+    /// [s] Where a step of `size` from the importer's `point` ends. A refusal changes nothing.
+    pub fn step_end(&self, point: f64, size: f64) -> Result<f64, Error> {
+        let end = self.settings.experiment.step_end(self.time(), point, size)?;
+        let inputs = self.settings.inputs.values_until(self.time(), end);
+        if !are_finite(&inputs) {
+            // Names the first input whose slope leads beyond all numbers.
+            VARIABLES.iter().try_for_each(|variable| match variable.access {
+                Access::Input { get, .. } => finite(variable, get(&inputs)).map(drop),
+                _ => Ok(()),
+            })?;
+        }
+        Ok(end)
+    }
+
+    /// Moves the slave to `end`, or as far as it gets.
+    pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
+        let outcome = self.live()?.advance_to(end);
+        self.settings.inputs.move_on();
+        self.outputs = None;
+        Ok(outcome?)
+    }
+
+    /// Everything that the slave is: what was set, and the simulation once initialization is over.
+    pub fn save(&self) -> (Settings, Option<Snapshot>) {
+        // While parameters can still change, the simulation is no more than a reading of the scene.
+        let running = if self.initialized { self.simulation.as_ref() } else { None };
+        (self.settings.clone(), running.map(Simulation::snapshot))
+    }
+
+    /// Makes the slave what it was when it was saved.
+    pub fn restore(&mut self, settings: &Settings, snapshot: Option<&Snapshot>) -> Result<(), Error> {
+        // The only part that can fail comes first.
+        self.simulation = match snapshot {
+            None => None,
+            Some(snapshot) => Some(Simulation::restore(&settings.simulated_scene()?, snapshot)?),
+        };
+        self.initialized = snapshot.is_some();
+        self.outputs = None;
+        self.settings = settings.clone();
+        Ok(())
+    }
+
+    /// The simulation, started if need be, with the inputs of this communication point.
+    fn live(&mut self) -> Result<&mut Simulation, Error> {
+        match &mut self.simulation {
+            Some(simulation) => {
+                self.settings.inputs.pass_on(simulation);
+                Ok(simulation)
+            }
+            absent => {
+                let time = self.settings.experiment.start;
+                let scene = self.settings.simulated_scene()?;
+                let start = |inputs| Simulation::start(&scene, time, inputs);
+                Ok(absent.insert(self.settings.inputs.start(time, start)?))
+            }
+        }
+    }
+
+    fn outputs(&mut self) -> Result<&Outputs, Error> {
+        if self.outputs.is_none() {
+            self.outputs = Some(self.live()?.outputs());
+        }
+        // There by now; a copy of them for each variable would cost more than making them.
+        Ok(self.outputs.get_or_insert_default())
+    }
+
+    fn drop_what_followed_from_settings(&mut self) {
+        self.outputs = None;
+        if !self.initialized {
+            self.simulation = None;
+        }
+    }
+}
+
+/// Hands out what the outputs of these references have in `source`, up to the first that is not finite.
+fn fill(references: &[u32], source: &Outputs, values: &mut [f64]) -> Result<(), Error> {
+    for (&reference, value) in references.iter().zip(values) {
+        let variable = variable(reference)?;
+        *value = finite_output(variable, real_output(variable)?(source))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,110 @@
+//! One call from C: lend the instance, admit the call, catch panics, log the error, return the status.
+
+use super::super::error::Error;
+use super::super::instance::Instance;
+use super::super::lifecycle::Call;
+use super::super::status::Status;
+use super::component;
+use super::panic_guard::guarded;
+use super::types::fmi2Component;
+
+/// Runs one call on a component. No panic gets past: a fault of ours ends the instance, not the
+/// importer.
+///
+/// # Safety
+/// As [`component::lend`].
+pub unsafe fn call<S: Into<Status>>(
+    component: fmi2Component,
+    call: Call,
+    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
+) -> Status {
+    // SAFETY: the caller vouches for the component.
+    match unsafe { component::lend::<Instance>(component) } {
+        // A NULL or busy component has no log that could be written to.
+        None => Status::Error,
+        Some(mut lent) => guarded(|| answer(lent.instance(), call, body)).unwrap_or(Status::Fatal),
+    }
+}
+
+fn answer<S: Into<Status>>(
+    instance: &mut Instance,
+    call: Call,
+    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
+) -> Status {
+    let outcome = guarded(|| {
+        instance.admit(call)?;
+        body(instance)
+    });
+    let outcome = outcome.unwrap_or_else(|fault| {
+        instance.give_up();
+        Err(Error::Panic(fault))
+    });
+    outcome.map_or_else(
+        |error| {
+            instance.logger().say(error.severity(), call.name(), &error);
+            Status::from(&error)
+        },
+        Into::into,
+    )
+}
+
+#[cfg(test)]
+#[allow(clippy::panic, reason = "faults on purpose")]
+mod tests {
+    use super::super::super::instance::{CO_SIMULATION, Request};
+    use super::super::super::lifecycle::State;
+    use super::super::component::{give, take_back};
+    use super::*;
+    use crate::fmi::slave::log::Silent;
+    use crate::scene::slot;
+    use std::ffi::CString;
+
+    fn instance() -> fmi2Component {
+        let guid = CString::new(slot::read().expect("a readable slot").1).expect("no zero");
+        let request = Request {
+            name: Some(c"x"),
+            fmu_type: CO_SIMULATION,
+            guid: Some(&guid),
+            resource_location: None,
+            logging_on: true,
+        };
+        give(Instance::instantiate(&request, Box::new(Silent)).expect("an instance"))
+    }
+
+    fn ask(c: fmi2Component, function: Call, body: fn(&mut Instance) -> Result<(), Error>) -> Status {
+        // SAFETY: the component is live.
+        unsafe { call(c, function, body) }
+    }
+
+    #[test]
+    fn a_panic_is_fatal_to_the_instance_and_to_nothing_else() {
+        let (c, other) = (instance(), instance());
+        let fault = |_: &mut Instance| std::panic::panic_any("a fault on purpose");
+        assert_eq!(ask(c, Call::Reset, fault), Status::Fatal);
+        for &function in Call::ALL.iter().filter(|&&function| function != Call::FreeInstance) {
+            assert_eq!(ask(c, function, |_| Ok(())), Status::Fatal, "{}", function.name());
+        }
+        assert_eq!(ask(other, Call::Reset, Instance::reset), Status::Ok);
+        for c in [c, other] {
+            // SAFETY: the component is live and not used again.
+            assert!(unsafe { take_back::<Instance>(c) }.is_some());
+        }
+    }
+
+    #[test]
+    fn a_step_that_meets_a_broken_promise_ends_in_the_error_state() {
+        let c = instance();
+        let broken = |instance: &mut Instance| {
+            instance.fail();
+            Ok(())
+        };
+        assert_eq!(ask(c, Call::Reset, broken), Status::Ok);
+        for &function in Call::ALL {
+            let expected = if function.allowed(State::Error) { Status::Ok } else { Status::Error };
+            assert_eq!(ask(c, function, |_| Ok(())), expected, "{}", function.name());
+        }
+        assert_eq!(ask(c, Call::Reset, Instance::reset), Status::Ok);
+        // SAFETY: the component is live and not used again.
+        drop(unsafe { take_back::<Instance>(c) });
+    }
+}

@@ -1,0 +1,298 @@
+//! The list of the functions of FMI 2.0. An entry is a function's signature in C and its body; the macro
+//! of `declare.rs` makes the function, its export and its type from it.
+//!
+//! A body borrows what the pointers point to and calls a safe method of [`Instance`]; [`call`] does
+//! the rest: the lifecycle, panics, the log and the status.
+//!
+//! # Safety
+//! Of all functions: a component is NULL or was made by `fmi2Instantiate` and not freed since; a
+//! non-NULL pointer points to as many entries as the standard says, and a string ends in a zero byte.
+#![allow(clippy::missing_safety_doc, reason = "said above, once")]
+#![allow(non_snake_case, non_camel_case_types, reason = "the names are the standard's")]
+
+use super::super::error::{ArgumentError, Error};
+use super::super::instance::{Instance, Request};
+use super::super::lifecycle::Call;
+use super::borrow::{place, slice, slice_mut, structure, text};
+use super::call::call;
+use super::component::take_back;
+use super::declare::functions;
+use super::dispatch_x86_64_v3::{self, Library};
+use super::host_logger::HostLogger;
+use super::instantiate::instantiate;
+use super::panic_guard::guarded;
+use super::types::*;
+use std::mem::transmute;
+use std::ptr::{null_mut, without_provenance_mut};
+use std::sync::OnceLock;
+
+functions! {
+    // The library.
+    /// "default": the types are those of the standard's header.
+    fmi2GetTypesPlatform() -> fmi2String { c"default".as_ptr() }
+    /// Version of the standard.
+    fmi2GetVersion() -> fmi2String { c"2.0".as_ptr() }
+
+    // An instance and its life cycle.
+    /// Makes an instance; NULL, and one line in the log, if that cannot be.
+    fmi2Instantiate(
+        instance_name: fmi2String, fmu_type: fmi2Type, guid: fmi2String, resource_location: fmi2String,
+        functions: *const fmi2CallbackFunctions, visible: fmi2Boolean, logging_on: fmi2Boolean,
+    ) -> fmi2Component {
+        let Ok(functions) = structure("functions", functions) else {
+            // Not even a logger to complain to.
+            return null_mut();
+        };
+        let request = Request {
+            name: text(instance_name),
+            fmu_type,
+            guid: text(guid),
+            resource_location: text(resource_location),
+            logging_on: logging_on != FMI2_FALSE,
+        };
+        let host = HostLogger::new(functions);
+        guarded(|| instantiate(&request, host)).unwrap_or(null_mut())
+    }
+    /// Frees an instance with all that belongs to it; NULL is allowed.
+    fmi2FreeInstance(c: fmi2Component) -> () {
+        let instance = take_back::<Instance>(c);
+        // What a panic in a destructor leaves behind is a leak at worst.
+        let _ = guarded(|| drop(instance));
+    }
+    /// Chooses the log categories that the importer receives.
+    fmi2SetDebugLogging(
+        c: fmi2Component, logging_on: fmi2Boolean, n_categories: usize, categories: *const fmi2String,
+    ) -> fmi2Status {
+        call(c, Call::SetDebugLogging, |instance| {
+            let pointers = slice("categories", categories, n_categories)?;
+            let names: Option<Vec<_>> = pointers.iter().map(|&pointer| text(pointer)).collect();
+            let names = names.ok_or(ArgumentError::Null("an entry of categories"))?;
+            instance.set_debug_logging(logging_on != FMI2_FALSE, &names)
+        })
+    }
+    /// Sets tolerance and times of the experiment.
+    fmi2SetupExperiment(
+        c: fmi2Component, tolerance_defined: fmi2Boolean, tolerance: fmi2Real, start_time: fmi2Real,
+        stop_time_defined: fmi2Boolean, stop_time: fmi2Real,
+    ) -> fmi2Status {
+        let tolerance = (tolerance_defined != FMI2_FALSE).then_some(tolerance);
+        let stop_time = (stop_time_defined != FMI2_FALSE).then_some(stop_time);
+        call(c, Call::SetupExperiment, |instance| instance.setup_experiment(tolerance, start_time, stop_time))
+    }
+    /// From now on outputs follow start values.
+    fmi2EnterInitializationMode(c: fmi2Component) -> fmi2Status {
+        call(c, Call::EnterInitializationMode, Instance::enter_initialization_mode)
+    }
+    /// Fixes the parameters; the first step can follow.
+    fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
+        call(c, Call::ExitInitializationMode, Instance::exit_initialization_mode)
+    }
+    /// Ends the run; values can still be read.
+    fmi2Terminate(c: fmi2Component) -> fmi2Status { call(c, Call::Terminate, Instance::terminate) }
+    /// Back to the state after instantiation.
+    fmi2Reset(c: fmi2Component) -> fmi2Status { call(c, Call::Reset, Instance::reset) }
+
+    // Values.
+    /// Reads reals.
+    fmi2GetReal(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Real) -> fmi2Status {
+        call(c, Call::GetReal, |instance| instance.get_real(slice("vr", vr, nvr)?, slice_mut("value", value, nvr)?))
+    }
+    /// Sets reals, all or none.
+    fmi2SetReal(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Real) -> fmi2Status {
+        call(c, Call::SetReal, |instance| instance.set_real(slice("vr", vr, nvr)?, slice("value", value, nvr)?))
+    }
+    /// Reads integers and enumerations.
+    fmi2GetInteger(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Integer) -> fmi2Status {
+        call(c, Call::GetInteger, |instance| {
+            instance.get_integer(slice("vr", vr, nvr)?, slice_mut("value", value, nvr)?)
+        })
+    }
+    /// Sets integers and enumerations, all or none.
+    fmi2SetInteger(
+        c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Integer,
+    ) -> fmi2Status {
+        call(c, Call::SetInteger, |instance| instance.set_integer(slice("vr", vr, nvr)?, slice("value", value, nvr)?))
+    }
+    /// Reads Booleans.
+    fmi2GetBoolean(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2Boolean) -> fmi2Status {
+        call(c, Call::GetBoolean, |instance| {
+            instance.get_boolean(slice("vr", vr, nvr)?, slice_mut("value", value, nvr)?)
+        })
+    }
+    /// Sets Booleans, all or none.
+    fmi2SetBoolean(
+        c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2Boolean,
+    ) -> fmi2Status {
+        call(c, Call::SetBoolean, |instance| instance.set_boolean(slice("vr", vr, nvr)?, slice("value", value, nvr)?))
+    }
+    /// No variable is a string, so only an empty list is right.
+    fmi2GetString(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *mut fmi2String) -> fmi2Status {
+        call(c, Call::GetString, |instance| instance.check_strings(slice("vr", vr, nvr)?))
+    }
+    /// No variable is a string, so only an empty list is right.
+    fmi2SetString(c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, value: *const fmi2String) -> fmi2Status {
+        call(c, Call::SetString, |instance| instance.check_strings(slice("vr", vr, nvr)?))
+    }
+    /// Sets first time derivatives of real inputs, all or none.
+    fmi2SetRealInputDerivatives(
+        c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, order: *const fmi2Integer,
+        value: *const fmi2Real,
+    ) -> fmi2Status {
+        call(c, Call::SetRealInputDerivatives, |instance| {
+            let (vr, order) = (slice("vr", vr, nvr)?, slice("order", order, nvr)?);
+            instance.set_input_derivatives(vr, order, slice("value", value, nvr)?)
+        })
+    }
+    /// Reads first time derivatives of real outputs.
+    fmi2GetRealOutputDerivatives(
+        c: fmi2Component, vr: *const fmi2ValueReference, nvr: usize, order: *const fmi2Integer,
+        value: *mut fmi2Real,
+    ) -> fmi2Status {
+        call(c, Call::GetRealOutputDerivatives, |instance| {
+            let (vr, order) = (slice("vr", vr, nvr)?, slice("order", order, nvr)?);
+            instance.get_output_derivatives(vr, order, slice_mut("value", value, nvr)?)
+        })
+    }
+    /// Derivatives of real outputs along a direction of real inputs.
+    fmi2GetDirectionalDerivative(
+        c: fmi2Component, unknown: *const fmi2ValueReference, n_unknown: usize, known: *const fmi2ValueReference,
+        n_known: usize, dv_known: *const fmi2Real, dv_unknown: *mut fmi2Real,
+    ) -> fmi2Status {
+        call(c, Call::GetDirectionalDerivative, |instance| {
+            instance.directional_derivative(
+                slice("vUnknown_ref", unknown, n_unknown)?,
+                slice("vKnown_ref", known, n_known)?,
+                slice("dvKnown", dv_known, n_known)?,
+                slice_mut("dvUnknown", dv_unknown, n_unknown)?,
+            )
+        })
+    }
+
+    // Steps and their outcome.
+    /// Moves the instance from the communication point by one step. The step is over when the call
+    /// returns, so nothing need be kept for a later question about an earlier point.
+    fmi2DoStep(
+        c: fmi2Component, current_communication_point: fmi2Real, communication_step_size: fmi2Real,
+        no_set_fmu_state_prior_to_current_point: fmi2Boolean,
+    ) -> fmi2Status {
+        call(c, Call::DoStep, |instance| instance.do_step(current_communication_point, communication_step_size))
+    }
+    /// No step is ever under way, so there is nothing to cancel: the lifecycle refuses this in every state.
+    fmi2CancelStep(c: fmi2Component) -> fmi2Status { call(c, Call::CancelStep, |_| Ok(())) }
+    /// Status of the last step.
+    fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut i32) -> fmi2Status {
+        call(c, Call::GetStatus, |instance| {
+            put(place("value", value)?, instance.step_status(s).map(|status| status as i32))
+        })
+    }
+    /// The time that the last step reached.
+    fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
+        call(c, Call::GetRealStatus, |instance| put(place("value", value)?, instance.real_status(s)))
+    }
+    /// The standard has no integer status.
+    fmi2GetIntegerStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Integer) -> fmi2Status {
+        call(c, Call::GetIntegerStatus, |instance| put(place("value", value)?, instance.absent_status(s)))
+    }
+    /// Whether the instance wants the simulation to end.
+    fmi2GetBooleanStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Boolean) -> fmi2Status {
+        call(c, Call::GetBooleanStatus, |instance| {
+            put(place("value", value)?, instance.boolean_status(s).map(fmi2Boolean::from))
+        })
+    }
+    /// The standard's only string status is about a step under way, and there never is one.
+    fmi2GetStringStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> fmi2Status {
+        call(c, Call::GetStringStatus, |instance| put(place("value", value)?, instance.absent_status(s)))
+    }
+
+    // Saved states. The importer holds handles, which are looked up and never followed.
+    /// Saves the instance: under the state given, or a new one if that is NULL.
+    fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> fmi2Status {
+        call(c, Call::GetFMUstate, |instance| {
+            let state = place("FMUstate", state)?;
+            let saved = instance.get_fmu_state(state.addr());
+            put(state, saved.map(without_provenance_mut))
+        })
+    }
+    /// Makes the instance what it was when the state was saved.
+    fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
+        call(c, Call::SetFMUstate, |instance| instance.set_fmu_state(state.addr()))
+    }
+    /// Forgets a state and sets it to NULL; NULL, and NULL for the place, are allowed.
+    fmi2FreeFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> fmi2Status {
+        call(c, Call::FreeFMUstate, |instance| {
+            if state.is_null() {
+                return Ok(());
+            }
+            let state = place("FMUstate", state)?;
+            let freed = instance.free_fmu_state(state.addr());
+            put(state, freed.map(|()| null_mut()))
+        })
+    }
+    /// Number of bytes that the state takes.
+    fmi2SerializedFMUstateSize(c: fmi2Component, state: fmi2FMUstate, size: *mut usize) -> fmi2Status {
+        call(c, Call::SerializedFMUstateSize, |instance| {
+            put(place("size", size)?, instance.serialized_size(state.addr()))
+        })
+    }
+    /// Writes the state as bytes.
+    fmi2SerializeFMUstate(c: fmi2Component, state: fmi2FMUstate, bytes: *mut fmi2Byte, size: usize) -> fmi2Status {
+        call(c, Call::SerializeFMUstate, |instance| {
+            instance.serialize(state.addr(), slice_mut("serializedState", bytes.cast::<u8>(), size)?)
+        })
+    }
+    /// Reads bytes as a state: into the state given, or a new one if that is NULL.
+    fmi2DeSerializeFMUstate(
+        c: fmi2Component, bytes: *const fmi2Byte, size: usize, state: *mut fmi2FMUstate,
+    ) -> fmi2Status {
+        call(c, Call::DeSerializeFMUstate, |instance| {
+            let bytes = slice("serializedState", bytes.cast::<u8>(), size)?;
+            let state = place("FMUstate", state)?;
+            let saved = instance.deserialize(bytes, state.addr());
+            put(state, saved.map(without_provenance_mut))
+        })
+    }
+
+    // Model exchange. Some importers bind these functions blindly, so the library exports them; the lifecycle refuses
+    // them in every state.
+    fmi2EnterEventMode(c: fmi2Component) -> fmi2Status { call(c, Call::EnterEventMode, |_| Ok(())) }
+    fmi2NewDiscreteStates(c: fmi2Component, event_info: *mut fmi2EventInfo) -> fmi2Status {
+        call(c, Call::NewDiscreteStates, |_| Ok(()))
+    }
+    fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2Status { call(c, Call::EnterContinuousTimeMode, |_| Ok(())) }
+    fmi2CompletedIntegratorStep(
+        c: fmi2Component, no_set_fmu_state_prior_to_current_point: fmi2Boolean,
+        enter_event_mode: *mut fmi2Boolean, terminate_simulation: *mut fmi2Boolean,
+    ) -> fmi2Status {
+        call(c, Call::CompletedIntegratorStep, |_| Ok(()))
+    }
+    fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2Status { call(c, Call::SetTime, |_| Ok(())) }
+    fmi2SetContinuousStates(c: fmi2Component, x: *const fmi2Real, nx: usize) -> fmi2Status {
+        call(c, Call::SetContinuousStates, |_| Ok(()))
+    }
+    fmi2GetDerivatives(c: fmi2Component, derivatives: *mut fmi2Real, nx: usize) -> fmi2Status {
+        call(c, Call::GetDerivatives, |_| Ok(()))
+    }
+    fmi2GetEventIndicators(c: fmi2Component, event_indicators: *mut fmi2Real, ni: usize) -> fmi2Status {
+        call(c, Call::GetEventIndicators, |_| Ok(()))
+    }
+    fmi2GetContinuousStates(c: fmi2Component, x: *mut fmi2Real, nx: usize) -> fmi2Status {
+        call(c, Call::GetContinuousStates, |_| Ok(()))
+    }
+    fmi2GetNominalsOfContinuousStates(c: fmi2Component, x_nominal: *mut fmi2Real, nx: usize) -> fmi2Status {
+        call(c, Call::GetNominalsOfContinuousStates, |_| Ok(()))
+    }
+}
+
+/// The functions that the exports call: those of the build for newer processors where that can run,
+/// else those of this library. The choice is made once, at the first call, for the whole process.
+fn in_use() -> &'static Functions {
+    static IN_USE: OnceLock<Functions> = OnceLock::new();
+    let choose = || dispatch_x86_64_v3::open().and_then(|library| Functions::of(&library));
+    IN_USE.get_or_init(|| guarded(choose).ok().flatten().unwrap_or(Functions::OWN))
+}
+
+/// Writes a value, if there is one.
+fn put<T>(place: &mut T, value: Result<T, Error>) -> Result<(), Error> {
+    *place = value?;
+    Ok(())
+}

@@ -1,0 +1,27 @@
+//! An instance for the importer, or the reason why there is none.
+
+use super::super::error::Error;
+use super::super::instance::{Instance, Request};
+use super::super::lifecycle::Call;
+use super::component::give;
+use super::host_logger::HostLogger;
+use super::panic_guard::guarded;
+use super::types::fmi2Component;
+use crate::fmi::slave::log::Logger;
+use std::ffi::CString;
+use std::ptr::null_mut;
+
+/// Makes an instance whose messages go to `host`; NULL, and one line in the log, if that cannot be.
+pub fn instantiate(request: &Request<'_>, host: HostLogger) -> fmi2Component {
+    let made = guarded(|| Instance::instantiate(request, Box::new(host)));
+    match made.unwrap_or_else(|fault| Err(Error::Panic(fault))) {
+        Ok(instance) => give(instance),
+        Err(error) => {
+            // There is no instance to ask for the reason, so it is logged whether logging is on or not.
+            let name = request.name.map(CString::from).unwrap_or_default();
+            let logger = Logger::new(Box::new(host), name, true);
+            logger.say(error.severity(), Call::Instantiate.name(), &error);
+            null_mut()
+        }
+    }
+}

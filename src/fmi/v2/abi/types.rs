@@ -1,0 +1,80 @@
+//! The C types of `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h`, platform "default".
+#![allow(non_camel_case_types, reason = "the names are the standard's")]
+
+use std::ffi::{c_char, c_int, c_uint, c_void};
+
+/// An instance of ours, opaque to the importer.
+pub type fmi2Component = *mut c_void;
+/// The importer's own datum, opaque to us.
+pub type fmi2ComponentEnvironment = *mut c_void;
+/// A saved state of ours, opaque to the importer.
+pub type fmi2FMUstate = *mut c_void;
+/// Number of a variable.
+pub type fmi2ValueReference = c_uint;
+/// A real number.
+pub type fmi2Real = f64;
+/// An integer or the value of an enumeration.
+pub type fmi2Integer = c_int;
+/// 0 is false, everything else true.
+pub type fmi2Boolean = c_int;
+/// UTF-8, ended by a zero byte.
+pub type fmi2String = *const c_char;
+/// A byte of a serialized state.
+pub type fmi2Byte = c_char;
+/// What a call answers.
+pub type fmi2Status = super::super::status::Status;
+/// `fmi2ModelExchange` = 0, `fmi2CoSimulation` = 1. A plain integer, since anything may come.
+pub type fmi2Type = c_int;
+/// Which status is asked for. A plain integer, since anything may come.
+pub type fmi2StatusKind = c_int;
+
+/// `fmi2True`.
+pub const FMI2_TRUE: fmi2Boolean = 1;
+/// `fmi2False`.
+pub const FMI2_FALSE: fmi2Boolean = 0;
+/// `fmi2CoSimulation`.
+pub const FMI2_CO_SIMULATION: fmi2Type = super::super::instance::CO_SIMULATION;
+
+/// Takes a message to the user.
+pub type fmi2CallbackLogger = unsafe extern "C" fn(
+    component_environment: fmi2ComponentEnvironment,
+    instance_name: fmi2String,
+    status: c_int,
+    category: fmi2String,
+    message: fmi2String,
+    ...
+);
+/// The importer's `calloc`, which we leave alone.
+pub type fmi2CallbackAllocateMemory = unsafe extern "C" fn(count: usize, size: usize) -> *mut c_void;
+/// The importer's `free`, which we leave alone.
+pub type fmi2CallbackFreeMemory = unsafe extern "C" fn(memory: *mut c_void);
+/// Called at the end of an asynchronous step, of which we have none.
+pub type fmi2StepFinished = unsafe extern "C" fn(environment: fmi2ComponentEnvironment, status: c_int);
+
+/// What the importer lends us. Every function may be NULL.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct fmi2CallbackFunctions {
+    /// Takes messages.
+    pub logger: Option<fmi2CallbackLogger>,
+    /// Unused.
+    pub allocate_memory: Option<fmi2CallbackAllocateMemory>,
+    /// Unused.
+    pub free_memory: Option<fmi2CallbackFreeMemory>,
+    /// Unused.
+    pub step_finished: Option<fmi2StepFinished>,
+    /// Handed back to the logger.
+    pub component_environment: fmi2ComponentEnvironment,
+}
+
+/// Of model exchange; never filled in.
+#[repr(C)]
+#[allow(missing_docs, reason = "the names are the standard's")]
+pub struct fmi2EventInfo {
+    pub new_discrete_states_needed: fmi2Boolean,
+    pub terminate_simulation: fmi2Boolean,
+    pub nominals_of_continuous_states_changed: fmi2Boolean,
+    pub values_of_continuous_states_changed: fmi2Boolean,
+    pub next_event_time_defined: fmi2Boolean,
+    pub next_event_time: fmi2Real,
+}

@@ -1,0 +1,44 @@
+//! The standard's FMU state: where an instance is in its life, and all that its slave is.
+
+use super::lifecycle::{Call, State};
+use super::status::Status;
+use crate::fmi::slave::error::SavedStateError;
+use crate::fmi::slave::{Settings, sealed};
+use crate::simulation::Snapshot;
+use serde::{Deserialize, Serialize};
+
+/// To be raised with every change of [`FmuState`] or of what it holds.
+const VERSION: u32 = 4;
+
+/// Everything that an instance is, its name and its logging aside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FmuState {
+    /// Where it is in its life.
+    pub state: State,
+    /// What the importer set.
+    pub settings: Settings,
+    /// Status of the last step.
+    pub last_step: Status,
+    /// The simulation, once initialization is over.
+    pub snapshot: Option<Snapshot>,
+}
+
+impl FmuState {
+    /// The bytes.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, SavedStateError> {
+        sealed::seal(VERSION, self)
+    }
+
+    /// The state in these bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SavedStateError> {
+        let state: Self = sealed::open(VERSION, bytes)?;
+        if state.makes_sense() { Ok(state) } else { Err(SavedStateError::Content) }
+    }
+
+    /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over, and nothing in
+    /// it is what an importer cannot set. The snapshot is checked when it is restored.
+    fn makes_sense(&self) -> bool {
+        let before = matches!(self.state, State::Instantiated | State::InitializationMode);
+        Call::GetFMUstate.allowed(self.state) && before == self.snapshot.is_none() && self.settings.are_sound()
+    }
+}

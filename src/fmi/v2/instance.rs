@@ -1,0 +1,300 @@
+//! One instance: every FMI call as a safe method.
+
+use super::error::{Error, InstantiateError};
+use super::fmu_state::FmuState;
+use super::lifecycle::{Call, State};
+use super::resource_location;
+use super::status::Status;
+use super::status_kind::StatusKind;
+use crate::fmi::slave;
+use crate::fmi::slave::error::SavedStateError;
+use crate::fmi::slave::log::{Host, Logger};
+use crate::fmi::slave::saved_states::SavedStates;
+use crate::fmi::slave::{Severity, Slave, ValueType};
+use crate::scene::slot;
+use crate::simulation::SimulationError;
+use std::ffi::{CStr, CString};
+
+/// `fmi2CoSimulation`
+pub const CO_SIMULATION: i32 = 1;
+
+/// What `fmi2Instantiate` is given.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// Name for the log; needed.
+    pub name: Option<&'a CStr>,
+    /// [`CO_SIMULATION`]; anything else is refused.
+    pub fmu_type: i32,
+    /// The guid in the XML that the importer read.
+    pub guid: Option<&'a CStr>,
+    /// URI of the resources, which we do not need.
+    pub resource_location: Option<&'a CStr>,
+    /// Whether all log categories are enabled, or no category is.
+    pub logging_on: bool,
+}
+
+/// A slave with its place in the lifecycle of FMI 2.0, its saved states and its log.
+pub struct Instance {
+    state: State,
+    slave: Slave,
+    last_step: Status,
+    saved: SavedStates<FmuState>,
+    logger: Logger,
+}
+
+impl Instance {
+    /// An instance with the packaged start values, whose messages go to `host`.
+    pub fn instantiate(request: &Request<'_>, host: Box<dyn Host>) -> Result<Self, Error> {
+        let Request { name, fmu_type, guid, resource_location, logging_on } = *request;
+        let name = name.filter(|name| !name.is_empty()).ok_or(InstantiateError::Name)?;
+        if fmu_type != CO_SIMULATION {
+            return Err(InstantiateError::Type(fmu_type).into());
+        }
+        let (packaged, expected) = slot::read().map_err(InstantiateError::Slot)?;
+        if guid.map(CStr::to_bytes) != Some(expected.as_bytes()) {
+            let given = guid.map(|guid| guid.to_string_lossy().into_owned());
+            return Err(InstantiateError::Guid { expected, given }.into());
+        }
+        let logger = Logger::new(host, CString::from(name), logging_on);
+        let location = resource_location.map(CStr::to_string_lossy).unwrap_or_default();
+        if let Some(odd) = resource_location::oddity(&location) {
+            logger.say(Severity::Warning, Call::Instantiate.name(), &odd);
+        }
+        Ok(Self {
+            state: State::Instantiated,
+            slave: Slave::new(packaged),
+            last_step: Status::Ok,
+            saved: SavedStates::default(),
+            logger,
+        })
+    }
+
+    /// Where it is in its life.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// Where its messages go.
+    pub fn logger(&self) -> &Logger {
+        &self.logger
+    }
+
+    /// [s] The communication point reached.
+    pub fn time(&self) -> f64 {
+        self.slave.time()
+    }
+
+    /// Lets a call in, if it is allowed in this state.
+    pub fn admit(&self, call: Call) -> Result<(), Error> {
+        match self.state {
+            state if call.allowed(state) => Ok(()),
+            State::Fatal => Err(Error::CallOrder(State::Fatal)),
+            _ if call.is_model_exchange() => Err(Error::ModelExchange),
+            state => Err(Error::CallOrder(state)),
+        }
+    }
+
+    /// Stops the run after a failure that the importer did not cause; saved states can still be set.
+    pub fn fail(&mut self) {
+        self.state = State::Error;
+    }
+
+    /// Gives the instance up after a fault of ours.
+    pub fn give_up(&mut self) {
+        self.state = State::Fatal;
+    }
+
+    /// `fmi2SetDebugLogging`
+    pub fn set_debug_logging(&mut self, logging_on: bool, categories: &[&CStr]) -> Result<(), Error> {
+        Ok(self.logger.enable(logging_on, categories)?)
+    }
+
+    /// `fmi2SetupExperiment`. A tolerance that the solver cannot meet is limited, with a warning.
+    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Status, Error> {
+        match self.slave.set_up(tolerance, start, stop)? {
+            None => Ok(Status::Ok),
+            Some(limit) => {
+                self.logger.say(Severity::Warning, Call::SetupExperiment.name(), &limit);
+                Ok(Status::Warning)
+            }
+        }
+    }
+
+    /// `fmi2EnterInitializationMode`
+    pub fn enter_initialization_mode(&mut self) -> Result<(), Error> {
+        self.state = State::InitializationMode;
+        Ok(())
+    }
+
+    /// `fmi2ExitInitializationMode`. If the scene contradicts itself, the instance stays in
+    /// initialization mode, where the importer may correct it.
+    pub fn exit_initialization_mode(&mut self) -> Result<(), Error> {
+        self.slave.initialize()?;
+        self.state = State::StepComplete;
+        Ok(())
+    }
+
+    /// `fmi2Terminate`
+    pub fn terminate(&mut self) -> Result<(), Error> {
+        self.state = State::Terminated;
+        Ok(())
+    }
+
+    /// `fmi2Reset`: as after instantiation, except that saved states stay and the log goes on.
+    pub fn reset(&mut self) -> Result<(), Error> {
+        self.state = State::Instantiated;
+        self.last_step = Status::Ok;
+        self.slave.reset();
+        Ok(())
+    }
+
+    /// `fmi2GetReal`
+    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
+        Ok(self.slave.get(ValueType::Real, self.state.reading(), references, values, |value| value)?)
+    }
+
+    /// `fmi2GetInteger`; enumerations are read by it too.
+    pub fn get_integer(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), Error> {
+        Ok(self.slave.get(ValueType::Integer, self.state.reading(), references, values, |value| value as i32)?)
+    }
+
+    /// `fmi2GetBoolean`
+    pub fn get_boolean(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), Error> {
+        Ok(self.slave.get(ValueType::Boolean, self.state.reading(), references, values, |value| value as i32)?)
+    }
+
+    /// `fmi2SetReal`
+    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
+        Ok(self.slave.set(ValueType::Real, self.state.writing(), references, values, |value| value)?)
+    }
+
+    /// `fmi2SetInteger`; enumerations are set by it too.
+    pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
+        Ok(self.slave.set(ValueType::Integer, self.state.writing(), references, values, f64::from)?)
+    }
+
+    /// `fmi2SetBoolean`: 0 is false, everything else true.
+    pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
+        let number = |value| f64::from(u8::from(value != 0));
+        Ok(self.slave.set(ValueType::Boolean, self.state.writing(), references, values, number)?)
+    }
+
+    /// `fmi2GetString`, `fmi2SetString`: no variable is a string.
+    pub fn check_strings(&self, references: &[u32]) -> Result<(), Error> {
+        Ok(self.slave.check_strings(references)?)
+    }
+
+    /// `fmi2SetRealInputDerivatives`
+    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Error> {
+        Ok(self.slave.set_input_derivatives(references, orders, values)?)
+    }
+
+    /// `fmi2GetRealOutputDerivatives`
+    pub fn get_output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        Ok(self.slave.get_output_derivatives(references, orders, values)?)
+    }
+
+    /// `fmi2GetDirectionalDerivative` of real outputs along a direction of real inputs.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seeds: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        Ok(self.slave.directional_derivative(unknowns, knowns, seeds, values)?)
+    }
+
+    /// `fmi2DoStep`
+    pub fn do_step(&mut self, point: f64, size: f64) -> Result<(), Error> {
+        let end = self.slave.step_end(point, size)?;
+        let outcome = self.slave.advance_to(end);
+        match &outcome {
+            Ok(()) => {}
+            Err(slave::Error::Simulation(SimulationError::Integration { .. })) => self.state = State::StepFailed,
+            Err(_) => self.fail(),
+        }
+        let outcome = outcome.map_err(Error::from);
+        self.last_step = outcome.as_ref().err().map_or(Status::Ok, Status::from);
+        outcome
+    }
+
+    /// `fmi2GetStatus`
+    pub fn step_status(&self, kind: i32) -> Result<Status, Error> {
+        match known(kind)? {
+            StatusKind::DoStep => Ok(self.last_step),
+            other => Err(Error::StatusKind(other)),
+        }
+    }
+
+    /// `fmi2GetRealStatus`
+    pub fn real_status(&self, kind: i32) -> Result<f64, Error> {
+        match known(kind)? {
+            StatusKind::LastSuccessfulTime => Ok(self.time()),
+            other => Err(Error::StatusKind(other)),
+        }
+    }
+
+    /// `fmi2GetBooleanStatus`. The mechanism never asks for the simulation's end.
+    pub fn boolean_status(&self, kind: i32) -> Result<bool, Error> {
+        match known(kind)? {
+            StatusKind::Terminated => Ok(false),
+            other => Err(Error::StatusKind(other)),
+        }
+    }
+
+    /// `fmi2GetIntegerStatus`, `fmi2GetStringStatus`: the standard has no integer status, and its
+    /// only string status is about a step under way, of which there is never one.
+    pub fn absent_status<T>(&self, kind: i32) -> Result<T, Error> {
+        Err(Error::StatusKind(known(kind)?))
+    }
+
+    /// `fmi2GetFMUstate`: saves under `handle`, or under a new one if that is 0.
+    pub fn get_fmu_state(&mut self, handle: usize) -> Result<usize, Error> {
+        let (settings, snapshot) = self.slave.save();
+        let state = FmuState { state: self.state, settings, last_step: self.last_step, snapshot };
+        Ok(self.saved.keep(handle, state)?)
+    }
+
+    /// `fmi2SetFMUstate`
+    pub fn set_fmu_state(&mut self, handle: usize) -> Result<(), Error> {
+        let FmuState { state, settings, last_step, snapshot } = self.saved.get(handle)?;
+        self.slave.restore(settings, snapshot.as_ref())?;
+        (self.state, self.last_step) = (*state, *last_step);
+        Ok(())
+    }
+
+    /// `fmi2FreeFMUstate`; 0 stands for no state.
+    pub fn free_fmu_state(&mut self, handle: usize) -> Result<(), Error> {
+        Ok(self.saved.forget(handle)?)
+    }
+
+    /// `fmi2SerializedFMUstateSize`
+    pub fn serialized_size(&self, handle: usize) -> Result<usize, Error> {
+        Ok(self.saved.get(handle)?.to_bytes()?.len())
+    }
+
+    /// `fmi2SerializeFMUstate`. The rest of a longer buffer becomes 0.
+    pub fn serialize(&self, handle: usize, buffer: &mut [u8]) -> Result<(), Error> {
+        let bytes = self.saved.get(handle)?.to_bytes()?;
+        let (given, needed) = (buffer.len(), bytes.len());
+        let (front, rest) = buffer.split_at_mut_checked(needed).ok_or(SavedStateError::Buffer { given, needed })?;
+        front.copy_from_slice(&bytes);
+        rest.fill(0);
+        Ok(())
+    }
+
+    /// `fmi2DeSerializeFMUstate`: keeps under `handle`, or under a new one if that is 0.
+    pub fn deserialize(&mut self, bytes: &[u8], handle: usize) -> Result<usize, Error> {
+        Ok(self.saved.keep(handle, FmuState::from_bytes(bytes)?)?)
+    }
+}
+
+fn known(kind: i32) -> Result<StatusKind, Error> {
+    StatusKind::of(kind).ok_or(Error::NotAStatusKind(kind))
+}

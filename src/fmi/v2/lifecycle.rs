@@ -1,0 +1,213 @@
+//! Which call is allowed in which state: the table of FMI 2.0 §4.2.4, one row a call.
+//!
+//! Two deviations, both towards the importer. `fmi2FreeInstance` works in the fatal state too, since
+//! nothing of ours is lost by giving memory back. Reading inputs and parameters back works from
+//! instantiation on, as hosts do; so the rows of `fmi2Get…` are open there, and the rows of
+//! [`Touch`] say which variables they reach.
+
+use crate::fmi::slave::Permission;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// State of an instance. A call never meets `StepInProgress` or `StepCanceled`, since a step is
+/// over when its call returns; they are here because the standard's table has them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum State {
+    /// No instance yet, or no longer.
+    StartAndEnd,
+    /// Start values may be set.
+    Instantiated,
+    /// Start values may be set and outputs follow them.
+    InitializationMode,
+    /// At a communication point.
+    StepComplete,
+    /// Inside an asynchronous step.
+    StepInProgress,
+    /// The last step ended before its communication point.
+    StepFailed,
+    /// The last step was called off.
+    StepCanceled,
+    /// After `fmi2Terminate`.
+    Terminated,
+    /// Only an earlier state, a reset or the end can follow.
+    Error,
+    /// A fault of ours; only the end can follow.
+    Fatal,
+}
+
+impl State {
+    /// All states, in the order of the table's columns.
+    pub const ALL: [Self; 10] = [
+        Self::StartAndEnd,
+        Self::Instantiated,
+        Self::InitializationMode,
+        Self::StepComplete,
+        Self::StepInProgress,
+        Self::StepFailed,
+        Self::StepCanceled,
+        Self::Terminated,
+        Self::Error,
+        Self::Fatal,
+    ];
+
+    /// Name for messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StartAndEnd => "not instantiated",
+            Self::Instantiated => "instantiated",
+            Self::InitializationMode => "initialization mode",
+            Self::StepComplete => "step complete",
+            Self::StepInProgress => "step in progress",
+            Self::StepFailed => "step failed",
+            Self::StepCanceled => "step canceled",
+            Self::Terminated => "terminated",
+            Self::Error => "error",
+            Self::Fatal => "fatal",
+        }
+    }
+
+    /// What a call may read in this state.
+    pub fn reading(self) -> Permission {
+        self.permission([Touch::GetInput, Touch::GetOutput, Touch::GetParameter])
+    }
+
+    /// What a call may write in this state.
+    pub fn writing(self) -> Permission {
+        self.permission([Touch::SetInput, Touch::SetOutput, Touch::SetParameter])
+    }
+
+    fn permission(self, touches: [Touch; 3]) -> Permission {
+        let [inputs, outputs, parameters] = touches.map(|touch| touch.allowed(self));
+        Permission { inputs, outputs, parameters, state: self.name() }
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A row of the table: one bit a state.
+#[derive(Clone, Copy)]
+struct Row(u16);
+
+impl Row {
+    /// Reads `x` (allowed) and `.` (refused), one a state, spaces aside.
+    const fn read(text: &str) -> Self {
+        let bytes = text.as_bytes();
+        let (mut mask, mut column, mut at) = (0, 0_usize, 0);
+        while at < bytes.len() {
+            match bytes[at] {
+                b'x' => mask |= 1 << column,
+                b' ' => column -= 1,
+                other => assert!(other == b'.', "a row holds x, . and spaces only"),
+            }
+            column += 1;
+            at += 1;
+        }
+        assert!(column == State::ALL.len(), "a row has one entry for each state");
+        Self(mask)
+    }
+
+    fn holds(self, state: State) -> bool {
+        self.0 & (1 << state as u16) != 0
+    }
+}
+
+/// Declares an enumeration whose items each have a row.
+macro_rules! table {
+    ($(#[$doc:meta])* $name:ident, $prefix:literal; $($item:ident $row:literal)+) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[allow(missing_docs, reason = "the names are the standard's")]
+        pub enum $name { $($item),+ }
+
+        impl $name {
+            /// All rows, from top to bottom.
+            pub const ALL: &[Self] = &[$(Self::$item),+];
+            const ROWS: &[Row] = &[$(Row::read($row)),+];
+
+            /// The name that the importer knows it by.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$item => concat!($prefix, stringify!($item))),+ }
+            }
+
+            /// Whether it is allowed in this state.
+            pub fn allowed(self, state: State) -> bool {
+                Self::ROWS[self as usize].holds(state)
+            }
+        }
+    };
+}
+
+table! {
+    /// A function of the standard.
+    Call, "fmi2";
+    //                         start   initialization mode   in progress   canceled   error
+    //                         |  instantiated   complete    |   failed    |  terminated  fatal
+    //                         |    |    |    |    |    |    |    |    |    |
+    GetTypesPlatform          "x    x    x    x    x    x    x    x    x    ."
+    GetVersion                "x    x    x    x    x    x    x    x    x    ."
+    SetDebugLogging           ".    x    x    x    x    x    x    x    x    ."
+    Instantiate               "x    .    .    .    .    .    .    .    .    ."
+    FreeInstance              ".    x    x    x    .    x    x    x    x    x"
+    SetupExperiment           ".    x    .    .    .    .    .    .    .    ."
+    EnterInitializationMode   ".    x    .    .    .    .    .    .    .    ."
+    ExitInitializationMode    ".    .    x    .    .    .    .    .    .    ."
+    Terminate                 ".    .    .    x    .    x    .    .    .    ."
+    Reset                     ".    x    x    x    .    x    x    x    x    ."
+    GetReal                   ".    x    x    x    .    x    x    x    x    ."
+    GetInteger                ".    x    x    x    .    x    x    x    x    ."
+    GetBoolean                ".    x    x    x    .    x    x    x    x    ."
+    GetString                 ".    x    x    x    .    x    x    x    x    ."
+    SetReal                   ".    x    x    x    .    .    .    .    .    ."
+    SetInteger                ".    x    x    x    .    .    .    .    .    ."
+    SetBoolean                ".    x    x    x    .    .    .    .    .    ."
+    SetString                 ".    x    x    x    .    .    .    .    .    ."
+    GetFMUstate               ".    x    x    x    .    x    x    x    x    ."
+    SetFMUstate               ".    x    x    x    .    x    x    x    x    ."
+    FreeFMUstate              ".    x    x    x    .    x    x    x    x    ."
+    SerializedFMUstateSize    ".    x    x    x    .    x    x    x    x    ."
+    SerializeFMUstate         ".    x    x    x    .    x    x    x    x    ."
+    DeSerializeFMUstate       ".    x    x    x    .    x    x    x    x    ."
+    GetDirectionalDerivative  ".    .    x    x    .    x    x    x    x    ."
+    SetRealInputDerivatives   ".    x    x    x    .    .    .    .    .    ."
+    GetRealOutputDerivatives  ".    .    .    x    .    x    x    x    x    ."
+    DoStep                    ".    .    .    x    .    .    .    .    .    ."
+    CancelStep                ".    .    .    .    x    .    .    .    .    ."
+    GetStatus                 ".    .    .    x    x    x    .    x    .    ."
+    GetRealStatus             ".    .    .    x    x    x    .    x    .    ."
+    GetIntegerStatus          ".    .    .    x    x    x    .    x    .    ."
+    GetBooleanStatus          ".    .    .    x    x    x    .    x    .    ."
+    GetStringStatus           ".    .    .    x    x    x    .    x    .    ."
+    // Model exchange, which this unit does not do.
+    EnterEventMode            ".    .    .    .    .    .    .    .    .    ."
+    NewDiscreteStates         ".    .    .    .    .    .    .    .    .    ."
+    EnterContinuousTimeMode   ".    .    .    .    .    .    .    .    .    ."
+    CompletedIntegratorStep   ".    .    .    .    .    .    .    .    .    ."
+    SetTime                   ".    .    .    .    .    .    .    .    .    ."
+    SetContinuousStates       ".    .    .    .    .    .    .    .    .    ."
+    GetDerivatives            ".    .    .    .    .    .    .    .    .    ."
+    GetEventIndicators        ".    .    .    .    .    .    .    .    .    ."
+    GetContinuousStates       ".    .    .    .    .    .    .    .    .    ."
+    GetNominalsOfContinuousStates ". .  .    .    .    .    .    .    .    ."
+}
+
+table! {
+    /// What a call does to one variable: the footnotes under the standard's table.
+    Touch, "";
+    GetOutput                 ".    .    x    x    .    x    x    x    x    ."
+    GetInput                  ".    x    x    x    .    x    x    x    x    ."
+    GetParameter              ".    x    x    x    .    x    x    x    x    ."
+    SetOutput                 ".    .    .    .    .    .    .    .    .    ."
+    SetInput                  ".    x    x    x    .    .    .    .    .    ."
+    SetParameter              ".    x    x    .    .    .    .    .    .    ."
+}
+
+impl Call {
+    /// Whether the function belongs to model exchange.
+    pub fn is_model_exchange(self) -> bool {
+        self as usize >= Self::EnterEventMode as usize
+    }
+}

@@ -1,0 +1,24 @@
+//! FMI 2.0 for co-simulation: the lifecycle, the statuses and the C interface around a
+//! [`Slave`](crate::fmi::slave::Slave).
+//!
+//! `abi` turns pointers into borrows, [`lifecycle`] says which call is allowed when, the [`Instance`]
+//! does what was asked, [`status`] turns every outcome into one of the standard's statuses, and the
+//! slave's log gives the importer the reason in one line.
+//!
+//! To add a function of the standard: an entry in the list of `abi/functions.rs`, the safe method of
+//! [`Instance`] that the entry calls, and the function's row in [`lifecycle`], without which the
+//! entry does not compile.
+
+pub mod abi;
+pub mod description;
+pub mod error;
+pub mod fmu_state;
+pub mod instance;
+pub mod lifecycle;
+pub mod resource_location;
+pub mod status;
+pub mod status_kind;
+
+pub use error::Error;
+pub use instance::Instance;
+pub use status::Status;
