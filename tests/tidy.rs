@@ -8,9 +8,6 @@ use imports::{cycle, imports_within};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Longest file, in lines.
-const LONGEST: usize = 300;
-
 /// Folders whose files import one another in one direction.
 const WITHOUT_IMPORT_CYCLES: &[&str] = &["src/fmi"];
 
@@ -52,24 +49,6 @@ fn unsafe_code_lives_in_three_places() {
             let text = read(&file);
             let found = text.lines().find(|line| line.contains("unsafe ") && !line.trim_start().starts_with("//"));
             assert!(found.is_none(), "{}: {}", file.display(), found.unwrap_or_default());
-        }
-    }
-}
-
-#[test]
-fn a_file_is_a_sitting() {
-    for place in [
-        "src",
-        "fmu-harness/src",
-        "fmu-harness/peers",
-        "modelDescription",
-        "tests",
-        "fmu-harness/tests",
-        "fmu-harness/benches",
-    ] {
-        for file in sources(place) {
-            let lines = read(&file).lines().count();
-            assert!(lines <= LONGEST, "{} has {lines} lines, more than {LONGEST}", file.display());
         }
     }
 }

@@ -16,7 +16,7 @@ fn what_a_campaign_once_found_fails_no_more() {
         let mut file = read(&std::fs::read_to_string(&path).expect("a scene file"), &name).expect("a legal scene");
         file.scene.solver.max_evaluations = EVALUATIONS;
         for saved_at in [0.1, 0.4, 0.7, 0.95] {
-            let verdict = trial(&file, Terms { evaluations: EVALUATIONS, saved_at });
+            let (verdict, _) = trial(&file, Terms { evaluations: EVALUATIONS, saved_at });
             println!("{name}: {verdict:?}");
             assert!(!matches!(verdict, Verdict::Failed(_)), "{name}: {verdict:?}");
         }

@@ -7,18 +7,21 @@ a Dask cluster will do: `dask.distributed.LocalCluster`, `dask_jobqueue.SLURMClu
 from __future__ import annotations
 
 import hashlib
+import math
 import threading
 import time
 import zipfile
 from collections.abc import Iterator
 from concurrent.futures import CancelledError
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from queue import Empty, SimpleQueue
 from tempfile import TemporaryDirectory
 
 import pandas
 from dask.typing import Key
-from distributed import Client, Future, KilledWorker, as_completed, get_worker
+from distributed import Client, Future, KilledWorker, get_worker
 from distributed.client import FutureCancelledError
 
 from .journal import Journal, Outcome, path
@@ -32,8 +35,10 @@ AHEAD = 4
 """Runs that are handed out for each thread of the cluster."""
 REFRESH = 2.0
 """[s] Between two looks at the cluster's size."""
+FETCH = 30.0
+"""[s] The longest time to wait for the outcome of a finished run, before the others have their turn."""
 SHIPMENTS = 20
-"""How often the FMU is shipped again to a cluster that has lost all workers that had it."""
+"""How often the FMU is shipped to a cluster that has dropped it: all workers that took it died, or it was restarted."""
 
 
 class StudyError(RuntimeError):
@@ -56,13 +61,15 @@ def run(
     client: Client,
     output: str | Path | None = None,
     budget: float = 600.0,
+    patience: float = 300.0,
 ) -> pandas.DataFrame:
     """Runs what the study's journal does not have yet on the client's cluster; one row a run, as `slidercrank.study`.
 
     `fmu` is the study's packaged scene, `budget` [s] the longest time for one run. A run that fails is a row that says
     why. A client that was killed goes on from the journal, which `sweep` can go on from too. A run whose workers die
     again and again, or one after another for reasons of their own, is a row that says so, but no line of the journal:
-    the next call tries it again.
+    the next call tries it again. A study waits for workers: only when there is none for `patience` [s] it is a
+    `StudyError`.
     """
     planned = plan(study_file)
     file = Path(fmu)
@@ -71,7 +78,7 @@ def run(
     data = file.read_bytes()
     shipment = Shipment(data, hashlib.sha256(data).hexdigest(), replace(planned.recipe, origin={}), budget)
     with Journal(path(into, planned.recipe.name), planned.recipe.digest) as journal:
-        lost = Hand(client, planned, shipment, journal).out()
+        lost = Hand(client, planned, shipment, journal, patience).out()
         results = table(planned, {**journal.outcomes, **lost})
     found = into / f"sweep-{planned.recipe.name}.parquet"
     save(results, found)
@@ -92,50 +99,65 @@ def check_scene(fmu: Path, recipe: Recipe) -> None:
 class Hand:
     """Hands runs out and takes them in."""
 
-    def __init__(self, client: Client, planned: Plan, shipment: Shipment, journal: Journal):
+    def __init__(self, client: Client, planned: Plan, shipment: Shipment, journal: Journal, patience: float):
         self.client, self.planned, self.shipment, self.journal = client, planned, shipment, journal
+        self.patience = patience
         self.going: dict[Key, tuple[int, Future[Outcome], Future[Shipment]]] = {}
+        self.finished: SimpleQueue[Future[Outcome]] = SimpleQueue()
         self.again: list[int] = []
         self.shipped: Future[Shipment] | None = None
         self.shipments = 0
-        self.seen, self.room = -REFRESH, 0
+        self.looked, self.manned, self.room = -math.inf, time.monotonic(), 0
 
     def out(self) -> dict[int, Outcome]:
         """Runs all that the journal lacks; returns the runs that their workers did not survive."""
         waiting = self.journal.open_runs(len(self.planned.runs))
         lost: dict[int, Outcome] = {}
-        finished = as_completed()
         try:
-            self._top_up(waiting, finished)
-            for future in finished:
-                number, _, shipped = self.going.pop(future.key)
-                try:
-                    outcome = self._taken(future, number, lost)
-                except (FutureCancelledError, CancelledError):
-                    # All workers that had the FMU, or the result, are gone.
-                    self.again.append(number)
-                    self.shipped = None if self.shipped is shipped else self.shipped
-                else:
-                    if outcome is not None:
-                        self.journal.add(number, outcome)
-                self._top_up(waiting, finished)
+            self._top_up(waiting)
+            while self.going:
+                # A cluster without workers finishes nothing, so the wait is bounded.
+                with suppress(Empty):
+                    self._take_in(self.finished.get(timeout=REFRESH), lost)
+                self._top_up(waiting)
         finally:
             self.client.cancel([future for _, future, _ in self.going.values()])
         return lost
 
-    def _taken(self, future: Future[Outcome], number: int, lost: dict[int, Outcome]) -> Outcome | None:
-        error = future.exception()
-        if isinstance(error, KilledWorker):
+    def _take_in(self, future: Future[Outcome], lost: dict[int, Outcome]) -> None:
+        number, _, shipped = self.going[future.key]
+        error, outcome = None, None
+        try:
+            error = future.exception(timeout=FETCH)
+            outcome = future.result(timeout=FETCH) if error is None else None
+        except TimeoutError:
+            # The worker died with the outcome in its memory, and the cluster makes it again.
+            self._watch(future)
+            return
+        except (FutureCancelledError, CancelledError):
+            # The cluster was restarted and has forgotten everything.
+            self._hand_out_again(future)
+            return
+        except KilledWorker as killed:
+            error = killed
+        if isinstance(error, KilledWorker) and error.task == shipped.key:
+            self._hand_out_again(future)
+            return
+        del self.going[future.key]
+        if outcome is not None:
+            self.journal.add(number, outcome)
+        elif isinstance(error, KilledWorker):
             lost[number] = Outcome(failed=f"its workers died, {error.allowed_failures + 1} in all")
-            return None
-        if error is not None:
+        else:
             raise StudyError(f"run {number} cannot be done at all: {error}") from error
-        return future.result()
 
-    def _top_up(self, waiting: Iterator[int], finished: as_completed) -> None:
-        now = time.monotonic()
-        if now - self.seen > REFRESH:
-            self.seen, self.room = now, max(2, AHEAD * sum(self.client.nthreads().values()))
+    def _hand_out_again(self, future: Future[Outcome]) -> None:
+        number, _, shipped = self.going.pop(future.key)
+        self.again.append(number)
+        self.shipped = None if self.shipped is shipped else self.shipped
+
+    def _top_up(self, waiting: Iterator[int]) -> None:
+        self._look()
         while len(self.going) < self.room:
             number = self.again.pop() if self.again else next(waiting, None)
             if number is None:
@@ -145,14 +167,37 @@ class Hand:
             settings = {name: float(row[name]) for name in self.planned.runs.columns}
             future = self.client.submit(one, shipped, settings, pure=False)
             self.going[future.key] = (number, future, shipped)
-            finished.add(future)
+            self._watch(future)
+
+    def _watch(self, future: Future[Outcome]) -> None:
+        future.add_done_callback(self.finished.put)
+
+    def _look(self) -> None:
+        """Looks at the cluster's size, now and then."""
+        now = time.monotonic()
+        if now - self.looked < REFRESH:
+            return
+        threads = sum(self.client.nthreads().values())
+        self.looked, self.room = now, max(2, AHEAD * threads)
+        if threads > 0:
+            self.manned = now
+        elif now - self.manned > self.patience:
+            without = f"the cluster has had no worker for {self.patience:g} s"
+            raise StudyError(f"{without}; finished runs are in the journal")
 
     def _ship(self) -> Future[Shipment]:
-        if self.shipments > SHIPMENTS:
-            raise StudyError(f"the cluster has lost all its workers {SHIPMENTS} times; finished runs are in the journal")
-        shipped: Future[Shipment] = self.client.scatter(self.shipment, broadcast=True, hash=False)
+        if self.shipments == SHIPMENTS:
+            raise StudyError(f"the cluster has dropped the FMU {SHIPMENTS} times; finished runs are in the journal")
+        # Data that is scattered dies with its workers, and a worker that dies while it is scattered is an error. What
+        # a task has made is made again wherever it is missing.
+        shipped: Future[Shipment] = self.client.submit(ship, self.shipment, pure=False)
         self.shipped, self.shipments = shipped, self.shipments + 1
         return shipped
+
+
+def ship(shipment: Shipment) -> Shipment:
+    """The shipment, on the first worker that wants it; the others have it from there."""
+    return shipment
 
 
 def one(shipment: Shipment, settings: dict[str, float]) -> Outcome:
