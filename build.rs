@@ -1,4 +1,4 @@
-//! Makes the tables of `src/scene` and `src/fmi` from the declaration.
+//! Makes the tables of `src/scene` and `src/fmi`, and the lists of laws of `src/model`, from the declaration.
 
 #[path = "modelDescription/mod.rs"]
 #[allow(dead_code)] // The library uses the rest.
@@ -20,6 +20,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out_dir = env::var("OUT_DIR")?;
     let write = |name: &str, text: String| fs::write(Path::new(&out_dir).join(name), text);
     write("enumerations.rs", tables::enumerations(&declaration))?;
+    write("elasticities.rs", tables::laws(&declaration, "Elasticity", "elasticities"))?;
+    write("friction_laws.rs", tables::laws(&declaration, "FrictionLaw", "friction_laws"))?;
     write("parameters.rs", tables::parameters(&declaration, &digest, &guid))?;
     write("variables.rs", tables::variables(&declaration))?;
     Ok(())

@@ -28,6 +28,19 @@ pub fn enumerations(declaration: &Declaration) -> String {
     out
 }
 
+/// The laws of an enumeration as a macro that hands their list to another one: each item's type and the file of the same
+/// name. An item `none` is no law.
+pub fn laws(declaration: &Declaration, of: &str, list: &str) -> String {
+    let mut out = String::new();
+    line(&mut out, &format!("macro_rules! {list} {{ ($then:ident) => {{ $then! {{"));
+    let items = declaration.enumerations.iter().filter(|enumeration| enumeration.name == of).flat_map(|of| &of.items);
+    for item in items.filter(|item| item.name != "none") {
+        line(&mut out, &format!("    {} in {},", camel(&item.name), item.name));
+    }
+    line(&mut out, "} }; }");
+    out
+}
+
 /// The scene's parameters, with the digest and the guid that go with their start values.
 pub fn parameters(declaration: &Declaration, digest: &[u8; 32], guid: &str) -> String {
     let mut out = String::new();

@@ -1,8 +1,8 @@
-//! Which contacts have bristles: those whose friction law is lugre. Each costs one first-order state.
+//! Which contacts have bristles: those whose friction law does. Each costs one first-order state.
 
-use super::friction::FrictionParameters;
+use super::friction::Friction;
 use super::joint::guide::{GUIDE_CONTACTS, guide_contacts};
-use crate::scene::{FrictionLaw, JointModel, Scene};
+use crate::scene::{JointModel, Scene};
 
 /// One number for the bristles of each contact: their deflection [m] or its rate [m/s].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,8 +27,9 @@ pub fn bristled_contacts(scene: &Scene) -> Vec<(usize, f64)> {
     let joint = &scene.joint;
     let mut all = Vec::new();
     let mut add = |model: JointModel, friction: &crate::scene::Friction, contacts: std::ops::Range<usize>| {
-        if model == JointModel::Clearance && friction.law == FrictionLaw::Lugre {
-            let deflection = FrictionParameters::new(friction).greatest_deflection();
+        if model == JointModel::Clearance
+            && let Some(deflection) = Friction::new(friction).greatest_deflection()
+        {
             all.extend(contacts.map(|contact| (contact, deflection)));
         }
     };

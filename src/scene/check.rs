@@ -3,7 +3,7 @@
 use super::closure::{rise, rod_sine};
 use super::modal_check::TableError;
 use super::parameter::{PARAMETERS, Parameter, Refusal};
-use super::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Method, Point, Scene, Surface};
+use super::{Contact, JointModel, Method, Point, Scene, Surface};
 use crate::model_description::number::number;
 use std::fmt;
 
@@ -78,8 +78,10 @@ impl Scene {
                 continue;
             }
             let width = joint.contact.width;
-            let has_width = joint.elasticity != Elasticity::Liu || width > 0.0;
-            rule(has_width, letter, "width", width, || "above 0 m for elasticity liu".into())?;
+            let elasticity = joint.elasticity;
+            rule(!elasticity.has("needs width") || width > 0.0, letter, "width", width, || {
+                format!("above 0 m for elasticity {}", elasticity.name())
+            })?;
             check_contact(letter, &joint.contact)?;
         }
         let guide = &joints.t;
@@ -127,20 +129,20 @@ impl Scene {
 
 fn check_contact(letter: &str, contact: &Contact) -> Result<(), SceneError> {
     let (law, restitution) = (contact.law, contact.restitution);
-    let grows = matches!(law, DampingLaw::Gonthier | DampingLaw::ZhangSharf | DampingLaw::Flores | DampingLaw::HuGuo);
-    let bounded = !grows || restitution >= LEAST_RESTITUTION;
+    let bounded = !law.has("grows without bound") || restitution >= LEAST_RESTITUTION;
     rule(bounded, letter, "restitution", restitution, || format!("{LEAST_RESTITUTION} to 1 for law {}", law.name()))?;
     let friction = &contact.friction;
-    let rises = friction.law != FrictionLaw::Ambrosio || friction.v0 < friction.v1;
+    let (law, name) = (friction.law, friction.law.name());
+    let rises = !law.has("ramp") || friction.v0 < friction.v1;
     rule(rises, letter, "friction.v0", friction.v0, || {
-        format!("below joint.{letter}.friction.v1 = {} m/s for law ambrosio", number(friction.v1))
+        format!("below joint.{letter}.friction.v1 = {} m/s for law {name}", number(friction.v1))
     })?;
-    // lugre divides by its steady coefficient, which lies between these two.
-    let lugre = friction.law == FrictionLaw::Lugre;
+    // A law of bristles divides by its steady coefficient, which lies between these two.
+    let bristles = law.has("bristles");
     let (kinetic, still) = (friction.coefficient, friction.static_coefficient);
-    rule(!lugre || kinetic > 0.0, letter, "friction.coefficient", kinetic, || "above 0 for law lugre".into())?;
-    rule(!lugre || still >= kinetic, letter, "friction.static_coefficient", still, || {
-        format!("at least joint.{letter}.friction.coefficient = {} for law lugre", number(kinetic))
+    rule(!bristles || kinetic > 0.0, letter, "friction.coefficient", kinetic, || format!("above 0 for law {name}"))?;
+    rule(!bristles || still >= kinetic, letter, "friction.static_coefficient", still, || {
+        format!("at least joint.{letter}.friction.coefficient = {} for law {name}", number(kinetic))
     })
 }
 
@@ -160,6 +162,7 @@ pub(super) fn rule(
 
 #[cfg(test)]
 mod tests {
+    use super::super::{DampingLaw, Elasticity, FrictionLaw};
     use super::*;
 
     fn refused(edit: impl FnOnce(&mut Scene)) -> String {

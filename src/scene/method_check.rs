@@ -49,7 +49,7 @@ impl Scene {
 }
 
 fn check_friction(letter: &str, law: FrictionLaw) -> Result<(), SceneError> {
-    rule(law != FrictionLaw::Lugre, letter, "friction.law", f64::from(law.value()), || {
+    rule(!law.has("bristles"), letter, "friction.law", f64::from(law.value()), || {
         "none or any law but lugre for method moreau, which takes its coefficient for Coulomb's".into()
     })
 }

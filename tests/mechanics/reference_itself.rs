@@ -24,7 +24,7 @@ fn until_crossing(reference: &mut Reference, step: f64, count: usize) -> Crossin
 
 #[test]
 fn energy_stays_where_nothing_dissipates() {
-    for elasticity in [Elasticity::Hertz, Elasticity::Liu] {
+    for elasticity in [Elasticity::Hertz, Elasticity::Liu, Elasticity::BaiZhao] {
         let mut scene = brisk(DriveMode::Torque, ALL);
         scene.gravity = 9.81;
         scene.guide.offset = 0.01;

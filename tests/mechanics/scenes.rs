@@ -157,6 +157,11 @@ fn contact_variants() -> Vec<Case> {
             (s.joint.c.contact.law, s.joint.c.contact.friction.law) =
                 (DampingLaw::ZhiyingQishao, FrictionLaw::Ambrosio);
         }),
+        case("bai-zhao with zhiying-qishao, unlimited, rubbing", brisk(DriveMode::Speed, C), |s| {
+            let joint = &mut s.joint.c;
+            (joint.elasticity, joint.contact.ratio_limit) = (Elasticity::BaiZhao, 0.0);
+            (joint.contact.law, joint.contact.friction.law) = (DampingLaw::ZhiyingQishao, FrictionLaw::Ambrosio);
+        }),
         case("four different joints", brisk(DriveMode::Torque, ALL), |s| {
             let j = &mut s.joint;
             (j.a.radius, j.b.radius, j.c.radius) = (0.02, 0.015, 0.008);

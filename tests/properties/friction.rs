@@ -2,7 +2,7 @@
 
 use super::motion::{Motion, Vec2, motion, perp};
 use super::scenes::{Play, at_tolerance, contacts, crooked, elastic, inputs, letters, start, with_play};
-use slidercrank::model::friction::{Ambrosio, Friction as Law, FrictionParameters, Frictionless, Stribeck, Tanh};
+use slidercrank::model::friction::Friction as Law;
 use slidercrank::scene::{Friction, FrictionLaw, Scene};
 
 fn parameters(law: FrictionLaw) -> Friction {
@@ -35,13 +35,7 @@ fn ratio(f: &Friction, v: f64) -> f64 {
 const LAWS: [FrictionLaw; 4] = [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck];
 
 fn library_ratio(f: &Friction, v: f64) -> f64 {
-    let p = FrictionParameters::new(f);
-    match f.law {
-        FrictionLaw::None | FrictionLaw::Lugre => Frictionless::rub(&p, v, 0.0).ratio,
-        FrictionLaw::Ambrosio => Ambrosio::rub(&p, v, 0.0).ratio,
-        FrictionLaw::Tanh => Tanh::rub(&p, v, 0.0).ratio,
-        FrictionLaw::Stribeck => Stribeck::rub(&p, v, 0.0).ratio,
-    }
+    Law::new(f).rub(v, 0.0).ratio
 }
 
 #[test]

@@ -130,6 +130,7 @@ fn it_is_exact_for_every_friction_and_elasticity() {
             (Elasticity::Hertz, 1.5, DampingLaw::Hertz),
             (Elasticity::Hertz, 1.3, DampingLaw::LankaraniNikravesh),
             (Elasticity::Liu, 1.5, DampingLaw::HuGuo),
+            (Elasticity::BaiZhao, 1.5, DampingLaw::ZhiyingQishao),
         ] {
             let mut scene = with_play(rattling(), ALL);
             for joint in revolutes(&mut scene) {

@@ -7,6 +7,7 @@ mod clearance_to_zero;
 mod conservation;
 mod consistency;
 mod differences;
+mod elasticity;
 mod finite_elements;
 mod first_impact;
 mod flexible;

@@ -197,9 +197,12 @@ fn scaled(scene: &Scene, length: f64, mass: f64, time: f64) -> Scene {
 fn other_units_of_length_mass_and_time_tell_the_same_motion() {
     let (length, mass, time) = (1.7, 30.0, 2.5);
     let force = mass * length / (time * time);
-    for (what, elasticity, exponent) in
-        [("hertz", Elasticity::Hertz, 1.5), ("power", Elasticity::Hertz, 1.8), ("liu", Elasticity::Liu, 1.5)]
-    {
+    for (what, elasticity, exponent) in [
+        ("hertz", Elasticity::Hertz, 1.5),
+        ("power", Elasticity::Hertz, 1.8),
+        ("liu", Elasticity::Liu, 1.5),
+        ("bai-zhao", Elasticity::BaiZhao, 1.5),
+    ] {
         for play in [[true, true, true, true], [false, false, true, false], [false, false, false, true]] {
             let mut scene = rubbing(play);
             for joint in revolutes(&mut scene) {

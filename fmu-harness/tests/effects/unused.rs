@@ -53,7 +53,10 @@ fn scenes() -> Vec<(String, Scene)> {
     liu.joint.b.elasticity = Elasticity::Liu;
     liu.joint.t.surface = Surface::Foundation;
     liu.joint.t.foundation_stiffness = 1e9;
+    let mut bai_zhao = liu.clone();
+    bai_zhao.joint.b.elasticity = Elasticity::BaiZhao;
     all.push(("liu and a given foundation".into(), liu));
+    all.push(("bai_zhao and a given foundation".into(), bai_zhao));
     all
 }
 
@@ -109,14 +112,14 @@ fn is_unused(parameter: &str, scene: &Scene) -> bool {
     for (letter, joint) in [("A", &joints.a), ("B", &joints.b), ("C", &joints.c)] {
         let Some(own) = parameter.strip_prefix("joint.").and_then(|name| name.strip_prefix(letter)) else { continue };
         let own = own.trim_start_matches('.');
-        let liu = joint.elasticity == Elasticity::Liu;
+        let conformal = joint.elasticity != Elasticity::Hertz;
         return if joint.model == JointModel::Ideal {
             is_of_clearance(own)
         } else {
             match own {
-                "width" => !liu,
-                "stiffness" | "exponent" => liu,
-                own if is_material(own) => !liu && joint.contact.stiffness > 0.0,
+                "width" => !conformal,
+                "stiffness" | "exponent" => conformal,
+                own if is_material(own) => !conformal && joint.contact.stiffness > 0.0,
                 own => is_unused_by_laws(own, &joint.contact),
             }
         };

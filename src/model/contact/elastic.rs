@@ -1,82 +1,91 @@
-//! Elastic force as a function of penetration.
+//! Elastic force as a function of penetration: what a law says, and the laws that there are.
 
-use super::ContactParameters;
-use crate::math::{self, Real};
+use super::linear::Linear;
+use crate::math::Real;
+use crate::scene;
 
-/// F(δ), δ > 0.
-pub trait Elastic {
-    /// [N] at the penetration `depth` [m].
-    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R;
+/// An elastic law of a revolute joint, one a file. A new one is its file, which defines a type of the item's name, and an
+/// item of `Elasticity` in `modelDescription/variables.toml`.
+pub trait ElasticLaw: Copy {
+    /// Of this joint.
+    fn new(joint: &scene::Revolute) -> Self;
+    /// [N] F at the penetration `depth` [m], which is not negative.
+    fn force<R: Real>(&self, depth: R) -> R;
     /// [J] ∫F dδ from 0 to `depth` [m].
-    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R;
+    fn energy<R: Real>(&self, depth: R) -> R;
+    /// The power law that this one is, or becomes as δ goes to 0.
+    fn for_small_penetrations(&self) -> PowerLaw;
 }
 
-/// K·δ^(3/2): Hertz's exponent without a power function.
-pub struct HertzThreeHalves;
-
-/// K·δ^p for any p.
-pub struct Power;
-
-/// K·δ: a bed of springs of the stiffness K, pressed in by δ on average.
-pub struct Linear;
-
-/// Conformal cylinders: F = (π/2)·E*·L·δ·√(δ/(2(c + δ))); C. Liu, K. Zhang, R. Yang, The FEM
-/// analysis and approximate model for cylindrical joints with clearances, Mech. Mach. Theory 42
-/// (2007) 183-197.
-pub struct Liu;
-
-impl Elastic for HertzThreeHalves {
-    #[inline(always)]
-    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        depth * parameters.stiffness * depth.sqrt()
-    }
-    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        depth * 0.4 * Self::force(parameters, depth)
-    }
+/// K·δ^p.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerLaw {
+    /// [N/m^p] K.
+    pub stiffness: f64,
+    /// p.
+    pub exponent: f64,
 }
 
-impl Elastic for Power {
-    #[inline(always)]
-    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        math::powf(depth, parameters.exponent) * parameters.stiffness
-    }
-    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        depth * Self::force(parameters, depth) / (parameters.exponent + 1.0)
-    }
-}
+/// Declares [`Elastic`] from the declared elasticities.
+macro_rules! elastic {
+    ($($law:ident in $file:ident,)+) => {
+        $(use super::$file::$law;)+
 
-impl Elastic for Linear {
-    #[inline(always)]
-    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        depth * parameters.stiffness
-    }
-    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        depth * 0.5 * Self::force(parameters, depth)
-    }
-}
+        /// The elastic law of one contact with its numbers: one of the scene's elasticities, or that of the slider's faces.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[expect(missing_docs, reason = "each is the law of its name")]
+        pub enum Elastic {
+            $($law($law),)+
+            Linear(Linear),
+        }
 
-impl Elastic for Liu {
-    #[inline(always)]
-    fn force<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        depth * parameters.stiffness * (depth / ((depth + parameters.clearance) * 2.0)).sqrt()
-    }
-    /// With u = δ/c: K·c²/√2·∫u^(3/2)/√(1 + u) du; a series where the closed form is a small difference.
-    fn energy<R: Real>(parameters: &ContactParameters, depth: R) -> R {
-        let c = parameters.clearance;
-        let u = depth / c;
-        let series = || {
-            // Coefficients of (1 + u)^(−1/2), each divided by its power + 5/2.
-            let mut coefficient = R::ONE;
-            let mut sum = R::ZERO;
-            for k in 0..20 {
-                let k = f64::from(k);
-                sum += coefficient / (k + 2.5);
-                coefficient = coefficient * (-u * (k + 0.5) / (k + 1.0));
+        impl Elastic {
+            /// Of a revolute joint.
+            pub fn new(joint: &scene::Revolute) -> Self {
+                match joint.elasticity {
+                    $(scene::Elasticity::$law => Self::$law($law::new(joint)),)+
+                }
             }
-            sum * u * u * u.sqrt()
-        };
-        let closed_form = || (u * (u + 1.0)).sqrt() * 0.25 * (u * 2.0 - 3.0) + math::asinh(u.sqrt()) * 0.75;
-        let integral = (-u + 0.1).choose(series, closed_form);
-        integral * (parameters.stiffness * c * c * std::f64::consts::FRAC_1_SQRT_2)
+
+            /// Any law's, out of line: a call costs the common laws nothing.
+            #[cold]
+            #[inline(never)]
+            fn rare_force<R: Real>(&self, depth: R) -> R {
+                match self {
+                    $(Self::$law(law) => law.force(depth),)+
+                    Self::Linear(law) => law.force(depth),
+                }
+            }
+
+            /// [J] ∫F dδ from 0 to `depth` [m].
+            pub fn energy<R: Real>(&self, depth: R) -> R {
+                match self {
+                    $(Self::$law(law) => law.energy(depth),)+
+                    Self::Linear(law) => law.energy(depth),
+                }
+            }
+
+            /// The power law for penetrations that go to 0.
+            pub fn for_small_penetrations(&self) -> PowerLaw {
+                match self {
+                    $(Self::$law(law) => law.for_small_penetrations(),)+
+                    Self::Linear(law) => law.for_small_penetrations(),
+                }
+            }
+        }
+    };
+}
+
+elasticities!(elastic);
+
+impl Elastic {
+    /// [N] F at the penetration `depth` [m], which is not negative.
+    #[inline(always)]
+    pub fn force<R: Real>(&self, depth: R) -> R {
+        match self {
+            Self::Hertz(law) => law.force(depth),
+            Self::Linear(law) => law.force(depth),
+            _ => self.rare_force(depth),
+        }
     }
 }

@@ -1,27 +1,34 @@
 //! Normal contact: f_n = max(0, F(δ)·(1 + χ·s)), s = min(δ̇/δ̇⁻, s_max).
 //!
-//! F is an [`Elastic`] law, χ a number from the damping law and the restitution
-//! ([`damping::factor`]). Which elastic law, whether χ is there at all and which friction law follow
-//! from the scene; each combination is compiled on its own.
+//! F is an [`Elastic`] law, one a file; χ is a number that the damping law makes of the restitution
+//! ([`damping::factor`]). Which laws they are is data and looked up where the force is computed.
+
+// Defines `elasticities!`, which hands the list of the declared elasticities to another macro.
+include!(concat!(env!("OUT_DIR"), "/elasticities.rs"));
 
 pub mod damping;
 mod elastic;
+mod linear;
 
-pub use elastic::{Elastic, HertzThreeHalves, Linear, Liu, Power};
+/// The file of each declared elasticity.
+macro_rules! files {
+    ($($law:ident in $file:ident,)+) => { $(mod $file; pub use $file::$law;)+ };
+}
+elasticities!(files);
 
-use super::friction::{Friction, FrictionParameters, Rubbing};
+pub use elastic::{Elastic, ElasticLaw, PowerLaw};
+pub use linear::Linear;
+
+use super::friction::{Friction, Rubbing};
 use crate::integrator::Kinks;
 use crate::math::{self, Real};
+use crate::scene;
 
 /// Numbers of one contact, ready for the inner loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactParameters {
-    /// [N/m^p] Stiffness K; for Liu's law (π/2)·E*·L [N/m].
-    pub stiffness: f64,
-    /// Exponent p.
-    pub exponent: f64,
-    /// [m] Clearance c, for the conformal law.
-    pub clearance: f64,
+    /// F.
+    pub elastic: Elastic,
     /// χ.
     pub damping: f64,
     /// s_max.
@@ -29,7 +36,7 @@ pub struct ContactParameters {
     /// [m/s] v_floor.
     pub speed_floor: f64,
     /// Friction.
-    pub friction: FrictionParameters,
+    pub friction: Friction,
 }
 
 /// The memory of one contact.
@@ -51,32 +58,6 @@ impl ContactMode {
     }
 }
 
-/// Whether χ is in the law.
-pub trait Damped {
-    /// 1 + χ·s.
-    fn factor<R: Real>(parameters: &ContactParameters, rate: R, per_approach: f64) -> R;
-}
-
-/// Hysteresis damping.
-pub struct Hysteresis;
-
-/// χ = 0.
-pub struct Undamped;
-
-impl Damped for Hysteresis {
-    #[inline(always)]
-    fn factor<R: Real>(parameters: &ContactParameters, rate: R, per_approach: f64) -> R {
-        (rate * per_approach).min(parameters.ratio_limit).times_plus(parameters.damping, R::ONE)
-    }
-}
-
-impl Damped for Undamped {
-    #[inline(always)]
-    fn factor<R: Real>(_: &ContactParameters, _: R, _: f64) -> R {
-        R::ONE
-    }
-}
-
 /// Forces in a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forces<R = f64> {
@@ -86,28 +67,6 @@ pub struct Forces<R = f64> {
     pub tangential: R,
     /// [m/s] Rate of the bristles' deflection.
     pub bristle_rate: R,
-}
-
-/// Forces at the penetration `depth` [m], its `rate` [m/s], the bristles' deflection `z` [m] and the
-/// sliding speed that `sliding` gives [m/s]. They are 0 while f_n would pull: no adhesion.
-#[inline(always)]
-pub fn force<R: Real, E: Elastic, D: Damped, F: Friction>(
-    parameters: &ContactParameters,
-    per_approach: f64,
-    depth: R,
-    rate: R,
-    z: R,
-    sliding: impl FnOnce() -> R,
-) -> Forces<R> {
-    let mut normal = R::ZERO;
-    if R::MANY || depth > 0.0 {
-        normal = (E::force(parameters, depth.max(0.0)) * D::factor(parameters, rate, per_approach)).max(0.0);
-    }
-    if !F::PRESENT || (!F::BRISTLES && normal == 0.0) {
-        return Forces { normal, ..Forces::default() };
-    }
-    let Rubbing { ratio, bristle_rate } = F::rub(&parameters.friction, sliding(), z);
-    Forces { normal, tangential: normal * ratio, bristle_rate }
 }
 
 /// What a contact does to energy.
@@ -129,24 +88,64 @@ impl<R: Real> std::ops::AddAssign for Account<R> {
     }
 }
 
-/// The account of the [`force`] of the same arguments: what the bodies lose to it is f_n·δ̇ + f_t·v_t.
-pub fn account<R: Real, E: Elastic, D: Damped, F: Friction>(
-    parameters: &ContactParameters,
-    per_approach: f64,
-    depth: R,
-    rate: R,
-    z: R,
-    sliding: R,
-) -> Account<R> {
-    let Forces { normal, tangential, .. } = force::<R, E, D, F>(parameters, per_approach, depth, rate, z, || sliding);
-    Account {
-        energy: E::energy(parameters, depth.max(0.0)),
-        normal_power: normal * rate,
-        friction_loss: tangential * sliding,
-    }
+/// σ_b + σ_j [1/Pa], σ = (1 − ν²)/E.
+pub fn compliance(contact: &scene::Contact) -> f64 {
+    let sigma = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;
+    sigma(contact.young.bearing, contact.poisson.bearing) + sigma(contact.young.journal, contact.poisson.journal)
 }
 
 impl ContactParameters {
+    /// Of a contact with this elastic law.
+    pub fn new(contact: &scene::Contact, elastic: Elastic) -> Self {
+        let limit = contact.ratio_limit;
+        Self {
+            elastic,
+            damping: damping::factor(contact.law, contact.restitution),
+            ratio_limit: if limit > 0.0 { limit } else { f64::INFINITY },
+            speed_floor: contact.speed_floor,
+            friction: Friction::new(&contact.friction),
+        }
+    }
+
+    /// [N] f_n at the penetration `depth` [m] and its `rate` [m/s]; 0 where it would pull: no adhesion.
+    #[inline(always)]
+    pub fn normal_force<R: Real>(&self, per_approach: f64, depth: R, rate: R) -> R {
+        if !R::MANY && depth <= 0.0 {
+            return R::ZERO;
+        }
+        let ratio = (rate * per_approach).min(self.ratio_limit);
+        (self.elastic.force(depth.max(0.0)) * ratio.times_plus(self.damping, R::ONE)).max(0.0)
+    }
+
+    /// Forces at the penetration `depth` [m], its `rate` [m/s], the bristles' deflection `z` [m] and the sliding speed
+    /// that `sliding` gives [m/s].
+    #[inline(always)]
+    pub fn forces<R: Real>(
+        &self,
+        per_approach: f64,
+        depth: R,
+        rate: R,
+        z: R,
+        sliding: impl FnOnce() -> R,
+    ) -> Forces<R> {
+        let normal = self.normal_force(per_approach, depth, rate);
+        if self.friction == Friction::None {
+            return Forces { normal, ..Forces::default() };
+        }
+        let Rubbing { ratio, bristle_rate } = self.friction.rub(sliding(), z);
+        Forces { normal, tangential: normal * ratio, bristle_rate }
+    }
+
+    /// The account of the [`forces`](Self::forces) of the same arguments: what the bodies lose to it is f_n·δ̇ + f_t·v_t.
+    pub fn account<R: Real>(&self, per_approach: f64, depth: R, rate: R, z: R, sliding: R) -> Account<R> {
+        let Forces { normal, tangential, .. } = self.forces(per_approach, depth, rate, z, || sliding);
+        Account {
+            energy: self.elastic.energy(depth.max(0.0)),
+            normal_power: normal * rate,
+            friction_loss: tangential * sliding,
+        }
+    }
+
     /// Adds the kinks of the force in the closed contact of memory `mode`, whose penetration grows at `rate` [m/s] and
     /// whose surfaces slide at `sliding` [m/s]: where s reaches its limit, where the force is cut off at 0, where the
     /// friction law has corners.
@@ -157,7 +156,7 @@ impl ContactParameters {
                 kinks.push(rate - mode.approach * self.ratio_limit);
             }
         }
-        for corner in self.friction.corners.into_iter().flatten() {
+        for corner in self.friction.corners().into_iter().flatten() {
             kinks.push(sliding - corner);
             kinks.push(sliding + corner);
         }
@@ -171,18 +170,13 @@ impl ContactParameters {
 
     /// [m] The penetration that stores `energy` [J].
     fn penetration_of_energy(&self, energy: f64) -> f64 {
-        let p = self.exponent;
-        math::powf((p + 1.0) * energy / self.small_stiffness(), 1.0 / (p + 1.0))
+        let PowerLaw { stiffness, exponent: p } = self.elastic.for_small_penetrations();
+        math::powf((p + 1.0) * energy / stiffness, 1.0 / (p + 1.0))
     }
 
     /// [1/s] Frequency of `mass` [kg] on this contact at the penetration `depth` [m].
     pub fn frequency(&self, mass: f64, depth: f64) -> f64 {
-        let p = self.exponent;
-        (p * self.small_stiffness() * math::powf(depth, p - 1.0) / mass).sqrt()
-    }
-
-    /// [N/m^p] K of the power law that holds for small penetrations.
-    fn small_stiffness(&self) -> f64 {
-        self.stiffness * if self.clearance > 0.0 { 1.0 / (2.0 * self.clearance).sqrt() } else { 1.0 }
+        let PowerLaw { stiffness, exponent: p } = self.elastic.for_small_penetrations();
+        (p * stiffness * math::powf(depth, p - 1.0) / mass).sqrt()
     }
 }

@@ -3,8 +3,8 @@
 use super::guide::{CORNERS, Guide, SliderPose, Surface};
 use super::revolute::guard;
 use crate::integrator::Guard;
-use crate::math::{self, Fused, Real};
-use crate::model::contact::{ContactMode, ContactParameters};
+use crate::math::{Fused, Real};
+use crate::model::contact::ContactMode;
 use crate::model::plane::Vec2;
 use std::ops::Mul;
 
@@ -82,9 +82,6 @@ impl Surface for Corners {
     }
 
     fn energy<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> R {
-        // ∫K·δ^p dδ.
-        let depth = guide.corners[k].touch(pose).depth.max(0.0);
-        let ContactParameters { stiffness, exponent, .. } = guide.contact;
-        math::powf(depth, exponent + 1.0) * stiffness / (exponent + 1.0)
+        guide.contact.elastic.energy(guide.corners[k].touch(pose).depth.max(0.0))
     }
 }

@@ -8,12 +8,11 @@
 //! pressure: force times that rate is just the rate of the elastic energy, so that damping never gives
 //! energy back. Force and friction act there.
 
-use super::compliance;
 use super::corners::Touch;
 use super::guide::{CORNERS, Guide, SliderPose, Surface};
 use crate::integrator::Guard;
 use crate::math::{self, Real};
-use crate::model::contact::ContactMode;
+use crate::model::contact::{ContactMode, compliance};
 use crate::model::plane::Vec2;
 use crate::scene::Scene;
 use std::f64::consts::PI;
@@ -158,6 +157,7 @@ impl Surface for Faces {
     }
 
     fn energy<R: Real>(guide: &Guide, face: usize, pose: &SliderPose<R>) -> R {
-        Self::bed(guide, face, pose).mean_square() * (0.5 * guide.contact.stiffness)
+        let stiffness = guide.contact.elastic.for_small_penetrations().stiffness;
+        Self::bed(guide, face, pose).mean_square() * (0.5 * stiffness)
     }
 }

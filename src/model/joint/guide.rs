@@ -7,15 +7,11 @@
 
 use super::corners::{Corners, Mark, Touch};
 use super::foundation::{self, Faces};
-use super::{Kernel, KernelFamily, Kernels, choose, compliance, parameters, with_damping};
 use crate::integrator::{Crossed, Guard, Kinks};
 use crate::math::Real;
-use crate::model::contact::{self, Account, ContactMode, ContactParameters, Damped, Elastic, Forces, Linear, force};
-use crate::model::friction::Friction;
+use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces, Hertz, Linear};
 use crate::model::plane::{Rotation, Vec2, cross};
-use crate::model::scalar::Scalar;
-use crate::scene::{self, Elasticity};
-use std::marker::PhantomData;
+use crate::scene;
 
 /// How many corners the slider has.
 pub const CORNERS: usize = 4;
@@ -70,64 +66,33 @@ pub struct Guide {
     pub(super) half_length: f64,
     /// The contact's numbers, the same for every contact.
     pub contact: ContactParameters,
-    surface: OfSurface,
-    kernels: Kernels<ByLaws<f64>>,
-}
-
-/// What is compiled for each surface.
-#[derive(Clone, Copy, Debug)]
-struct OfSurface {
-    contact_of_corner: [usize; CORNERS],
-    touch: fn(&Guide, usize, &SliderPose) -> Touch,
-    approaches: fn(&Guide, &SliderPose) -> [(f64, f64); CORNERS],
-    guards: fn(&Guide, &[ContactMode], &SliderPose) -> [Guard; CORNERS],
+    surface: scene::Surface,
 }
 
 /// One number for the bristles of each contact.
 type Bristles<R> = [R; GUIDE_CONTACTS];
 
-/// [`load`] of one combination of laws.
-type LoadKernel<R> =
-    fn(&Guide, &[ContactMode], R, Vec2<R>, Rotation<R>, R, &Bristles<R>, &mut Bristles<R>, &mut R) -> Vec2<R>;
-/// [`account`] of one combination of laws.
-type AccountKernel<R> = fn(&Guide, &[ContactMode], &SliderPose<R>, &Bristles<R>) -> Account<R>;
-
-/// What is compiled for each combination of laws.
-#[derive(Clone, Copy, Debug)]
-pub struct ByLaws<R> {
-    load: LoadKernel<R>,
-    account: AccountKernel<R>,
-}
-
-impl OfSurface {
-    fn new<S: Surface>() -> Self {
-        Self {
-            contact_of_corner: S::CONTACT_OF_CORNER,
-            touch: S::touch::<f64>,
-            approaches: approaches::<S>,
-            guards: S::guards,
+/// Does the same for either surface: `of_surface!(guide, S => …)` with S the guide's.
+macro_rules! of_surface {
+    ($guide:expr, $surface:ident => $what:expr) => {
+        match $guide.surface {
+            scene::Surface::Corner => {
+                type $surface = Corners;
+                $what
+            }
+            scene::Surface::Foundation => {
+                type $surface = Faces;
+                $what
+            }
         }
-    }
-}
-
-impl Kernel for ByLaws<f64> {
-    type Of<R: Real> = ByLaws<R>;
-}
-
-/// The load kernels of a surface.
-pub(super) struct Family<S>(PhantomData<S>);
-
-impl<S: Surface> KernelFamily for Family<S> {
-    type Kernel = ByLaws<f64>;
-    fn kernel<R: Real, E: Elastic, D: Damped, F: Friction>() -> ByLaws<R> {
-        ByLaws { load: load::<R, S, E, D, F>, account: account::<R, S, E, D, F> }
-    }
+    };
 }
 
 /// Returns the force [N] and writes the couple [N·m]. The slider's pose goes in by registers, all but the pin's abscissa,
 /// which does not matter.
 #[expect(clippy::too_many_arguments, reason = "what goes by registers stands alone")]
-fn load<R: Real, S: Surface, E: Elastic, D: Damped, F: Friction>(
+#[inline(never)]
+fn load<R: Real, S: Surface>(
     g: &Guide,
     modes: &[ContactMode],
     height: R,
@@ -144,10 +109,8 @@ fn load<R: Real, S: Surface, E: Elastic, D: Damped, F: Friction>(
         if mode.closed {
             let Touch { arm, normal, depth, rate, sliding } = S::touch(g, k, pose);
             let Forces { normal: pressure, tangential, bristle_rate: moving } =
-                force::<R, E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], || sliding);
-            if F::BRISTLES {
-                bristle_rate[k] = moving;
-            }
+                g.contact.forces(mode.per_approach, depth, rate, z[k], || sliding);
+            bristle_rate[k] = moving;
             let force = Vec2::new(-tangential, pressure * normal);
             load.force += force;
             load.couple += cross(arm, force);
@@ -162,16 +125,11 @@ fn approaches<S: Surface>(guide: &Guide, pose: &SliderPose) -> [(f64, f64); CORN
     std::array::from_fn(|k| if k < S::CONTACTS { S::approach(guide, k, pose) } else { none })
 }
 
-fn account<R: Real, S: Surface, E: Elastic, D: Damped, F: Friction>(
-    g: &Guide,
-    modes: &[ContactMode],
-    pose: &SliderPose<R>,
-    z: &Bristles<R>,
-) -> Account<R> {
+fn account<R: Real, S: Surface>(g: &Guide, modes: &[ContactMode], pose: &SliderPose<R>, z: &Bristles<R>) -> Account<R> {
     let mut sum = Account::default();
     for (k, mode) in modes.iter().enumerate().take(S::CONTACTS).filter(|(_, mode)| mode.closed) {
         let Touch { depth, rate, sliding, .. } = S::touch(g, k, pose);
-        let account = contact::account::<R, E, D, F>(&g.contact, mode.per_approach, depth, rate, z[k], sliding);
+        let account = g.contact.account(mode.per_approach, depth, rate, z[k], sliding);
         sum += Account { energy: S::energy(g, k, pose), ..account };
     }
     sum
@@ -189,27 +147,16 @@ impl Guide {
             normal: -side,
             line: scene.guide.offset + side * reach,
         };
-        let contact = &joint.contact;
-        let (stiffness, exponent, surface, kernels) = match joint.surface {
-            scene::Surface::Corner => {
-                // Sphere on plane.
-                let hertz = 4.0 / (3.0 * compliance(contact)) * joint.corner_radius.sqrt();
-                let stiffness = if contact.stiffness > 0.0 { contact.stiffness } else { hertz };
-                let kernels = choose::<Family<Corners>>(Elasticity::Hertz, contact);
-                (stiffness, contact.exponent, OfSurface::new::<Corners>(), kernels)
-            }
-            scene::Surface::Foundation => {
-                let kernels = with_damping::<Family<Faces>, Linear>(contact);
-                (foundation::stiffness(scene), 1.0, OfSurface::new::<Faces>(), kernels)
-            }
+        let elastic = match joint.surface {
+            scene::Surface::Corner => Elastic::Hertz(Hertz::corner(joint)),
+            scene::Surface::Foundation => Elastic::Linear(Linear { stiffness: foundation::stiffness(scene) }),
         };
         Self {
             corners: [mark(a, 1.0), mark(-a, 1.0), mark(a, -1.0), mark(-a, -1.0)],
             middles: [mark(0.0, 1.0), mark(0.0, -1.0)],
             half_length: a,
-            contact: ContactParameters { exponent, ..parameters(contact, stiffness, 0.0) },
-            surface,
-            kernels,
+            contact: ContactParameters::new(&joint.contact, elastic),
+            surface: joint.surface,
         }
     }
 
@@ -221,18 +168,18 @@ impl Guide {
     /// [m], [m/s] Greatest penetration in every contact, and the approach speed if it closes now; far
     /// open where there is no contact.
     pub fn approaches(&self, pose: &SliderPose) -> [(f64, f64); CORNERS] {
-        (self.surface.approaches)(self, pose)
+        of_surface!(self, S => approaches::<S>(self, pose))
     }
 
     /// The events at which the contacts change.
     pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
-        (self.surface.guards)(self, modes, pose)
+        of_surface!(self, S => S::guards(self, modes, pose))
     }
 
     /// Adds the kinks of the closed contacts' forces.
     pub fn kinks(&self, modes: &[ContactMode], pose: &SliderPose, kinks: &mut Kinks) {
         for (k, mode) in modes.iter().enumerate().filter(|(_, mode)| mode.closed) {
-            let Touch { rate, sliding, .. } = (self.surface.touch)(self, k, pose);
+            let Touch { rate, sliding, .. } = of_surface!(self, S => S::touch(self, k, pose));
             self.contact.kinks(mode, rate, sliding, kinks);
         }
     }
@@ -241,7 +188,7 @@ impl Guide {
     pub fn contacts_of(&self, crossed: &Crossed) -> Crossed {
         let mut contacts = *crossed;
         contacts[3..].fill(false);
-        for (corner, contact) in self.surface.contact_of_corner.into_iter().enumerate() {
+        for (corner, contact) in contact_of_corner(self.surface).into_iter().enumerate() {
             contacts[3 + contact] |= crossed[3 + corner];
         }
         contacts
@@ -250,7 +197,7 @@ impl Guide {
     /// The load of the closed contacts, whose bristles are deflected by `z` [m] and move at
     /// `bristle_rate` [m/s].
     #[inline(always)]
-    pub fn load<R: Scalar>(
+    pub fn load<R: Real>(
         &self,
         modes: &[ContactMode],
         pose: &SliderPose<R>,
@@ -259,8 +206,10 @@ impl Guide {
     ) -> Load<R> {
         if modes.iter().any(|mode| mode.closed) {
             let SliderPose { pin, pin_velocity, rotation, speed } = *pose;
-            let (load, mut couple) = (R::kernel(&self.kernels).load, R::ZERO);
-            let force = load(self, modes, pin.y, pin_velocity, rotation, speed, z, bristle_rate, &mut couple);
+            let mut couple = R::ZERO;
+            let force = of_surface!(self, S => {
+                load::<R, S>(self, modes, pin.y, pin_velocity, rotation, speed, z, bristle_rate, &mut couple)
+            });
             Load { force, couple }
         } else {
             Load::default()
@@ -268,13 +217,8 @@ impl Guide {
     }
 
     /// Energy and losses of the closed contacts, whose bristles are deflected by `z` [m].
-    pub fn account<R: Scalar>(
-        &self,
-        modes: &[ContactMode],
-        pose: &SliderPose<R>,
-        z: &[R; GUIDE_CONTACTS],
-    ) -> Account<R> {
-        (R::kernel(&self.kernels).account)(self, modes, pose, z)
+    pub fn account<R: Real>(&self, modes: &[ContactMode], pose: &SliderPose<R>, z: &[R; GUIDE_CONTACTS]) -> Account<R> {
+        of_surface!(self, S => account::<R, S>(self, modes, pose, z))
     }
 }
 

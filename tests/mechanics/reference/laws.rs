@@ -10,6 +10,8 @@ enum Elastic {
     Power { stiffness: f64, exponent: f64 },
     /// (π/2)·E*·L·δ·√(δ/(2(c + δ))).
     Conformal { modulus_width: f64, clearance: f64 },
+    /// (π/8)·E*·L·√(2δ·(3c + 2δ)²/(c + δ)³)·δ.
+    Hybrid { modulus_width: f64, clearance: f64 },
 }
 
 /// The laws of one contact.
@@ -39,6 +41,10 @@ impl Laws {
         let elastic = match joint.elasticity {
             Elasticity::Hertz => power(&joint.contact, hertz),
             Elasticity::Liu => Elastic::Conformal {
+                modulus_width: joint.contact.width / compliance(&joint.contact),
+                clearance: joint.clearance,
+            },
+            Elasticity::BaiZhao => Elastic::Hybrid {
                 modulus_width: joint.contact.width / compliance(&joint.contact),
                 clearance: joint.clearance,
             },
@@ -74,6 +80,11 @@ impl Laws {
             Elastic::Power { stiffness, exponent } => stiffness * penetration.powf(exponent),
             Elastic::Conformal { modulus_width, clearance } => {
                 PI / 2.0 * modulus_width * penetration * (penetration / (2.0 * (clearance + penetration))).sqrt()
+            }
+            Elastic::Hybrid { modulus_width, clearance } => {
+                let reach = clearance + penetration;
+                let steep = 2.0 * penetration * (2.0 * reach + clearance).powi(2) / reach.powi(3);
+                PI / 8.0 * modulus_width * steep.sqrt() * penetration
             }
         }
     }

@@ -1,0 +1,32 @@
+//! Linear: F = K·δ, a bed of springs of the stiffness K, pressed in by δ on average.
+//!
+//! E. Winkler, Die Lehre von der Elastizität und Festigkeit, Prag 1867. The slider's faces are such beds; no scene names
+//! the law for a revolute joint.
+
+use super::PowerLaw;
+use crate::math::Real;
+
+/// K·δ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear {
+    /// [N/m] K.
+    pub stiffness: f64,
+}
+
+impl Linear {
+    /// [N] At the mean penetration `depth` [m].
+    #[inline(always)]
+    pub fn force<R: Real>(&self, depth: R) -> R {
+        depth * self.stiffness
+    }
+
+    /// [J] ½·K·δ²: of a bed that is pressed in evenly by `depth` [m].
+    pub fn energy<R: Real>(&self, depth: R) -> R {
+        depth * 0.5 * self.force(depth)
+    }
+
+    /// The law itself.
+    pub fn for_small_penetrations(&self) -> PowerLaw {
+        PowerLaw { stiffness: self.stiffness, exponent: 1.0 }
+    }
+}

@@ -1,0 +1,39 @@
+//! Ambrósio: Coulomb friction with a ramp, f_t/f_n = μ·sign(v)·clamp((|v| − v0)/(v1 − v0), 0, 1).
+//!
+//! J. A. C. Ambrósio, in Virtual Nonlinear Multibody Systems, Kluwer 2003.
+//!
+//! Limits: no force below v0, so that nothing sticks: what rests under a force creeps at a speed between v0 and v1.
+
+use super::{Law, Rubbing};
+use crate::math::Real;
+use crate::scene;
+
+/// μ·sign(v)·clamp((|v| − v0)/(v1 − v0), 0, 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ambrosio {
+    /// μ.
+    kinetic: f64,
+    /// [m/s] v0.
+    v0: f64,
+    /// [m/s] v1.
+    v1: f64,
+    /// [s/m] 1/(v1 − v0).
+    per_width: f64,
+}
+
+impl Law for Ambrosio {
+    fn new(friction: &scene::Friction) -> Self {
+        let scene::Friction { coefficient, v0, v1, .. } = *friction;
+        Self { kinetic: coefficient, v0, v1, per_width: 1.0 / (v1 - v0) }
+    }
+
+    #[inline(always)]
+    fn rub<R: Real>(&self, v: R, _: R) -> Rubbing<R> {
+        let ramp = ((v.abs() - self.v0) * self.per_width).clamp(0.0, 1.0);
+        Rubbing::without_bristles((ramp * self.kinetic).copysign(v))
+    }
+
+    fn corners(&self) -> [Option<f64>; 2] {
+        [Some(self.v0).filter(|&v0| v0 > 0.0), Some(self.v1)]
+    }
+}

@@ -1,0 +1,65 @@
+//! Stribeck: a coefficient that falls with the sliding speed, μ(v) = μ_k + (μ_s − μ_k)·exp(−(v/v_s)²), smoothed:
+//! f_t/f_n = μ(v)·tanh(v/v1).
+//!
+//! R. Stribeck, Z. VDI 46 (1902) 1341; the exponential form as in B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit,
+//! Automatica 30 (1994) 1083.
+//!
+//! Limits: nothing sticks: what rests under a force creeps. With v1 near v_s the peak stays below μ_s.
+
+use super::{Law, Rubbing};
+use crate::math::{self, Real};
+use crate::scene;
+
+/// μ(v)·tanh(v/v1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stribeck {
+    coefficient: Falling,
+    /// [s/m] 1/v1.
+    per_width: f64,
+}
+
+/// A coefficient between μ_s at rest and μ_k.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Falling {
+    /// μ_k.
+    kinetic: f64,
+    /// μ_s.
+    pub still: f64,
+    /// [s/m] 1/v_s.
+    per_stribeck: f64,
+}
+
+impl Falling {
+    /// Of the scene's friction.
+    pub fn new(friction: &scene::Friction) -> Self {
+        Self {
+            kinetic: friction.coefficient,
+            still: friction.static_coefficient,
+            per_stribeck: 1.0 / friction.v_stribeck,
+        }
+    }
+
+    /// exp(−(v/v_s)²).
+    #[inline(always)]
+    pub fn fading<R: Real>(&self, v: R) -> R {
+        let share = v * self.per_stribeck;
+        math::exp(-share * share)
+    }
+
+    /// μ_k + (μ_s − μ_k)·`fading`.
+    #[inline(always)]
+    pub fn at<R: Real>(&self, fading: R) -> R {
+        fading * (self.still - self.kinetic) + self.kinetic
+    }
+}
+
+impl Law for Stribeck {
+    fn new(friction: &scene::Friction) -> Self {
+        Self { coefficient: Falling::new(friction), per_width: 1.0 / friction.v1 }
+    }
+
+    fn rub<R: Real>(&self, v: R, _: R) -> Rubbing<R> {
+        let coefficient = self.coefficient.at(self.coefficient.fading(v));
+        Rubbing::without_bristles(coefficient * math::tanh(v * self.per_width))
+    }
+}

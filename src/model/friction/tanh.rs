@@ -1,0 +1,26 @@
+//! Coulomb friction smoothed by a hyperbolic tangent: f_t/f_n = μ·tanh(v/v1).
+//!
+//! Limits: nothing sticks: what rests under a force creeps.
+
+use super::{Law, Rubbing};
+use crate::math::{self, Real};
+use crate::scene;
+
+/// μ·tanh(v/v1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tanh {
+    /// μ.
+    kinetic: f64,
+    /// [s/m] 1/v1.
+    per_width: f64,
+}
+
+impl Law for Tanh {
+    fn new(friction: &scene::Friction) -> Self {
+        Self { kinetic: friction.coefficient, per_width: 1.0 / friction.v1 }
+    }
+
+    fn rub<R: Real>(&self, v: R, _: R) -> Rubbing<R> {
+        Rubbing::without_bristles(math::tanh(v * self.per_width) * self.kinetic)
+    }
+}
