@@ -3,6 +3,7 @@
 use fmu_harness::campaign::trial::Verdict;
 use fmu_harness::campaign::{Campaign, Kind};
 use fmu_harness::report::campaign::table;
+use rayon::prelude::*;
 use slidercrank::scene::write::write;
 use slidercrank::scene::{JointModel, Method, PARAMETERS};
 use std::process::exit;
@@ -69,4 +70,42 @@ fn every_parameter_method_and_joint_has_its_turn() {
         };
         assert!(scenes.iter().any(clear), "joints {joints:04b}");
     }
+}
+
+/// How many turns the shipped scenes are run for here; `campaign --kind shipped` runs them for 60.
+const TURNS: f64 = 3.0;
+/// Every so many of the shipped scenes: each with each choice of play, and each drive and tolerance with each of them.
+const EVERY: usize = 5;
+
+#[test]
+fn where_any_adaptive_method_arrives_the_default_does_and_by_the_same_motion() {
+    let campaign = Campaign { kind: Kind::Shipped, scenes: 0, seed: 0, turns: TURNS };
+    let count = Kind::Shipped.count().expect("they are not drawn");
+    let numbers: Vec<u64> = (0..count).step_by(EVERY).collect();
+    let failures: Vec<String> = numbers
+        .par_iter()
+        .filter_map(|number| match campaign.outcome(*number).verdict {
+            Verdict::Failed(what) => Some(format!("{}: {what}", campaign.scene(*number).description)),
+            _ => None,
+        })
+        .collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn sixty_turns_of_plausible_machines_arrive() {
+    let campaign = Campaign { kind: Kind::Machines, scenes: 60, seed: 3, turns: 60.0 };
+    let outcomes = campaign.run(
+        || {},
+        |number, file| {
+            eprintln!("machine {number} does not end:\n{}", write(file));
+            exit(1);
+        },
+    );
+    println!("{}", table(&outcomes).print());
+    for (number, outcome) in outcomes.iter().enumerate() {
+        assert!(!matches!(outcome.verdict, Verdict::Failed(_)), "machine {number}: {:?}", outcome.verdict);
+    }
+    let finished = outcomes.iter().filter(|outcome| outcome.verdict == Verdict::Finished).count();
+    assert!(finished > 30, "{finished} machines came to the end");
 }

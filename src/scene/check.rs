@@ -71,7 +71,7 @@ impl Scene {
             let below_radius = || format!("below joint.{letter}.radius = {} m", number(radius));
             rule(joint.clearance < radius, letter, "clearance", joint.clearance, below_radius)?;
             let Point { x, y } = joint.eccentricity_start;
-            rule(x.hypot(y) < radius, letter, "eccentricity_start.x", x, || {
+            rule(libm::hypot(x, y) < radius, letter, "eccentricity_start.x", x, || {
                 format!("with .y = {} m, less than joint.{letter}.radius = {} m away", number(y), number(radius))
             })?;
             if !compliant {

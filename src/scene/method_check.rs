@@ -27,7 +27,7 @@ impl Scene {
             if joint.model == JointModel::Clearance {
                 check_friction(letter, joint.contact.friction.law)?;
                 let Point { x, y } = joint.eccentricity_start;
-                rule(x.hypot(y) <= joint.clearance, letter, "eccentricity_start.x", x, || {
+                rule(libm::hypot(x, y) <= joint.clearance, letter, "eccentricity_start.x", x, || {
                     let (y, clearance) = (number(y), number(joint.clearance));
                     format!("with .y = {y} m, at most joint.{letter}.clearance = {clearance} m away for method moreau")
                 })?;

@@ -176,7 +176,7 @@ fn exponent(text: &str) -> (i32, &str) {
 fn power(factor: f64, doubled: i32) -> f64 {
     match doubled % 2 {
         0 => factor.powi(doubled / 2),
-        _ => factor.powf(f64::from(doubled) / 2.0),
+        _ => libm::pow(factor, f64::from(doubled) / 2.0),
     }
 }
 

@@ -88,9 +88,6 @@ pub const HANGS: Duration = Duration::from_secs(600);
 /// a machine.
 const EVALUATIONS: f64 = 1.2e6;
 const EVALUATIONS_PER_TURN: f64 = 1e5;
-/// The methods that keep to a tolerance.
-const ADAPTIVE: [Method; 7] =
-    [Method::Automatic, Method::Verner7, Method::Dop853, Method::Dopri5, Method::Rodas4, Method::Cong8, Method::Bs3];
 
 impl Kind {
     /// How many scenes there are of this kind, if they are not drawn.
@@ -192,7 +189,7 @@ impl Campaign {
         let own = file.scene.solver.method;
         let (verdict, cost) = by(own);
         let why = match &verdict {
-            Verdict::Ended(why) if ADAPTIVE.contains(&own) => why.clone(),
+            Verdict::Ended(why) if !own.has("fixed step") => why.clone(),
             Verdict::Spent if self.kind == Kind::Shipped => "its work is beyond its bound".into(),
             Verdict::Finished if self.kind == Kind::Shipped => match agreement::parts(file) {
                 Some(how) => return (Verdict::Failed(format!("{} leaves the motion: {how}", own.name())), cost),
@@ -201,7 +198,7 @@ impl Campaign {
             _ => return (verdict, cost),
         };
         let finishes = |other: &&Method| **other != own && by(**other).0 == Verdict::Finished;
-        match ADAPTIVE.iter().find(finishes) {
+        match Method::ALL.iter().filter(|other| !other.has("fixed step")).find(finishes) {
             Some(other) => {
                 (Verdict::Failed(format!("{} ends where {} finishes: {why}", own.name(), other.name())), cost)
             }
