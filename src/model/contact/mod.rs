@@ -109,7 +109,7 @@ impl ContactParameters {
 
     /// [N] f_n at the penetration `depth` [m] and its `rate` [m/s]; 0 where it would pull: no adhesion.
     #[inline(always)]
-    pub fn normal_force<R: Real>(&self, per_approach: f64, depth: R, rate: R) -> R {
+    fn normal_force<R: Real>(&self, per_approach: f64, depth: R, rate: R) -> R {
         if !R::MANY && depth <= 0.0 {
             return R::ZERO;
         }
@@ -118,9 +118,30 @@ impl ContactParameters {
     }
 
     /// Forces at the penetration `depth` [m], its `rate` [m/s], the bristles' deflection `z` [m] and the sliding speed
-    /// that `sliding` gives [m/s].
+    /// that `sliding` gives [m/s]. Numbers with derivatives fit no registers: these are better off behind a call.
     #[inline(always)]
     pub fn forces<R: Real>(
+        &self,
+        per_approach: f64,
+        depth: R,
+        rate: R,
+        z: R,
+        sliding: impl FnOnce() -> R,
+    ) -> Forces<R> {
+        if R::PLAIN || R::MANY {
+            self.forces_in_line(per_approach, depth, rate, z, sliding)
+        } else {
+            self.forces_by_call(per_approach, depth, rate, z, sliding())
+        }
+    }
+
+    #[inline(never)]
+    fn forces_by_call<R: Real>(&self, per_approach: f64, depth: R, rate: R, z: R, sliding: R) -> Forces<R> {
+        self.forces_in_line(per_approach, depth, rate, z, || sliding)
+    }
+
+    #[inline(always)]
+    fn forces_in_line<R: Real>(
         &self,
         per_approach: f64,
         depth: R,

@@ -6,8 +6,8 @@
 
 use crate::integrator::{Guard, Kinks};
 use crate::math::Real;
-use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic};
-use crate::model::friction::{Friction, Rubbing};
+use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces};
+use crate::model::friction::Friction;
 use crate::model::plane::{Vec2, perp};
 use crate::scene;
 
@@ -124,13 +124,12 @@ impl Revolute {
         };
         let contact = &self.contact;
         let (depth, rate) = (epsilon - self.clearance, play.rate.dot(n));
-        let normal = contact.normal_force(mode.per_approach, depth, rate);
+        let t = perp(n);
+        let Forces { normal, tangential, bristle_rate } =
+            contact.forces(mode.per_approach, depth, rate, z, || self.sliding(play, epsilon, t));
         if contact.friction == Friction::None {
             return Load { force: -normal * n, ..Load::default() };
         }
-        let t = perp(n);
-        let Rubbing { ratio, bristle_rate } = contact.friction.rub(self.sliding(play, epsilon, t), z);
-        let tangential = normal * ratio;
         Load {
             force: n.times_plus(-normal, -tangential * t),
             journal_couple: (epsilon - self.radius) * tangential,
