@@ -8,11 +8,11 @@
 //! That power is 0 while a contact that has no adhesion lets go, where the loss itself has corners that
 //! steps of a smooth motion would step over.
 
+use super::bodies::{Bodies, bodies};
 use super::contact::Account;
 use super::drive::InputSignal;
 use super::jacobian::differentiate;
 use super::joint::guide::CORNERS;
-use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::perp;
 use super::plant::Plant;
 use super::reactions::reactions;
@@ -20,6 +20,7 @@ use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
+use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, Reset, Unilateral};
 use crate::math::Real;
 use crate::scene::Scene;

@@ -1,25 +1,8 @@
 //! Which contacts have bristles: those whose friction law does. Each costs one first-order state.
 
 use super::friction::Friction;
-use super::joint::guide::{GUIDE_CONTACTS, guide_contacts};
+use super::joint::guide::guide_contacts;
 use crate::scene::{JointModel, Scene};
-
-/// One number for the bristles of each contact: their deflection [m] or its rate [m/s].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bristles<R = f64> {
-    /// Of the joints A, B, C.
-    pub revolute: [R; 3],
-    /// Of the guide's contacts.
-    pub guide: [R; GUIDE_CONTACTS],
-}
-
-impl<R> Bristles<R> {
-    /// Of one of all contacts.
-    #[inline(always)]
-    pub fn of(&mut self, contact: usize) -> &mut R {
-        if contact < 3 { &mut self.revolute[contact] } else { &mut self.guide[contact - 3] }
-    }
-}
 
 /// The contacts with bristles, by their index among all contacts, and the deflection [m] at which
 /// bristles at rest let go.

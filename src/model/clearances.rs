@@ -1,18 +1,19 @@
 //! The joints with clearance of one mechanism: their forces, their event functions, their memory.
 //!
-//! `clear` says of A, B, C and T which have clearance: a constant of the mechanism's type.
+//! `play` says which joints have clearance; it is that of the mechanism's [`Structure`](super::structure::Structure), which
+//! may be a constant.
 
-use super::bristles::{Bristles, bristled_contacts};
+use super::bodies::bodies;
+use super::bristles::bristled_contacts;
 use super::contact::{Account, ContactMode, ContactParameters};
 use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, GUIDE_CONTACTS, Guide};
 use super::joint::revolute::Revolute;
-use super::mechanism::{CRANK, ROD, SLIDER, bodies};
-use super::rigid;
 use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
+use super::structure::{CRANK, JointSet, Pin, ROD, SLIDER};
+use super::unilateral;
 use crate::integrator::{ContactLaw, Crossed, GUARDS, Guard, Kinks, Reset};
-use crate::math::each;
 use crate::scene::Scene;
 
 /// The joints of a scene as contacts.
@@ -24,6 +25,8 @@ pub struct Clearances {
     mass: [f64; 3],
     /// The contacts with bristles, in the order of their states.
     pub bristles: Vec<usize>,
+    /// Place of every contact's bristles among their states.
+    bristle: [Option<usize>; CONTACTS],
     /// Restitution and friction of rigid contacts.
     pub(super) laws: [ContactLaw; CONTACTS],
 }
@@ -32,100 +35,129 @@ impl Clearances {
     /// Of a scene.
     pub fn new(scene: &Scene) -> Self {
         let joint = &scene.joint;
+        let bristles: Vec<usize> = bristled_contacts(scene).into_iter().map(|(contact, _)| contact).collect();
         Self {
             revolute: [&joint.a, &joint.b, &joint.c].map(Revolute::new),
             guide: Guide::new(scene),
             mass: bodies(scene).map(|body| body.mass),
-            bristles: bristled_contacts(scene).into_iter().map(|(contact, _)| contact).collect(),
-            laws: rigid::laws(scene),
+            bristle: std::array::from_fn(|contact| bristles.iter().position(|&bristled| bristled == contact)),
+            bristles,
+            laws: unilateral::laws(scene),
         }
     }
 
-    /// Adds the forces of the closed contacts, whose bristles are deflected by `deflections` [m].
+    /// Adds the forces of the closed contacts. Their bristles are deflected by `deflections` [m], the rates [m/s] of which
+    /// it writes; both lists are in the order of the states, and empty where there are none.
     #[inline(always)]
     pub fn add_loads<R: Scalar>(
         &self,
-        clear: [bool; 4],
+        play: JointSet,
         contacts: &Contacts,
         pose: &Pose<R>,
         deflections: &[R],
+        deflection_rates: &mut [R],
         loads: &mut Loads<R>,
     ) {
-        let z = self.deflections(deflections);
-        each!(true, joint < 3 => {
-            if clear[joint] && contacts[joint].closed {
-                let load = self.revolute[joint].load(&contacts[joint], &pose.play(joint), z.revolute[joint]);
-                loads.add_contact(joint, &load);
+        if !self.bristles.is_empty() {
+            deflection_rates[..self.bristles.len()].fill(R::ZERO);
+        }
+        // One after another: in a loop the loads would stay in memory.
+        self.add_pin(Pin::MainBearing, play, contacts, pose, deflections, deflection_rates, loads);
+        self.add_pin(Pin::CrankPin, play, contacts, pose, deflections, deflection_rates, loads);
+        self.add_pin(Pin::SliderPin, play, contacts, pose, deflections, deflection_rates, loads);
+        if play.guide {
+            let (mut z, mut rates) = ([R::ZERO; GUIDE_CONTACTS], [R::ZERO; GUIDE_CONTACTS]);
+            let bristled = self.bristle[3].is_some();
+            if bristled {
+                z = self.guide_deflections(deflections);
             }
-        });
-        if clear[3] {
-            // On its own: a reference into the loads would keep them all in memory.
-            let mut bristle_rate = [R::ZERO; GUIDE_CONTACTS];
-            loads.add_guide(&self.guide.load(&contacts[3..], &pose.slider(), &z.guide, &mut bristle_rate));
-            loads.bristle_rate.guide = bristle_rate;
+            loads.add_guide(&self.guide.load(&contacts[3..], &pose.slider(), &z, &mut rates));
+            if bristled {
+                for (place, rate) in self.bristle[3..].iter().zip(rates) {
+                    if let Some(place) = *place {
+                        deflection_rates[place] = rate;
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "inlined")]
+    fn add_pin<R: Scalar>(
+        &self,
+        pin: Pin,
+        play: JointSet,
+        contacts: &Contacts,
+        pose: &Pose<R>,
+        deflections: &[R],
+        deflection_rates: &mut [R],
+        loads: &mut Loads<R>,
+    ) {
+        let mode = &contacts[pin as usize];
+        if play.contains(pin) && mode.closed {
+            let place = self.bristle[pin as usize];
+            let z = place.map_or(R::ZERO, |place| deflections[place]);
+            let load = self.revolute[pin as usize].load(mode, &pose.play(pin), z);
+            loads.add_contact(pin, &load);
+            if let Some(place) = place {
+                deflection_rates[place] = load.bristle_rate;
+            }
         }
     }
 
     /// Elastic energy of the closed contacts, and the powers that they take.
     pub fn account<R: Scalar>(
         &self,
-        clear: [bool; 4],
+        play: JointSet,
         contacts: &Contacts,
         pose: &Pose<R>,
         deflections: &[R],
     ) -> Account<R> {
-        let z = self.deflections(deflections);
         let mut account = Account::default();
-        for (joint, revolute) in self.revolute.iter().enumerate() {
-            if clear[joint] && contacts[joint].closed {
-                account += revolute.account(&contacts[joint], &pose.play(joint), z.revolute[joint]);
+        for pin in play.pins() {
+            let mode = &contacts[pin as usize];
+            if mode.closed {
+                let z = self.bristle[pin as usize].map_or(R::ZERO, |place| deflections[place]);
+                account += self.revolute[pin as usize].account(mode, &pose.play(pin), z);
             }
         }
-        if clear[3] {
-            account += self.guide.account(&contacts[3..], &pose.slider(), &z.guide);
+        if play.guide {
+            account += self.guide.account(&contacts[3..], &pose.slider(), &self.guide_deflections(deflections));
         }
         account
     }
 
-    /// Each contact's share in the states of bristles; 0 for those that have none.
+    /// Those of the guide's contacts; 0 for those that have none.
     #[inline(always)]
-    fn deflections<R: Scalar>(&self, states: &[R]) -> Bristles<R> {
-        let mut z = Bristles::default();
-        for (&deflection, &contact) in states.iter().zip(&self.bristles) {
-            *z.of(contact) = deflection;
+    fn guide_deflections<R: Scalar>(&self, deflections: &[R]) -> [R; GUIDE_CONTACTS] {
+        let mut z = [R::ZERO; GUIDE_CONTACTS];
+        for (z, place) in z.iter_mut().zip(&self.bristle[3..]) {
+            if let Some(place) = *place {
+                *z = deflections[place];
+            }
         }
         z
     }
 
-    /// Writes the rates of the bristles' states.
-    #[inline(always)]
-    pub fn write_bristle_rates<R: Scalar>(&self, rate: &Bristles<R>, rates: &mut [R]) {
-        let mut rate = *rate;
-        for (place, &contact) in rates.iter_mut().zip(&self.bristles) {
-            *place = *rate.of(contact);
-        }
-    }
-
     /// Penetration and approach speed of every contact; far open for a joint without clearance.
     #[inline(always)]
-    pub fn penetrations(&self, clear: [bool; 4], pose: &Pose) -> [(f64, f64); CONTACTS] {
+    pub fn penetrations(&self, play: JointSet, pose: &Pose) -> [(f64, f64); CONTACTS] {
         let mut all = [(f64::NEG_INFINITY, 0.0); CONTACTS];
-        for (joint, revolute) in self.revolute.iter().enumerate() {
-            if clear[joint] {
-                let play = pose.play(joint);
-                all[joint] = (revolute.penetration(&play), revolute.penetration_rate(&play));
-            }
+        for pin in play.pins() {
+            let (revolute, journal) = (&self.revolute[pin as usize], pose.play(pin));
+            all[pin as usize] = (revolute.penetration(&journal), revolute.penetration_rate(&journal));
         }
-        if clear[3] {
+        if play.guide {
             all[3..].copy_from_slice(&self.guide.approaches(&pose.slider()));
         }
         all
     }
 
     /// [m] Penetration in the joints A, B, C and of the guide's corners; −∞ in an ideal joint.
-    pub fn depths(&self, clear: [bool; 4], pose: &Pose) -> [f64; 3 + CORNERS] {
-        let mut depths = self.penetrations(clear, pose).map(|(depth, _)| depth);
-        if clear[3] {
+    pub fn depths(&self, play: JointSet, pose: &Pose) -> [f64; 3 + CORNERS] {
+        let mut depths = self.penetrations(play, pose).map(|(depth, _)| depth);
+        if play.guide {
             depths[3..].copy_from_slice(&self.guide.penetrations(&pose.slider()));
         }
         depths
@@ -133,32 +165,47 @@ impl Clearances {
 
     /// How many event functions there are; an ideal joint has none.
     #[inline(always)]
-    pub fn guard_count(&self, clear: [bool; 4]) -> usize {
-        guard_place(clear, 3) + if clear[3] { CORNERS } else { 0 }
+    pub fn guard_count(&self, play: JointSet) -> usize {
+        play.pins().count() + if play.guide { CORNERS } else { 0 }
     }
 
     /// Writes the event functions.
     #[inline(always)]
-    pub fn guards(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
-        each!(true, joint < 3 => {
-            if clear[joint] {
-                guards[guard_place(clear, joint)] = self.revolute[joint].guard(&contacts[joint], &pose.play(joint));
-            }
-        });
-        if clear[3] {
-            let place = guard_place(clear, 3);
+    pub fn guards(&self, play: JointSet, contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
+        let mut place = 0;
+        self.add_guard(Pin::MainBearing, play, contacts, pose, guards, &mut place);
+        self.add_guard(Pin::CrankPin, play, contacts, pose, guards, &mut place);
+        self.add_guard(Pin::SliderPin, play, contacts, pose, guards, &mut place);
+        if play.guide {
             guards[place..place + CORNERS].copy_from_slice(&self.guide.guards(&contacts[3..], &pose.slider()));
         }
     }
 
+    #[inline(always)]
+    fn add_guard(
+        &self,
+        pin: Pin,
+        play: JointSet,
+        contacts: &Contacts,
+        pose: &Pose,
+        guards: &mut [Guard; GUARDS],
+        place: &mut usize,
+    ) {
+        if play.contains(pin) {
+            guards[*place] = self.revolute[pin as usize].guard(&contacts[pin as usize], &pose.play(pin));
+            *place += 1;
+        }
+    }
+
     /// Adds the kinks of the closed contacts' forces.
-    pub fn kinks(&self, clear: [bool; 4], contacts: &Contacts, pose: &Pose, kinks: &mut Kinks) {
-        for (joint, revolute) in self.revolute.iter().enumerate() {
-            if clear[joint] && contacts[joint].closed {
-                revolute.kinks(&contacts[joint], &pose.play(joint), kinks);
+    pub fn kinks(&self, play: JointSet, contacts: &Contacts, pose: &Pose, kinks: &mut Kinks) {
+        for pin in play.pins() {
+            let mode = &contacts[pin as usize];
+            if mode.closed {
+                self.revolute[pin as usize].kinks(mode, &pose.play(pin), kinks);
             }
         }
-        if clear[3] {
+        if play.guide {
             self.guide.kinks(&contacts[3..], &pose.slider(), kinks);
         }
     }
@@ -167,15 +214,15 @@ impl Clearances {
     /// straight again.
     pub fn cross(
         &self,
-        clear: [bool; 4],
+        play: JointSet,
         contacts: &Contacts,
         pose: &Pose,
         crossed: &Crossed,
         bristles: &mut [f64],
     ) -> Reset<Contacts> {
-        let penetrations = self.penetrations(clear, pose);
+        let penetrations = self.penetrations(play, pose);
         let mut reset = Reset { modes: *contacts, impact: None };
-        let crossed = self.guide.contacts_of(&by_joint(clear, crossed));
+        let crossed = self.guide.contacts_of(&by_contact(play, crossed));
         for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if mode.closed {
                 *mode = ContactMode::default();
@@ -193,9 +240,9 @@ impl Clearances {
     }
 
     /// The contacts of a pose that no motion has led to: those that penetrate are closed.
-    pub fn start(&self, clear: [bool; 4], pose: &Pose) -> Contacts {
+    pub fn start(&self, play: JointSet, pose: &Pose) -> Contacts {
         let mut contacts = Contacts::default();
-        for (index, (mode, (depth, rate))) in contacts.iter_mut().zip(self.penetrations(clear, pose)).enumerate() {
+        for (index, (mode, (depth, rate))) in contacts.iter_mut().zip(self.penetrations(play, pose)).enumerate() {
             if depth > 0.0 {
                 *mode = ContactMode::closing(rate, self.contact(index).speed_floor);
             }
@@ -218,20 +265,16 @@ impl Clearances {
     }
 }
 
-/// Where the event functions of a joint begin.
-#[inline(always)]
-fn guard_place(clear: [bool; 4], joint: usize) -> usize {
-    clear.into_iter().take(joint).filter(|&clear| clear).count()
-}
-
-/// The same, where A, B, C and the guide's corners have places whether they have clearance or not.
-fn by_joint(clear: [bool; 4], crossed: &Crossed) -> Crossed {
+/// The same with a place for every contact, whether its joint has clearance or not.
+fn by_contact(play: JointSet, crossed: &Crossed) -> Crossed {
     let mut all = [false; GUARDS];
-    for joint in (0..3).filter(|&joint| clear[joint]) {
-        all[joint] = crossed[guard_place(clear, joint)];
+    let mut next = 0;
+    for pin in play.pins() {
+        all[pin as usize] = crossed[next];
+        next += 1;
     }
-    if clear[3] {
-        all[3..3 + CORNERS].copy_from_slice(&crossed[guard_place(clear, 3)..][..CORNERS]);
+    if play.guide {
+        all[3..3 + CORNERS].copy_from_slice(&crossed[next..][..CORNERS]);
     }
     all
 }

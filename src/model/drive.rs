@@ -2,9 +2,9 @@
 
 use super::dynamics::Loads;
 use super::joint::guide;
-use super::mechanism::{CRANK, SLIDER};
 use super::plane::Vec2;
 use super::signals::Inputs;
+use super::structure::{CRANK, Pin, SLIDER};
 use crate::math::Real;
 use crate::scene::Scene;
 
@@ -66,9 +66,8 @@ impl Rotor {
 /// Viscous friction in one joint's relative rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryDamper {
-    /// The joint: A, B, C as 0, 1, 2. Its journal is on the body of the same index, but B's bearing is
-    /// on the rod and its journal on the crank.
-    pub joint: usize,
+    /// The joint.
+    pub pin: Pin,
     /// [N·m·s/rad]
     pub coefficient: f64,
 }
@@ -77,24 +76,24 @@ pub struct RotaryDamper {
 #[inline(always)]
 pub fn add_viscous<R: Real>(dampers: &[RotaryDamper], speed: &[R; 3], ends: &[R; 2], loads: &mut Loads<R>) {
     for damper in dampers {
-        let relative = match damper.joint {
-            0 => speed[CRANK],
-            1 => speed[CRANK] - ends[0],
-            _ => speed[SLIDER] - ends[1],
+        let relative = match damper.pin {
+            Pin::MainBearing => speed[CRANK],
+            Pin::CrankPin => speed[CRANK] - ends[0],
+            Pin::SliderPin => speed[SLIDER] - ends[1],
         };
         let couple = relative * damper.coefficient;
-        loads.add_couples(damper.joint, -couple, couple);
+        loads.add_couples(damper.pin, -couple, couple);
     }
 }
 
 /// The revolute joints with viscous friction.
 pub fn rotary_dampers(scene: &Scene) -> Vec<RotaryDamper> {
     let joint = &scene.joint;
-    [&joint.a, &joint.b, &joint.c]
+    Pin::ALL
         .into_iter()
-        .enumerate()
+        .zip([&joint.a, &joint.b, &joint.c])
         .filter(|(_, joint)| joint.damping != 0.0)
-        .map(|(index, joint)| RotaryDamper { joint: index, coefficient: joint.damping })
+        .map(|(pin, joint)| RotaryDamper { pin, coefficient: joint.damping })
         .collect()
 }
 

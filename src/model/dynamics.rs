@@ -1,14 +1,32 @@
-//! M(q)·q̈ = Q(t, q, q̇) of an open mechanism: loads on the bodies in, accelerations out.
+//! M(q)·q̈ = Q(t, q, q̇): loads on the bodies in, accelerations out.
+//!
+//! The coordinates of a chain are its root's and the absolute angles θ of its bodies. Constants of augmented bodies (see
+//! [`bodies`](super::bodies)) give the matrix of the angles,
+//!
+//! ```text
+//!          | d1   m12  m13 |
+//!     M =  | m12  d2   m23 |,   m_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), zero where k and l are in different chains
+//!          | m13  m23  d3  |
+//! ```
+//!
+//! and the centrifugal terms θ̇²·∂m/∂θ. Forces go inwards: what acts on a body beyond a joint acts, with its moment about
+//! that joint, on the body that it hangs on. Then
+//!
+//! - a root on the ground does not move;
+//! - a floating root is its chain's centre of mass, m·r̈ = ΣF, and shares no inertia with the angles;
+//! - the pin on its rail has m·ẍ − Σ h_k,y·θ̈_k = F, with F the force along the rail and h_k,y that of rot(θ_k)·h_k:
+//!   ẍ is eliminated, which takes h_k,y·h_l,y/m from m_kl and adds h_k,y·F/m to Q_k;
+//! - in a closed loop the rod follows the crank, θ̈2 = ρ·θ̈1 + σ: the equations of both, times 1 and ρ, are summed.
 
-use super::bristles::Bristles;
+use super::bodies::AugmentedBodies;
+use super::ideal::IdealMotion;
 use super::joint::{guide, revolute};
-use super::kinematics::{Roots, Turning};
-use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology};
-use super::plane::{Vec2, cross};
-use crate::math::{Real, each};
+use super::kinematics::{Arms, Roots, Turning};
+use super::plane::{Rotation, Vec2, cross};
+use super::structure::{CRANK, Link, Pin, ROD, SLIDER, Structure};
+use crate::math::Real;
 
-/// Loads on the bodies but for gravity and the reactions of ideal joints: forces at the joint
-/// centres and couples.
+/// Loads on the bodies but for gravity and the reactions of ideal joints: forces at the joint centres and couples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loads<R = f64> {
     /// [N] On the crank at its main journal.
@@ -31,39 +49,36 @@ pub struct Loads<R = f64> {
     pub slider_load: R,
     /// The guide's part: contact, or viscous friction of an ideal guide.
     pub guide: guide::Load<R>,
-    /// [m/s] Rates of the bristles' deflections in the contacts.
-    pub bristle_rate: Bristles<R>,
 }
 
 impl<R: Real> Loads<R> {
-    /// Adds the contact of joint A, B or C (0, 1, 2).
+    /// Adds the contact of a pin in its bearing.
     #[inline(always)]
-    pub fn add_contact(&mut self, joint: usize, load: &revolute::Load<R>) {
-        match joint {
-            0 => self.crank += load.force,
-            1 => {
+    pub fn add_contact(&mut self, pin: Pin, load: &revolute::Load<R>) {
+        match pin {
+            Pin::MainBearing => self.crank += load.force,
+            Pin::CrankPin => {
                 self.crank_pin += load.force;
                 self.big_end -= load.force;
             }
-            _ => {
+            Pin::SliderPin => {
                 self.pin += load.force;
                 self.small_end -= load.force;
             }
         }
-        self.add_couples(joint, load.journal_couple, load.bearing_couple);
-        self.bristle_rate.revolute[joint] = load.bristle_rate;
+        self.add_couples(pin, load.journal_couple, load.bearing_couple);
     }
 
-    /// Adds couples on the journal and the bearing of joint A, B or C (0, 1, 2).
+    /// Adds couples on the journal and the bearing of a pin.
     #[inline(always)]
-    pub fn add_couples(&mut self, joint: usize, journal: R, bearing: R) {
-        match joint {
-            0 => self.crank_couple += journal,
-            1 => {
+    pub fn add_couples(&mut self, pin: Pin, journal: R, bearing: R) {
+        match pin {
+            Pin::MainBearing => self.crank_couple += journal,
+            Pin::CrankPin => {
                 self.crank_couple += journal;
                 self.end_couple[0] += bearing;
             }
-            _ => {
+            Pin::SliderPin => {
                 self.slider_couple += journal;
                 self.end_couple[1] += bearing;
             }
@@ -90,191 +105,230 @@ impl<R: Real> Loads<R> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Accelerations<R = f64> {
     /// [m/s²]
-    pub roots: Roots<R>,
+    pub roots: Roots<Vec2<R>>,
     /// [rad/s²] Of crank, rod and slider.
     pub angle: [R; 3],
 }
 
-/// Index of a pair of angles in [`ChainInertia`]'s arrays.
-const PAIRS: [(usize, usize); 3] = [(CRANK, ROD), (ROD, SLIDER), (CRANK, SLIDER)];
-
-/// Solves the equations of motion of an open mechanism.
-#[inline(always)]
-pub fn accelerate<R: Real>(
-    topology: Topology,
-    bodies: &Bodies,
-    chains: &ChainInertia,
-    gravity: f64,
-    turning: &Turning<R>,
-    loads: &Loads<R>,
-) -> Accelerations<R> {
-    let Topology { a, b, c, t, speed } = topology;
-    let rotation = &turning.rotation;
-    let crank_length = rotation[CRANK].axis(bodies[CRANK].length);
-    let rod_length = rotation[ROD].axis(bodies[ROD].length);
-    let square = turning.speed.map(|speed| speed * speed);
-    let mut q = loads.couples();
-    let mut result = Accelerations::default();
-    let fall = Vec2::constant(Vec2::new(0.0, -gravity));
-
-    // Generalized forces: each chain handed down from its end to its root.
-    let rail_rod = c && t;
-    let rail_crank = b && c && t;
-    let mut on_rail = loads.pin;
-    if rail_rod {
-        let mut on_big_end = loads.big_end;
-        if rail_crank {
-            q[CRANK] -= cross(crank_length, loads.crank);
-            on_big_end = loads.crank;
-        }
-        q[ROD] -= cross(rod_length, on_big_end);
-        on_rail += on_big_end;
-    } else {
-        let on_small_end = if c { loads.pin } else { loads.small_end };
-        q[ROD] += cross(rod_length, on_small_end);
-        let mut on_rod = on_small_end;
-        if !b {
-            on_rod += loads.big_end;
-            let total = on_rod;
-            q[ROD] += cross(rotation[ROD].apply(chains.anchor[ROD]), total);
-            if c {
-                q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
-            }
-            result.roots.rod = total.times_plus(chains.per_mass[ROD], fall);
-        }
-        if !c && !t {
-            q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), loads.pin);
-            result.roots.slider = loads.pin.times_plus(chains.per_mass[SLIDER], fall);
-        }
-        let on_crank_pin = if b { on_rod } else { loads.crank_pin };
-        if !a || !speed {
-            q[CRANK] += cross(crank_length, on_crank_pin);
-        }
-        if !a {
-            let total = on_crank_pin + loads.crank;
-            q[CRANK] += cross(rotation[CRANK].apply(chains.anchor[CRANK]), total);
-            if b {
-                q[ROD] += cross(rotation[ROD].apply(chains.anchor[ROD]), total);
-            }
-            if b && c {
-                q[SLIDER] += cross(rotation[SLIDER].apply(chains.anchor[SLIDER]), total);
-            }
-            result.roots.crank = total.times_plus(chains.per_mass[CRANK], fall);
-        }
-    }
-    if rail_rod && !b {
-        // The crank alone.
-        q[CRANK] += cross(crank_length, loads.crank_pin);
-        if !a {
-            let total = loads.crank_pin + loads.crank;
-            q[CRANK] += cross(rotation[CRANK].apply(chains.anchor[CRANK]), total);
-            result.roots.crank = total.times_plus(chains.per_mass[CRANK], fall);
-        }
-    }
-
-    // Elements of the mass matrix and the centrifugal terms, which are known before the forces are.
-    let linked = [b, c && !t, b && c && !t];
-    let mut m = [R::ZERO; 3];
-    let mut early = [R::ZERO; 3];
-    each!(true, pair < 3 => {
-        if linked[pair] {
-            let (k, l) = PAIRS[pair];
-            let cos = rotation[k].cos.times_plus(rotation[l].cos, rotation[k].sin * rotation[l].sin);
-            let sin = rotation[l].sin.times_plus(rotation[k].cos, -(rotation[l].cos * rotation[k].sin));
-            m[pair] = cos.times_plus(chains.cos[pair], sin * chains.sin[pair]);
-            let centrifugal = sin.times_plus(chains.cos[pair], -(cos * chains.sin[pair]));
-            early[k] = centrifugal.times_plus(square[l], early[k]);
-            early[l] = (-centrifugal).times_plus(square[k], early[l]);
-        }
-    });
-    let mut d = chains.diagonal.map(R::constant);
-
-    // Gravity on the chains that do not float, and the coupling with the pin on an ideal guide.
-    let rooted = [a || rail_crank, (b && a) || rail_rod, b && c && a && !t];
-    let mut first_moment = [Vec2::<R>::ZERO; 3];
-    each!(true, k < 3 => {
-        if rooted[k] {
-            first_moment[k] = rotation[k].apply(chains.moment[k]);
-            early[k] = first_moment[k].x.times_plus(-gravity, early[k]);
-        }
-        q[k] += early[k];
-    });
-    let per_mass = chains.per_mass[SLIDER];
-    let mut along = on_rail.x;
-    if t {
-        for (k, on) in [(CRANK, rail_crank), (ROD, rail_rod)] {
-            if on {
-                along = square[k].times_plus(first_moment[k].x, along);
-            }
-        }
-    }
-    if rail_rod {
-        q[ROD] += first_moment[ROD].y * along * per_mass;
-        d[ROD] -= first_moment[ROD].y * first_moment[ROD].y * per_mass;
-    }
-    if rail_crank {
-        q[CRANK] += first_moment[CRANK].y * along * per_mass;
-        d[CRANK] -= first_moment[CRANK].y * first_moment[CRANK].y * per_mass;
-        m[0] -= first_moment[CRANK].y * first_moment[ROD].y * per_mass;
-    }
-
-    result.angle = solve(topology, &d, &m, &q);
-    if t {
-        for (k, on) in [(CRANK, rail_crank), (ROD, rail_rod)] {
-            if on {
-                along += first_moment[k].y * result.angle[k];
-            }
-        }
-        result.roots.slider = Vec2::new(along * per_mass, R::ZERO);
-    }
-    result
+/// The mass matrix of the angles.
+#[derive(Clone, Copy)]
+struct MassMatrix<R> {
+    d1: R,
+    d2: R,
+    d3: R,
+    m12: R,
+    m23: R,
+    m13: R,
 }
 
-/// Angular accelerations from the diagonal `d`, the pairs' elements `m` and the right sides `q`, which are known last:
-/// what is divided by is inverted while forces are computed.
+/// Solves the equations of motion. `closing` says how the rod of a closed loop follows its crank.
+///
+/// Every number has a name of its own: lists that some structures fill in part stay in memory, which takes 1.4 times as
+/// long.
 #[inline(always)]
-fn solve<R: Real>(topology: Topology, d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R; 3] {
-    let Topology { b, c, t, speed, .. } = topology;
-    let with_crank = b && !speed;
-    let with_slider = c && !t;
-    let mut angle = [R::ZERO; 3];
-    match (with_crank, with_slider) {
-        (true, true) => angle = solve_three(d, m, q),
-        (true, false) => {
-            [angle[CRANK], angle[ROD]] = solve_two([d[CRANK], d[ROD]], m[0], [q[CRANK], q[ROD]]);
+pub fn accelerate<R: Real>(
+    of: &Structure,
+    bodies: &AugmentedBodies,
+    gravity: f64,
+    turning: &Turning<R>,
+    arms: &Arms<Vec2<R>>,
+    closing: &IdealMotion<R>,
+    loads: &Loads<R>,
+) -> Accelerations<R> {
+    let [r1, r2, r3] = turning.rotation;
+    let [w1, w2, w3] = turning.speed;
+    let (s1, s2, s3) = (w1 * w1, w2 * w2, w3 * w3);
+    let [mut q1, mut q2, mut q3] = loads.couples();
+    let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
+
+    // M, and its centrifugal terms in Q.
+    let [d1, d2, d3] = bodies.diagonal.map(R::constant);
+    let mut m = MassMatrix { d1, d2, d3, m12: R::ZERO, m23: R::ZERO, m13: R::ZERO };
+    if of.coupled[0] {
+        m.m12 = couple(bodies, 0, [r1, r2], [s1, s2], &mut q1, &mut q2);
+    }
+    if of.coupled[1] {
+        m.m23 = couple(bodies, 1, [r2, r3], [s2, s3], &mut q2, &mut q3);
+    }
+    if of.coupled[2] {
+        m.m13 = couple(bodies, 2, [r1, r3], [s1, s3], &mut q1, &mut q3);
+    }
+
+    // Weight of the chains that do not float.
+    let (mut h1, mut h2) = (Vec2::<R>::ZERO, Vec2::<R>::ZERO);
+    if of.weighs[CRANK] {
+        h1 = r1.apply(bodies.moment[CRANK]);
+        q1 = h1.x.times_plus(-gravity, q1);
+    }
+    if of.weighs[ROD] {
+        h2 = r2.apply(bodies.moment[ROD]);
+        q2 = h2.x.times_plus(-gravity, q2);
+    }
+    if of.weighs[SLIDER] {
+        let h3: Vec2<R> = r3.apply(bodies.moment[SLIDER]);
+        q3 = h3.x.times_plus(-gravity, q3);
+    }
+
+    // Forces, inwards to the roots, which they accelerate.
+    let mut roots = Roots::<Vec2<R>>::default();
+    let fall = Vec2::constant(Vec2::new(0.0, -gravity));
+    let (mut on_crank_pin, mut on_small_end, mut on_rail) = (loads.crank_pin, loads.small_end, loads.pin);
+    match of.slider {
+        Link::Before => on_small_end = loads.pin,
+        Link::Free(_) => {
+            q3 += cross(arms.slider, loads.pin);
+            roots.slider = loads.pin.times_plus(bodies.per_mass[SLIDER], fall);
         }
-        (false, true) => {
-            [angle[ROD], angle[SLIDER]] = solve_two([d[ROD], d[SLIDER]], m[1], [q[ROD], q[SLIDER]]);
+        _ => {}
+    }
+    if of.rod == Link::After {
+        let mut on_big_end = loads.big_end;
+        if of.crank == Link::After {
+            q1 -= cross(arms.throw, loads.crank);
+            on_big_end = loads.crank;
         }
-        (false, false) => angle[ROD] = q[ROD] * d[ROD].recip(),
+        q2 -= cross(arms.reach, on_big_end);
+        on_rail += on_big_end;
+    } else {
+        q2 += cross(arms.reach, on_small_end);
+        let total = loads.big_end + on_small_end;
+        if let Link::Free(_) = of.rod {
+            q2 += cross(arms.rod, total);
+            if c {
+                q3 += cross(arms.slider, total);
+            }
+            roots.rod = total.times_plus(bodies.per_mass[ROD], fall);
+        } else {
+            on_crank_pin = total;
+        }
     }
-    if !b && !speed {
-        angle[CRANK] = q[CRANK] * d[CRANK].recip();
+    match of.crank {
+        Link::After => {}
+        Link::Free(_) => {
+            let total = on_crank_pin + loads.crank;
+            q1 += cross(arms.throw, on_crank_pin) + cross(arms.crank, total);
+            if b {
+                q2 += cross(arms.rod, total);
+                if c {
+                    q3 += cross(arms.slider, total);
+                }
+            }
+            roots.crank = total.times_plus(bodies.per_mass[CRANK], fall);
+        }
+        _ => q1 += cross(arms.throw, on_crank_pin),
     }
-    if !c && !t {
-        angle[SLIDER] = q[SLIDER] * d[SLIDER].recip();
+
+    // M·θ̈ = Q.
+    if let Link::Rail(_) = of.slider {
+        let per_mass = bodies.per_mass[SLIDER];
+        let mut along = on_rail.x;
+        if of.rod == Link::After {
+            along = s2.times_plus(h2.x, along);
+            let share2 = h2.y * per_mass;
+            if of.crank == Link::After {
+                along = s1.times_plus(h1.x, along);
+                let share1 = h1.y * per_mass;
+                q1 = share1.times_plus(along, q1);
+                m.d1 = (-share1).times_plus(h1.y, m.d1);
+                m.m12 = (-share1).times_plus(h2.y, m.m12);
+            }
+            q2 = share2.times_plus(along, q2);
+            m.d2 = (-share2).times_plus(h2.y, m.d2);
+        }
+        let angle = m.solve_crank_and_rod(of, [q1, q2]);
+        let [a1, a2, _] = angle;
+        if of.rod == Link::After {
+            along = h2.y.times_plus(a2, along);
+            if of.crank == Link::After {
+                along = h1.y.times_plus(a1, along);
+            }
+        }
+        roots.slider.x = along * per_mass;
+        Accelerations { roots, angle }
+    } else if of.closed {
+        Accelerations { roots, angle: m.solve_closed(of, closing, [q1, q2]) }
+    } else {
+        Accelerations { roots, angle: m.solve(of, [q1, q2, q3]) }
     }
-    angle
+}
+
+/// m_kl of a pair of bodies that turn by `k` and `l` at speeds of these squares; adds its centrifugal terms to Q.
+#[inline(always)]
+fn couple<R: Real>(
+    bodies: &AugmentedBodies,
+    pair: usize,
+    [k, l]: [Rotation<R>; 2],
+    [square_k, square_l]: [R; 2],
+    q_k: &mut R,
+    q_l: &mut R,
+) -> R {
+    let (alpha, beta) = (bodies.cos[pair], bodies.sin[pair]);
+    let cos = k.cos.times_plus(l.cos, k.sin * l.sin);
+    let sin = l.sin.times_plus(k.cos, -(l.cos * k.sin));
+    let centrifugal = sin.times_plus(alpha, -(cos * beta));
+    *q_k = centrifugal.times_plus(square_l, *q_k);
+    *q_l = (-centrifugal).times_plus(square_k, *q_l);
+    cos.times_plus(alpha, sin * beta)
+}
+
+/// Right sides are known last: what is divided by is inverted before.
+impl<R: Real> MassMatrix<R> {
+    /// The slider does not turn.
+    #[inline(always)]
+    fn solve_crank_and_rod(&self, of: &Structure, [q1, q2]: [R; 2]) -> [R; 3] {
+        let Self { d1, d2, m12, .. } = *self;
+        if of.topology.speed {
+            [R::ZERO, q2 * d2.recip(), R::ZERO]
+        } else if of.coupled[0] {
+            let [a1, a2] = solve_two([d1, d2], m12, [q1, q2]);
+            [a1, a2, R::ZERO]
+        } else {
+            [q1 * d1.recip(), q2 * d2.recip(), R::ZERO]
+        }
+    }
+
+    /// By cofactors: one division, and nothing but the last products waits for the right side. A matrix without
+    /// couplings is solved angle by angle.
+    #[inline(always)]
+    fn solve(&self, of: &Structure, [q1, q2, q3]: [R; 3]) -> [R; 3] {
+        let Self { d1, d2, d3, m12, m23, m13 } = *self;
+        if !(of.coupled[1] || (of.coupled[0] && !of.topology.speed)) {
+            let a1 = if of.topology.speed { R::ZERO } else { q1 * d1.recip() };
+            [a1, q2 * d2.recip(), q3 * d3.recip()]
+        } else if of.topology.speed {
+            let [a2, a3] = solve_two([d2, d3], m23, [q2, q3]);
+            [R::ZERO, a2, a3]
+        } else {
+            let c11 = d2.times_plus(d3, -(m23 * m23));
+            let c22 = d1.times_plus(d3, -(m13 * m13));
+            let c33 = d1.times_plus(d2, -(m12 * m12));
+            let c12 = m13.times_plus(m23, -(m12 * d3));
+            let c13 = m12.times_plus(m23, -(m13 * d2));
+            let c23 = m12.times_plus(m13, -(m23 * d1));
+            let per_determinant = d1.times_plus(c11, m12.times_plus(c12, m13 * c13)).recip();
+            [
+                c11.times_plus(q1, c12.times_plus(q2, c13 * q3)) * per_determinant,
+                c12.times_plus(q1, c22.times_plus(q2, c23 * q3)) * per_determinant,
+                c13.times_plus(q1, c23.times_plus(q2, c33 * q3)) * per_determinant,
+            ]
+        }
+    }
+
+    /// (M11 + 2·ρ·M12 + ρ²·M22)·θ̈1 = Q1 + ρ·Q2 − (M12 + ρ·M22)·σ.
+    #[inline(always)]
+    fn solve_closed(&self, of: &Structure, closing: &IdealMotion<R>, [q1, q2]: [R; 2]) -> [R; 3] {
+        let Self { d1, d2, m12, .. } = *self;
+        let (ratio, bias) = (closing.rod_ratio, closing.rod_bias);
+        let with_rod = ratio.times_plus(d2, m12);
+        let inertia = ratio.times_plus(with_rod + m12, d1);
+        let power = (-with_rod).times_plus(bias, ratio.times_plus(q2, q1));
+        let a1 = if of.topology.speed { R::ZERO } else { power / inertia };
+        [a1, ratio.times_plus(a1, bias), R::ZERO]
+    }
 }
 
 #[inline(always)]
 fn solve_two<R: Real>(d: [R; 2], m: R, q: [R; 2]) -> [R; 2] {
     let per_determinant = d[0].times_plus(d[1], -(m * m)).recip();
     [q[0].times_plus(d[1], -(m * q[1])) * per_determinant, q[1].times_plus(d[0], -(m * q[0])) * per_determinant]
-}
-
-/// By L·D·Lᵀ without pivoting: a mass matrix is positive definite.
-#[inline(always)]
-fn solve_three<R: Real>(d: &[R; 3], m: &[R; 3], q: &[R; 3]) -> [R; 3] {
-    let [crank_rod, rod_slider, crank_slider] = *m;
-    let per_first = d[0].recip();
-    let (l1, l2) = (crank_rod * per_first, crank_slider * per_first);
-    let (per_rod, per_slider) = (-l1, -l2);
-    let d1 = per_rod.times_plus(crank_rod, d[1]);
-    let off = per_rod.times_plus(crank_slider, rod_slider);
-    let q1 = per_rod.times_plus(q[0], q[1]);
-    let d2 = per_slider.times_plus(crank_slider, d[2]);
-    let [rod, slider] = solve_two([d1, d2], off, [q1, per_slider.times_plus(q[0], q[2])]);
-    let first = (-crank_rod).times_plus(rod, q[0]);
-    [(-crank_slider).times_plus(slider, first) * per_first, rod, slider]
 }

@@ -21,7 +21,7 @@ pub struct IdealMechanism {
 }
 
 /// Where the rod and the slider are, and how they move.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IdealMotion<R = f64> {
     /// Rotation of the rod.
     pub rod: Rotation<R>,

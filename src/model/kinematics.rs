@@ -1,37 +1,65 @@
-//! Poses, velocities and accelerations of the joint centres, walked along the chains.
+//! Poses, velocities and accelerations of the joint centres, outwards from the roots of the chains.
 //!
-//! Position, velocity and acceleration of a point are the same sum over body-fixed arms; only what a
-//! body's turning makes of an arm differs: rot(θ)·a, ω·perp(rot(θ)·a), α·perp(rot(θ)·a) − ω²·rot(θ)·a.
+//! ```text
+//!                     crank_pin  o--- B ---o big_end
+//!                    throw   _-'                 '-_   reach
+//!        crank  o--- A ---o-'                       '-o small_end --- C ---o pin
+//!               (main journal)
+//! ```
+//!
+//! Position, velocity and acceleration of a point are the same sum over arms that are fixed in bodies; only what becomes
+//! of an arm a differs: rot(θ)·a, ω·perp(rot(θ)·a), α·perp(rot(θ)·a) − ω²·rot(θ)·a. So the way through the mechanism is
+//! written once, in [`JointCentres::outwards`].
 
-use super::mechanism::{Bodies, CRANK, ChainInertia, ROD, SLIDER, Topology};
+use super::bodies::{AugmentedBodies, Bodies};
 use super::plane::{Rotation, Vec2, perp};
+use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
 use crate::math::Real;
+use std::ops::{Add, Sub};
 
-/// One vector (a position, velocity or acceleration) for every joint centre.
+/// Something for every joint centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct JointCentres<R = f64> {
+pub struct Centres<V> {
     /// The crank's main journal.
-    pub crank: Vec2<R>,
+    pub crank: V,
     /// The crank's pin journal.
-    pub crank_pin: Vec2<R>,
+    pub crank_pin: V,
     /// The rod's big end.
-    pub big_end: Vec2<R>,
+    pub big_end: V,
     /// The rod's small end.
-    pub small_end: Vec2<R>,
+    pub small_end: V,
     /// The slider's pin.
-    pub pin: Vec2<R>,
+    pub pin: V,
 }
 
-/// What the roots of the chains contribute: positions, velocities or accelerations of floating
-/// centres of mass and of the pin on an ideal guide.
+/// One vector (a position, velocity or acceleration) for every joint centre.
+pub type JointCentres<R = f64> = Centres<Vec2<R>>;
+
+/// What the roots of the chains contribute: positions, velocities or accelerations of floating centres of mass and of the
+/// pin on an ideal guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Roots<R = f64> {
+pub struct Roots<V> {
     /// Of the chain with the crank, where it floats.
-    pub crank: Vec2<R>,
-    /// Of the chain that starts with the rod, where it floats.
-    pub rod: Vec2<R>,
+    pub crank: V,
+    /// Of the chain that begins with the rod, where it floats.
+    pub rod: V,
     /// Of the slider: its pin on an ideal guide, its centre of mass where it floats alone.
-    pub slider: Vec2<R>,
+    pub slider: V,
+}
+
+/// Arms that turn with the bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Arms<V> {
+    /// From the crank's main journal to its pin.
+    pub throw: V,
+    /// From the rod's big end to its small end.
+    pub reach: V,
+    /// The crank's part of the way from its chain's centre of mass to the chain's first joint; zero where it does not float.
+    pub crank: V,
+    /// The rod's.
+    pub rod: V,
+    /// The slider's.
+    pub slider: V,
 }
 
 /// Angles, rates and rotations of crank, rod and slider.
@@ -45,140 +73,184 @@ pub struct Turning<R = f64> {
     pub rotation: [Rotation<R>; 3],
 }
 
-/// A linear map of a body's arm, given in body axes.
-pub trait Turn<R>: Copy {
-    /// What becomes of an arm of body `k`.
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R>;
-    /// What becomes of an arm of `length` along the x axis of body `k`.
-    fn axis(&self, k: usize, length: f64) -> Vec2<R>;
+/// A point's place and velocity, which are summed together.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Moving<R> {
+    /// [m]
+    pub place: Vec2<R>,
+    /// [m/s]
+    pub velocity: Vec2<R>,
 }
 
-/// Positions.
-#[derive(Clone, Copy)]
-pub struct Place<'a, R>(pub &'a Turning<R>);
-
-/// Velocities.
-#[derive(Clone, Copy)]
-pub struct Velocity<'a, R>(pub &'a Turning<R>);
-
-/// Accelerations, with the angular accelerations.
-#[derive(Clone, Copy)]
-pub struct Acceleration<'a, R>(pub &'a Turning<R>, pub &'a [R; 3]);
-
-impl<R: Real> Turn<R> for Place<'_, R> {
+impl<R: Real> Add for Moving<R> {
+    type Output = Self;
     #[inline(always)]
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R> {
-        self.0.rotation[k].apply(arm)
-    }
-    #[inline(always)]
-    fn axis(&self, k: usize, length: f64) -> Vec2<R> {
-        self.0.rotation[k].axis(length)
+    fn add(self, other: Self) -> Self {
+        Self { place: self.place + other.place, velocity: self.velocity + other.velocity }
     }
 }
 
-impl<R: Real> Turn<R> for Velocity<'_, R> {
+impl<R: Real> Sub for Moving<R> {
+    type Output = Self;
     #[inline(always)]
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R> {
-        self.0.speed[k] * perp(self.0.rotation[k].apply(arm))
-    }
-    #[inline(always)]
-    fn axis(&self, k: usize, length: f64) -> Vec2<R> {
-        perp(self.0.rotation[k].axis(self.0.speed[k] * length))
+    fn sub(self, other: Self) -> Self {
+        Self { place: self.place - other.place, velocity: self.velocity - other.velocity }
     }
 }
 
-impl<R: Real> Turn<R> for Acceleration<'_, R> {
+impl<R: Copy> Centres<Moving<R>> {
+    /// Places.
     #[inline(always)]
-    fn arm(&self, k: usize, arm: Vec2) -> Vec2<R> {
-        let arm = self.0.rotation[k].apply(arm);
-        let speed = self.0.speed[k];
-        arm.times_plus(-(speed * speed), self.1[k] * perp(arm))
+    pub fn places(&self) -> JointCentres<R> {
+        Centres {
+            crank: self.crank.place,
+            crank_pin: self.crank_pin.place,
+            big_end: self.big_end.place,
+            small_end: self.small_end.place,
+            pin: self.pin.place,
+        }
     }
+
+    /// Velocities.
     #[inline(always)]
-    fn axis(&self, k: usize, length: f64) -> Vec2<R> {
-        self.arm(k, Vec2::new(length, 0.0))
+    pub fn velocities(&self) -> JointCentres<R> {
+        Centres {
+            crank: self.crank.velocity,
+            crank_pin: self.crank_pin.velocity,
+            big_end: self.big_end.velocity,
+            small_end: self.small_end.velocity,
+            pin: self.pin.velocity,
+        }
     }
 }
 
-/// Walks the chains of an open mechanism from their roots.
-#[inline(always)]
-pub fn walk<R: Real, V: Turn<R>>(
-    topology: Topology,
-    bodies: &Bodies,
-    chains: &ChainInertia,
-    roots: &Roots<R>,
-    turn: V,
-) -> JointCentres<R> {
-    let mut centres = JointCentres::default();
-    let arm = |k: usize| turn.arm(k, chains.anchor[k]);
-    let crank_length = turn.axis(CRANK, bodies[CRANK].length);
-    let rod_length = turn.axis(ROD, bodies[ROD].length);
-    let Topology { a, b, c, t, .. } = topology;
-    if t {
-        centres.pin = roots.slider;
+impl<V: Copy + Default + Add<Output = V> + Sub<Output = V>> Centres<V> {
+    /// Sums arms from the roots outwards. A pin on a rail comes with its root, and one that a closed loop guides is left to
+    /// its rod.
+    #[inline(always)]
+    pub fn outwards(of: &Structure, roots: &Roots<V>, arms: &Arms<V>) -> Self {
+        let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
+        let mut all = Self::default();
+        if let Link::Rail(_) = of.slider {
+            all.pin = roots.slider;
+            if c {
+                all.small_end = all.pin;
+                all.big_end = all.pin - arms.reach;
+            }
+        }
+        match of.crank {
+            Link::After => {
+                all.crank_pin = all.big_end;
+                all.crank = all.crank_pin - arms.throw;
+            }
+            Link::Free(_) => {
+                all.crank = roots.crank + arms.crank;
+                if b {
+                    all.crank = all.crank + arms.rod;
+                    if c {
+                        all.crank = all.crank + arms.slider;
+                    }
+                }
+                all.crank_pin = all.crank + arms.throw;
+            }
+            _ => all.crank_pin = arms.throw,
+        }
+        match of.rod {
+            Link::After => return all,
+            Link::Free(_) => {
+                all.big_end = roots.rod + arms.rod;
+                if c {
+                    all.big_end = all.big_end + arms.slider;
+                }
+            }
+            _ => all.big_end = all.crank_pin,
+        }
+        all.small_end = all.big_end + arms.reach;
+        match of.slider {
+            Link::Free(_) => all.pin = roots.slider + arms.slider,
+            Link::Before => all.pin = all.small_end,
+            _ => {}
+        }
+        all
     }
-    if c && t {
-        centres.small_end = centres.pin;
-        centres.big_end = centres.pin - rod_length;
-    }
-    if b && c && t {
-        centres.crank_pin = centres.big_end;
-        centres.crank = centres.crank_pin - crank_length;
-        return centres;
-    }
-    if !a {
-        centres.crank = roots.crank + arm(CRANK);
+}
+
+impl<V: Copy + Add<Output = V> + Sub<Output = V>> Roots<V> {
+    /// The roots of a mechanism whose joint centres are known: the way back from [`Centres::outwards`]. Those that it does
+    /// not have mean nothing.
+    pub fn of(of: &Structure, centres: &Centres<V>, arms: &Arms<V>) -> Self {
+        let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
+        let mut roots =
+            Self { crank: centres.crank - arms.crank, rod: centres.big_end - arms.rod, slider: centres.pin };
         if b {
-            centres.crank += arm(ROD);
+            roots.crank = roots.crank - arms.rod;
+            if c {
+                roots.crank = roots.crank - arms.slider;
+            }
         }
-        if b && c {
-            centres.crank += arm(SLIDER);
-        }
-    }
-    centres.crank_pin = centres.crank + crank_length;
-    if c && t {
-        return centres;
-    }
-    if b {
-        centres.big_end = centres.crank_pin;
-    } else {
-        centres.big_end = roots.rod + arm(ROD);
         if c {
-            centres.big_end += arm(SLIDER);
+            roots.rod = roots.rod - arms.slider;
         }
+        if let Link::Free(_) = of.slider {
+            roots.slider = roots.slider - arms.slider;
+        }
+        roots
     }
-    centres.small_end = centres.big_end + rod_length;
-    if c {
-        centres.pin = centres.small_end;
-    } else if !t {
-        centres.pin = roots.slider + arm(SLIDER);
-    }
-    centres
 }
 
-/// The roots of an open mechanism whose joint centres are known: the way back from [`walk`].
-pub fn roots<R: Real, V: Turn<R>>(
-    topology: Topology,
-    chains: &ChainInertia,
-    centres: &JointCentres<R>,
-    turn: V,
-) -> Roots<R> {
-    let Topology { b, c, t, .. } = topology;
-    let arm = |k: usize| turn.arm(k, chains.anchor[k]);
-    let mut roots = Roots { crank: centres.crank, rod: centres.big_end, slider: centres.pin };
-    roots.crank -= arm(CRANK);
-    if b {
-        roots.crank -= arm(ROD);
+impl<R: Real> Arms<Vec2<R>> {
+    /// As the bodies stand.
+    #[inline(always)]
+    pub fn at(of: &Structure, bodies: &Bodies, augmented: &AugmentedBodies, turning: &Turning<R>) -> Self {
+        let [crank, rod, slider] = &turning.rotation;
+        let mut arms =
+            Self { throw: crank.axis(bodies[CRANK].length), reach: rod.axis(bodies[ROD].length), ..Self::default() };
+        if of.floats[CRANK] {
+            arms.crank = crank.apply(augmented.anchor[CRANK]);
+        }
+        if of.floats[ROD] {
+            arms.rod = rod.apply(augmented.anchor[ROD]);
+        }
+        if of.floats[SLIDER] {
+            arms.slider = slider.apply(augmented.anchor[SLIDER]);
+        }
+        arms
     }
-    if b && c {
-        roots.crank -= arm(SLIDER);
+
+    /// With what they contribute to velocities.
+    #[inline(always)]
+    pub fn moving(self, [crank, rod, slider]: [R; 3]) -> Arms<Moving<R>> {
+        Arms {
+            throw: Moving::turning(self.throw, crank),
+            reach: Moving::turning(self.reach, rod),
+            crank: Moving::turning(self.crank, crank),
+            rod: Moving::turning(self.rod, rod),
+            slider: Moving::turning(self.slider, slider),
+        }
     }
-    roots.rod -= arm(ROD);
-    if c {
-        roots.rod -= arm(SLIDER);
+
+    /// What they contribute to accelerations.
+    #[inline(always)]
+    pub fn accelerated(self, [w1, w2, w3]: [R; 3], [a1, a2, a3]: [R; 3]) -> Self {
+        Self {
+            throw: accelerated(self.throw, w1, a1),
+            reach: accelerated(self.reach, w2, a2),
+            crank: accelerated(self.crank, w1, a1),
+            rod: accelerated(self.rod, w2, a2),
+            slider: accelerated(self.slider, w3, a3),
+        }
     }
-    if !t {
-        roots.slider -= arm(SLIDER);
+}
+
+impl<R: Real> Moving<R> {
+    /// An arm that turns at `speed` [rad/s].
+    #[inline(always)]
+    fn turning(arm: Vec2<R>, speed: R) -> Self {
+        Self { place: arm, velocity: perp(arm) * speed }
     }
-    roots
+}
+
+#[inline(always)]
+fn accelerated<R: Real>(arm: Vec2<R>, speed: R, alpha: R) -> Vec2<R> {
+    arm.times_plus(-(speed * speed), alpha * perp(arm))
 }

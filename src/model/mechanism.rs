@@ -1,204 +1,338 @@
-//! Crank, rod, slider: lengths, masses, and the inertia of what ideal joints leave connected.
+//! A mechanism with a rigid rod: its parts, its inputs, and its equations of motion.
 //!
-//! Any clearance joint cuts the loop. Bodies that ideal joints still connect form open chains, each
-//! with an anchor point: the ground at A, the slider's pin on an ideal guide, or, for a chain that
-//! floats, its own centre of mass. Within a chain every centre of mass is the anchor plus body-fixed
-//! vectors: r_i = anchor + Σ_k rot(θ_k)·c_ik. Hence, with absolute angles as coordinates, the mass
-//! matrix has the elements M_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k) and nothing but constants
-//! otherwise (augmented bodies; J. Wittenburg, Dynamics of Systems of Rigid Bodies, 1977, 5.2).
+//! The equations are written once, for every [`Structure`] and every number: [`Mechanism::rates`]. They are compiled once for
+//! each kind of number, with the structure as data (here, at the end), and again for some constant structures
+//! ([`compiled`](super::compiled)). What else is asked about an instant is made from the same three steps: the pose,
+//! outwards; the loads; the accelerations, by forces inwards.
 
-use super::plane::{Vec2, perp};
-use super::rod::Rod;
-use crate::scene::{JointModel, Point, Scene};
+use super::bodies::{AugmentedBodies, Bodies, bodies};
+use super::clearances::Clearances;
+use super::contact::Account;
+use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
+use super::dynamics::{Accelerations, Loads, accelerate};
+use super::ideal::{IdealMechanism, IdealMotion};
+use super::kinematics::{Arms, Centres, Moving, Roots, Turning};
+use super::plane::Vec2;
+use super::scalar::{Scalar, Tangent};
+use super::start::StartPose;
+use super::state::{Contacts, Instant, Pose, turning, turning_at};
+use super::structure::{CRANK, Link, ROD, Structure, Topology};
+use crate::integrator::{GUARDS, Guard};
+use crate::math::{self, Row, each};
+use crate::scene::Scene;
 
-/// Index of the crank, the rod and the slider.
-pub const CRANK: usize = 0;
-/// The rod.
-pub const ROD: usize = 1;
-/// The slider.
-pub const SLIDER: usize = 2;
-
-/// Which joints are ideal and whether the crank's angle is prescribed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Topology {
-    /// Main bearing is ideal.
-    pub a: bool,
-    /// Crank pin is ideal.
-    pub b: bool,
-    /// Slider pin is ideal.
-    pub c: bool,
-    /// Guide is ideal.
-    pub t: bool,
-    /// The crank's angle is prescribed.
-    pub speed: bool,
+/// A mechanism whose rod is rigid. Nothing but its inputs changes while time runs.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    /// What hangs on what.
+    pub structure: Structure,
+    pub(super) bodies: Bodies,
+    pub(super) augmented: AugmentedBodies,
+    pub(super) gravity: f64,
+    /// Its lengths, and the height of an ideal guide.
+    pub ideal: IdealMechanism,
+    /// The prescribed rotation.
+    pub rotor: Rotor,
+    /// The joints with clearance.
+    pub clearances: Clearances,
+    rotary_dampers: Vec<RotaryDamper>,
+    guide_damping: Option<f64>,
+    /// Inputs in time.
+    pub signal: InputSignal,
 }
 
-impl Topology {
-    /// Whether its one play is that of a pin or of the main bearing: with more contacts, or with those of the slider's corners,
-    /// steps in blocks take as long as others.
-    pub const fn has_one_play_in_a_pin(self) -> bool {
-        self.a as u8 + self.b as u8 + self.c as u8 == 2 && self.t
-    }
+/// Where the mechanism is at one instant, as its loads and accelerations need it.
+pub(super) struct Stance<R> {
+    /// Angles, places and velocities.
+    pub pose: Pose<R>,
+    /// The bodies' arms.
+    pub arms: Arms<Vec2<R>>,
+    /// How the rod of a closed loop follows its crank; zero where the loop is open.
+    pub closing: IdealMotion<R>,
 }
 
-impl Topology {
-    /// Of a scene.
-    pub fn of(scene: &Scene) -> Self {
-        let ideal = |model| model == JointModel::Ideal;
+impl Mechanism {
+    /// Assembles the mechanism of a scene that starts at `time` [s].
+    pub fn assemble(scene: &Scene, time: f64) -> Self {
+        let structure = Structure::new(Topology::of(scene));
+        let bodies = bodies(scene);
         Self {
-            a: ideal(scene.joint.a.model),
-            b: ideal(scene.joint.b.model),
-            c: ideal(scene.joint.c.model),
-            t: ideal(scene.joint.t.model),
-            speed: scene.drive.mode == crate::scene::DriveMode::Speed,
+            structure,
+            bodies,
+            augmented: AugmentedBodies::new(&bodies, &structure),
+            gravity: scene.gravity,
+            ideal: IdealMechanism::new(scene),
+            rotor: Rotor::new(scene, time),
+            clearances: Clearances::new(scene),
+            rotary_dampers: rotary_dampers(scene),
+            guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
+            signal: InputSignal::default(),
         }
     }
 
-    /// All joints are ideal: a closed loop.
-    pub const fn is_closed(self) -> bool {
-        self.a && self.b && self.c && self.t
+    /// Writes the rates of the state `y` at `t`: velocities, accelerations, and those of bristles. `of` is the mechanism's
+    /// structure, or the same as a constant.
+    #[inline(always)]
+    pub fn rates<R: Scalar>(&self, of: &Structure, contacts: &Contacts, t: R, y: &[R], rates: &mut [R]) {
+        let stance = self.stance(of, t, y);
+        let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
+        let loads = self.loads(of, contacts, t, y, &stance.pose, bristle_rates);
+        write(of, &self.accelerations(of, &stance, &loads), y, moving);
     }
 
-    /// The chain with the crank floats.
-    pub const fn crank_floats(self) -> bool {
-        let on_rail = self.b && self.c && self.t;
-        !(self.a || on_rail)
+    /// The same, and the event functions at this instant.
+    #[inline(always)]
+    pub fn rates_and_guards(
+        &self,
+        of: &Structure,
+        contacts: &Contacts,
+        t: f64,
+        y: &[f64],
+        rates: &mut [f64],
+        guards: &mut [Guard; GUARDS],
+    ) {
+        let stance = self.stance(of, t, y);
+        let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
+        let loads = self.loads(of, contacts, t, y, &stance.pose, bristle_rates);
+        write(of, &self.accelerations(of, &stance, &loads), y, moving);
+        self.guards_at(of, contacts, &stance.pose, guards);
     }
 
-    /// The rod floats, alone or with the slider.
-    pub const fn rod_floats(self) -> bool {
-        let on_rail = self.c && self.t;
-        !(self.b || on_rail)
+    /// The same, and everything else about this instant.
+    #[inline(always)]
+    fn rates_and_instant<R: Scalar>(
+        &self,
+        of: &Structure,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
+    ) -> Instant<R> {
+        let stance = self.stance(of, t, y);
+        let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
+        let loads = self.loads(of, contacts, t, y, &stance.pose, bristle_rates);
+        let accelerations = self.accelerations(of, &stance, &loads);
+        write(of, &accelerations, y, moving);
+        instant(of, stance, loads, &accelerations)
     }
 
-    /// The slider floats alone.
-    pub const fn slider_floats(self) -> bool {
-        !self.t && !self.c
+    /// Poses, outwards.
+    #[inline(always)]
+    pub(super) fn stance<R: Scalar>(&self, of: &Structure, t: R, y: &[R]) -> Stance<R> {
+        let (positions, rates) = y[..2 * of.positions].split_at(of.positions);
+        let mut turning = turning_at(of, &self.rotor, t, positions, rates);
+        let mut closing = IdealMotion::default();
+        if of.closed {
+            closing = self.ideal.motion(turning.rotation[CRANK], turning.speed[CRANK]);
+            turning.rotation[ROD] = closing.rod;
+            turning.speed[ROD] = closing.rod_ratio * turning.speed[CRANK];
+        }
+        let arms = Arms::at(of, &self.bodies, &self.augmented, &turning);
+        let (mut roots, root_rates) = (of.roots(positions), of.roots(rates));
+        if let Link::Rail(_) = of.slider {
+            roots.slider.y = R::constant(self.ideal.height);
+        }
+        let roots = Roots {
+            crank: Moving { place: roots.crank, velocity: root_rates.crank },
+            rod: Moving { place: roots.rod, velocity: root_rates.rod },
+            slider: Moving { place: roots.slider, velocity: root_rates.slider },
+        };
+        let mut centres = Centres::outwards(of, &roots, &arms.moving(turning.speed));
+        if of.closed {
+            let pin = Moving {
+                place: Vec2::new(closing.x, R::constant(self.ideal.height)),
+                velocity: Vec2::new(closing.x_ratio * turning.speed[CRANK], R::ZERO),
+            };
+            (centres.small_end, centres.pin) = (pin, pin);
+        }
+        let section_speed = [turning.speed[ROD]; 2];
+        let pose = Pose { turning, place: centres.places(), velocity: centres.velocities(), section_speed };
+        Stance { pose, arms, closing }
     }
 
-    /// Number of degrees of freedom.
-    pub const fn freedoms(self) -> usize {
-        let cuts = !self.a as usize + !self.b as usize + !self.c as usize + !self.t as usize;
-        1 + 2 * cuts - self.speed as usize
+    /// Loads from inputs, viscous friction and contacts; writes the rates of the contacts' bristles.
+    #[inline(always)]
+    pub(super) fn loads<R: Scalar>(
+        &self,
+        of: &Structure,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        pose: &Pose<R>,
+        bristle_rates: &mut [R],
+    ) -> Loads<R> {
+        let inputs = self.signal.at(t);
+        let slider_load = inputs.slider_load;
+        let mut loads = Loads { pin: Vec2::new(slider_load, R::ZERO), slider_load, ..Loads::default() };
+        if !of.topology.speed {
+            loads.crank_couple = inputs.crank_torque;
+        }
+        // Contact forces, which are known last, come last.
+        add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
+        if let Some(damping) = self.guide_damping {
+            loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
+        }
+        let bristles = &y[2 * of.positions..];
+        self.clearances.add_loads(of.play, contacts, pose, bristles, bristle_rates, &mut loads);
+        loads
     }
-}
 
-/// A rigid body: its mass properties and its joint on the x axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
-    /// [kg]
-    pub mass: f64,
-    /// [kg·m²] About the centre of mass.
-    pub inertia: f64,
-    /// [m] Centre of mass from the reference point, in body axes.
-    pub com: Vec2,
-    /// [m] Distance of the second joint from the reference point, along the body's x axis.
-    pub length: f64,
-}
+    /// Forces, inwards, and what they accelerate.
+    #[inline(always)]
+    pub(super) fn accelerations<R: Scalar>(
+        &self,
+        of: &Structure,
+        stance: &Stance<R>,
+        loads: &Loads<R>,
+    ) -> Accelerations<R> {
+        let Stance { pose, arms, closing } = stance;
+        accelerate(of, &self.augmented, self.gravity, &pose.turning, arms, closing, loads)
+    }
 
-/// Inertia of the chains, as constants.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ChainInertia {
-    /// [kg·m²] M_kk.
-    pub diagonal: [f64; 3],
-    /// [kg·m²] α of the pairs crank-rod, rod-slider, crank-slider.
-    pub cos: [f64; 3],
-    /// [kg·m²] β of the same pairs.
-    pub sin: [f64; 3],
-    /// [kg·m] Σ m_i·c_ik of each body's angle; zero in a floating chain.
-    pub moment: [Vec2; 3],
-    /// [m] From the chain's centre of mass to its first joint centre, per angle: where a floating
-    /// chain is to be found from its coordinates. Zero in the others.
-    pub anchor: [Vec2; 3],
-    /// [1/kg] Inverse mass of the chain that holds each body.
-    pub per_mass: [f64; 3],
-}
-
-/// The three bodies.
-pub type Bodies = [Body; 3];
-
-/// The three bodies of a scene; a flexible rod's mass properties are its beam's.
-pub fn bodies(scene: &Scene) -> Bodies {
-    let point = |p: Point| Vec2::new(p.x, p.y);
-    let Scene { crank, rod, slider, .. } = scene;
-    let of_rod = match Rod::new(scene) {
-        Some(flexible) => flexible.undeformed(),
-        None => Body { mass: rod.mass, inertia: rod.inertia, com: point(rod.com), length: rod.length },
-    };
-    [
-        Body { mass: crank.mass, inertia: crank.inertia, com: point(crank.com), length: crank.length },
-        of_rod,
-        Body { mass: slider.mass, inertia: slider.inertia, com: point(slider.com), length: 0.0 },
-    ]
-}
-
-impl ChainInertia {
-    /// Sums the chains of an open mechanism.
-    pub fn new(bodies: &Bodies, topology: Topology) -> Self {
-        let Topology { a, b, c, t, .. } = topology;
-        let mut sum = Self::default();
-        let along = |length: f64| Vec2::new(length, 0.0);
-        let zero = Vec2::ZERO;
-        // Forward from the crank's or the rod's first joint; backward from the pin on a rail.
-        let rail_rod = c && t;
-        let rail_crank = b && c && t;
-        let mut arms = [[zero; 3]; 3];
-        let mut first = [0, 1, 2];
-        if rail_rod {
-            arms[SLIDER][SLIDER] = bodies[SLIDER].com;
-            arms[ROD][ROD] = bodies[ROD].com - along(bodies[ROD].length);
-            first = [if rail_crank { SLIDER } else { CRANK }, SLIDER, SLIDER];
-            arms[CRANK][CRANK] = bodies[CRANK].com;
-            if rail_crank {
-                arms[CRANK][CRANK] -= along(bodies[CRANK].length);
-                arms[CRANK][ROD] = -along(bodies[ROD].length);
+    /// Writes the event functions at this pose.
+    #[inline(always)]
+    fn guards_at(&self, of: &Structure, contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
+        if of.closed {
+            if self.ideal.has_change_point() {
+                let Turning { rotation, speed, .. } = &pose.turning;
+                guards[0] = self.ideal.change_point(rotation[CRANK], speed[CRANK], self.ideal.rod, 0.0);
             }
         } else {
-            for i in 0..3 {
-                arms[i][i] = bodies[i].com;
-            }
-            if b {
-                first[ROD] = CRANK;
-                arms[ROD][CRANK] = along(bodies[CRANK].length);
-            }
-            if c {
-                first[SLIDER] = first[ROD];
-                arms[SLIDER][ROD] = along(bodies[ROD].length);
-                arms[SLIDER][CRANK] = arms[ROD][CRANK];
-            }
+            self.clearances.guards(of.play, contacts, pose, guards);
         }
-        let mut mass = [0.0; 3];
-        for i in 0..3 {
-            for j in (0..3).filter(|&j| first[j] == first[i]) {
-                mass[i] += bodies[j].mass;
-                sum.moment[i] += bodies[j].mass * arms[j][i];
-            }
+    }
+}
+
+/// Writes velocities and accelerations.
+#[inline(always)]
+pub(super) fn write<R: Scalar>(of: &Structure, accelerations: &Accelerations<R>, y: &[R], rates: &mut [R]) {
+    let p = of.positions;
+    let (velocities, forced) = rates.split_at_mut(p);
+    let speeds = &y[p..2 * p];
+    each!(const { R::PLAIN || R::MANY }, k < p, 9 => {
+        velocities[k] = speeds[k];
+    });
+    of.set_roots(&accelerations.roots, forced);
+    of.set_angles(accelerations.angle, forced);
+}
+
+/// Everything about an instant.
+#[inline(always)]
+pub(super) fn instant<R: Scalar>(
+    of: &Structure,
+    stance: Stance<R>,
+    loads: Loads<R>,
+    accelerations: &Accelerations<R>,
+) -> Instant<R> {
+    let Stance { mut pose, arms, closing } = stance;
+    let Accelerations { roots, angle } = accelerations;
+    let mut acceleration = Centres::outwards(of, roots, &arms.accelerated(pose.turning.speed, *angle));
+    if of.closed {
+        pose.turning.angle[ROD] = math::atan2(closing.rod.sin, closing.rod.cos);
+        let pin = Vec2::new(closing.x_ratio.times_plus(angle[CRANK], closing.x_bias), R::ZERO);
+        (acceleration.small_end, acceleration.pin) = (pin, pin);
+    }
+    Instant { pose, acceleration, angle_acceleration: *angle, loads, flexible: None }
+}
+
+/// What is compiled once a number, for all structures.
+impl Mechanism {
+    /// [`Mechanism::rates`] of a state.
+    #[inline(never)]
+    pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
+        self.rates(&self.structure, contacts, t, y, rates);
+    }
+
+    /// [`Mechanism::rates`] of eight states at their times.
+    #[inline(never)]
+    pub fn rates_of_eight(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
+        self.rates(&self.structure, contacts, t, y, rates);
+    }
+
+    /// [`Mechanism::rates`] with derivatives.
+    #[inline(never)]
+    pub fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+        self.rates(&self.structure, contacts, t, y, rates);
+    }
+
+    /// [`Mechanism::rates_and_guards`].
+    #[inline(never)]
+    pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut [Guard; GUARDS]) {
+        self.rates_and_guards(&self.structure, contacts, t, y, rates, guards);
+    }
+
+    /// How many event functions there are.
+    pub fn guard_count(&self) -> usize {
+        if self.structure.closed {
+            usize::from(self.ideal.has_change_point())
+        } else {
+            self.clearances.guard_count(self.structure.play)
         }
-        sum.per_mass = mass.map(f64::recip);
-        let floats = |k: usize| match first[k] {
-            CRANK => !a,
-            ROD => true,
-            _ => !t,
+    }
+
+    /// Writes the event functions.
+    pub fn guards(&self, contacts: &Contacts, t: f64, y: &[f64], guards: &mut [Guard; GUARDS]) {
+        self.guards_at(&self.structure, contacts, &self.pose(t, y), guards);
+    }
+
+    /// Angles, places and velocities.
+    pub fn pose(&self, t: f64, y: &[f64]) -> Pose {
+        self.place(t, y).pose
+    }
+
+    #[inline(never)]
+    pub(super) fn place(&self, t: f64, y: &[f64]) -> Stance<f64> {
+        self.stance(&self.structure, t, y)
+    }
+
+    /// Everything about an instant, and its rates.
+    #[inline(never)]
+    pub fn instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
+        self.rates_and_instant(&self.structure, contacts, t, y, rates)
+    }
+
+    /// Everything about an instant with derivatives, and what its contacts hold and take.
+    #[inline(never)]
+    pub fn tangent_instant(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent],
+        rates: &mut [Tangent],
+    ) -> (Instant<Tangent>, Account<Tangent>) {
+        let instant = self.rates_and_instant(&self.structure, contacts, t, y, rates);
+        let account = self.account(contacts, &instant.pose, y);
+        (instant, account)
+    }
+
+    /// Elastic energy of the closed contacts, and the powers that they take.
+    pub fn account<R: Scalar>(&self, contacts: &Contacts, pose: &Pose<R>, y: &[R]) -> Account<R> {
+        let Structure { play, positions, .. } = self.structure;
+        self.clearances.account(play, contacts, pose, &y[2 * positions..])
+    }
+
+    /// Number of states: positions, their rates, bristles.
+    pub fn states(&self) -> usize {
+        2 * self.structure.positions + self.clearances.bristles.len()
+    }
+
+    /// Writes the state of a start pose, whose bristles are straight.
+    pub fn start(&self, pose: &StartPose, y: &mut [f64]) {
+        let of = &self.structure;
+        let turning = turning(pose.angle, pose.speed, of.slider_angle.is_some());
+        let arms = Arms::at(of, &self.bodies, &self.augmented, &turning);
+        let still = arms.moving(turning.speed);
+        let velocities = Arms {
+            throw: still.throw.velocity,
+            reach: still.reach.velocity,
+            crank: still.crank.velocity,
+            rod: still.rod.velocity,
+            slider: still.slider.velocity,
         };
-        for k in (0..3).filter(|&k| floats(k)) {
-            let centre = sum.moment[k] / mass[k];
-            sum.anchor[k] = -centre;
-            sum.moment[k] = zero;
-            for i in (0..3).filter(|&i| first[i] == first[k]) {
-                arms[i][k] -= centre;
-            }
-        }
-        for k in 0..3 {
-            let square = |i: usize| bodies[i].mass * arms[i][k].norm_squared();
-            let chain = (0..3).filter(|&i| first[i] == first[k]);
-            sum.diagonal[k] = bodies[k].inertia + chain.map(square).sum::<f64>();
-        }
-        for (pair, (k, l)) in [(0, 1), (1, 2), (0, 2)].into_iter().enumerate() {
-            for i in (0..3).filter(|&i| first[i] == first[k] && first[i] == first[l]) {
-                sum.cos[pair] += bodies[i].mass * arms[i][k].dot(arms[i][l]);
-                sum.sin[pair] += bodies[i].mass * arms[i][k].dot(perp(arms[i][l]));
-            }
-        }
-        sum
+        let (positions, rates) = y[..2 * of.positions].split_at_mut(of.positions);
+        of.set_roots(&Roots::of(of, &pose.place, &arms), positions);
+        of.set_angles(pose.angle, positions);
+        of.set_roots(&Roots::of(of, &pose.velocity, &velocities), rates);
+        of.set_angles(pose.speed, rates);
     }
 }

@@ -2,16 +2,16 @@
 //!
 //! [`scene`](crate::scene) says which joints are ideal and which have clearance; here that becomes a
 //! set of minimal coordinates and a right-hand side that holds the effects called for and no others.
-//! Reading order: `mechanism` (bodies, chains), `coordinates`, `kinematics`, `dynamics` (M·q̈ = Q),
-//! `open` and `closed` (the two kinds of mechanism with a rigid rod), `rod` and `flexible` (those with a flexible
-//! one), `joint` and `contact` (forces), `reactions` and `outputs`.
+//! Reading order: `structure` (what hangs on what), `bodies`, `kinematics` (outwards), `dynamics` (inwards, M·q̈ = Q),
+//! `mechanism` (with a rigid rod), `compiled` and `rigid` (as the integrator asks for it), `rod` and `flexible` (with a
+//! flexible one), `joint` and `contact` (forces), `reactions` and `outputs`.
 
 pub mod audit;
+pub mod bodies;
 pub mod bristles;
 pub mod clearances;
-pub mod closed;
+pub mod compiled;
 pub mod contact;
-pub mod coordinates;
 pub mod drive;
 pub mod dynamics;
 pub mod flexible;
@@ -20,9 +20,7 @@ pub mod ideal;
 pub mod jacobian;
 pub mod joint;
 pub mod kinematics;
-pub mod linkage;
 pub mod mechanism;
-pub mod open;
 pub mod outputs;
 pub mod plane;
 pub mod plant;
@@ -34,3 +32,5 @@ pub mod scales;
 pub mod signals;
 pub mod start;
 pub mod state;
+pub mod structure;
+pub mod unilateral;

@@ -1,8 +1,8 @@
 //! Outputs of one instant.
 
+use super::bodies::{Bodies, bodies};
 use super::ideal::IdealMechanism;
 use super::joint::guide::{CORNERS, contact_of_corner};
-use super::mechanism::{Bodies, CRANK, ROD, SLIDER, Topology, bodies};
 use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};
 use super::rod::Elastic;
@@ -10,6 +10,7 @@ use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
 use super::state::{Contacts, Instant};
+use super::structure::{CRANK, Pin, ROD, SLIDER, Topology};
 use crate::scene::{Scene, Surface};
 
 /// Makes outputs of instants.
@@ -47,11 +48,11 @@ impl Observer {
         let r = reactions(self.topology, &self.bodies, self.gravity, instant);
         let elastic = instant.flexible.map_or(Elastic::default(), |flexible| flexible.elastic);
         let Topology { a, b, c, t, speed } = self.topology;
-        let joint = |index: usize, ideal: bool, force: Vec2| RevoluteOutputs {
+        let joint = |pin: Pin, ideal: bool, force: Vec2| RevoluteOutputs {
             force: force.into(),
-            eccentricity: if ideal { [0.0; 2] } else { pose.play(index).eccentricity.into() },
-            penetration: if ideal { 0.0 } else { penetration[index] },
-            contact: contacts[index].closed,
+            eccentricity: if ideal { [0.0; 2] } else { pose.play(pin).eccentricity.into() },
+            penetration: if ideal { 0.0 } else { penetration[pin as usize] },
+            contact: contacts[pin as usize].closed,
         };
         Outputs {
             slider: SliderOutputs {
@@ -72,9 +73,9 @@ impl Observer {
                 deflection: elastic.deflection,
                 stretch: elastic.stretch,
             },
-            joint_a: joint(0, a, r.a),
-            joint_b: joint(1, b, r.b),
-            joint_c: joint(2, c, r.c),
+            joint_a: joint(Pin::MainBearing, a, r.a),
+            joint_b: joint(Pin::CrankPin, b, r.b),
+            joint_c: joint(Pin::SliderPin, c, r.c),
             joint_t: self.guide(t, &r, contacts, penetration),
             drive_torque: if speed { r.torque } else { torque_input },
             accuracy: self.accuracy(instant),
@@ -96,9 +97,9 @@ impl Observer {
         rates.rod.angle = speed[ROD];
         rates.rod.speed = angle_acceleration[ROD];
         let joints = [&mut rates.joint_a, &mut rates.joint_b, &mut rates.joint_c];
-        for (index, (joint, ideal)) in joints.into_iter().zip([a, b, c]).enumerate() {
+        for (pin, (joint, ideal)) in Pin::ALL.into_iter().zip(joints.into_iter().zip([a, b, c])) {
             if !ideal {
-                joint.eccentricity = pose.play(index).rate.into();
+                joint.eccentricity = pose.play(pin).rate.into();
             }
         }
         let accuracy = self.accuracy(instant);

@@ -4,9 +4,10 @@
 //! An open chain is walked from the cut, where the contact force is known, body by body. Only the
 //! closed loop needs an equation with two unknowns: the moments on the rod about its big end.
 
-use super::mechanism::{Bodies, Body, CRANK, ROD, SLIDER, Topology};
+use super::bodies::{Bodies, Body};
 use super::plane::{Rotation, Vec2, cross, perp};
 use super::state::Instant;
+use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::math::Real;
 
 /// Forces of the joints, each on the body that interface and model name first: ground on crank, crank

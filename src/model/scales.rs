@@ -5,9 +5,9 @@
 //! that power. Rates are weighed with the frequency of the contact at that penetration, angles with the
 //! length that turns them into displacements. Without clearance the crank's angle counts.
 
+use super::bodies::bodies;
 use super::joint::guide::Guide;
 use super::joint::revolute::Revolute;
-use super::mechanism::bodies;
 use crate::math;
 use crate::scene::{JointModel, Scene};
 

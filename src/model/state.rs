@@ -1,17 +1,16 @@
 //! A mechanism at one instant, the same for every topology: what outputs are made from.
 
 use super::contact::ContactMode;
-use super::coordinates::Layout;
 use super::drive::Rotor;
 use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
 use super::kinematics::{JointCentres, Turning};
-use super::mechanism::{CRANK, SLIDER};
 use super::plane::Rotation;
 use super::reactions::Demand;
 use super::rod::Elastic;
-use crate::math::{Real, each};
+use super::structure::{CRANK, Pin, ROD, SLIDER, Structure};
+use crate::math::Real;
 
 /// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.
 pub const CONTACTS: usize = 3 + CORNERS;
@@ -33,19 +32,21 @@ pub struct Pose<R = f64> {
 }
 
 impl<R: Real> Pose<R> {
-    /// The journal in the bearing of joint A, B or C (0, 1, 2).
+    /// The journal of a pin in its bearing.
     #[inline(always)]
-    pub fn play(&self, joint: usize) -> Play<R> {
+    pub fn play(&self, pin: Pin) -> Play<R> {
         let (p, v, speed, section) = (&self.place, &self.velocity, &self.turning.speed, &self.section_speed);
-        match joint {
-            0 => Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: R::ZERO },
-            1 => Play {
+        match pin {
+            Pin::MainBearing => {
+                Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: R::ZERO }
+            }
+            Pin::CrankPin => Play {
                 eccentricity: p.crank_pin - p.big_end,
                 rate: v.crank_pin - v.big_end,
                 journal_speed: speed[CRANK],
                 bearing_speed: section[0],
             },
-            _ => Play {
+            Pin::SliderPin => Play {
                 eccentricity: p.pin - p.small_end,
                 rate: v.pin - v.small_end,
                 journal_speed: speed[SLIDER],
@@ -94,30 +95,28 @@ pub struct FlexibleInstant<R = f64> {
     pub mass_height: R,
 }
 
-/// Turning from `positions` and their `rates` at `t`; a crank whose angle is no coordinate follows `rotor`.
+/// Turning from `positions` and their `rates` at `t`; a crank whose angle is no coordinate follows `rotor`. The rod of a
+/// closed loop counts as lying along the guide: it has no coordinate.
 #[inline(always)]
-pub fn turning_at<R: Real>(layout: &Layout, rotor: &Rotor, t: R, positions: &[R], rates: &[R]) -> Turning<R> {
+pub fn turning_at<R: Real>(structure: &Structure, rotor: &Rotor, t: R, positions: &[R], rates: &[R]) -> Turning<R> {
     let (mut angle, mut speed) = ([R::ZERO; 3], [R::ZERO; 3]);
-    each!(true, k < 3 => {
-        if let Some(place) = layout.angle(k) {
-            (angle[k], speed[k]) = (positions[place], rates[place]);
-        }
-    });
-    if layout.angle(CRANK).is_none() {
-        (angle[CRANK], speed[CRANK]) = (rotor.at(t), R::constant(rotor.speed));
+    (angle[CRANK], speed[CRANK]) = match structure.crank_angle {
+        Some(place) => (positions[place], rates[place]),
+        None => (rotor.at(t), R::constant(rotor.speed)),
+    };
+    if let Some(place) = structure.rod_angle {
+        (angle[ROD], speed[ROD]) = (positions[place], rates[place]);
     }
-    turning(angle, speed, layout.angle(SLIDER).is_some())
+    if let Some(place) = structure.slider_angle {
+        (angle[SLIDER], speed[SLIDER]) = (positions[place], rates[place]);
+    }
+    turning(angle, speed, structure.slider_angle.is_some())
 }
 
 /// Turning from angles and rates; the slider on an ideal guide does not turn.
 #[inline(always)]
 pub fn turning<R: Real>(angle: [R; 3], speed: [R; 3], slider_turns: bool) -> Turning<R> {
-    let [crank, rod, _] = angle;
-    let rotation = if slider_turns {
-        Rotation::all(angle)
-    } else {
-        let [crank, rod] = Rotation::all([crank, rod]);
-        [crank, rod, Rotation::NONE]
-    };
-    Turning { angle, speed, rotation }
+    let [crank, rod] = Rotation::all([angle[CRANK], angle[ROD]]);
+    let slider = if slider_turns { Rotation::new(angle[SLIDER]) } else { Rotation::NONE };
+    Turning { angle, speed, rotation: [crank, rod, slider] }
 }

@@ -6,14 +6,13 @@ use crate::integrator::ROOM;
 use crate::integrator::methods::{Automatic, Bs3, Cong8, Dop853, Dopri5, Rk4, Rk4Unlocated, Rodas4, Verner7};
 use crate::model::audit::{self, Audited};
 use crate::model::bristles::bristled_contacts;
-use crate::model::closed::Closed;
 use crate::model::drive::InputSignal;
 use crate::model::flexible::{Flexible, most_equations, state_count};
-use crate::model::mechanism::Topology;
-use crate::model::open::Open;
 use crate::model::plant::Plant;
+use crate::model::rigid::Rigid;
 use crate::model::rod::{FEW_MODES, Rod, most_functions};
 use crate::model::start::StartPose;
+use crate::model::structure::{Structure, Topology};
 use crate::scene::modal::MOST_MODES;
 use crate::scene::{Method, Scene};
 
@@ -22,25 +21,6 @@ const LARGE: usize = 64;
 
 /// Starts the mechanism of `scene` at `time` [s] from `pose`.
 pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) -> Box<dyn Motion> {
-    /// The open mechanism whose ideal joints and drive are these literals.
-    macro_rules! open {
-        ($a:literal, $b:literal, $c:literal, $t:literal, $speed:literal) => {{
-            const N: usize = 2 * Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed }.freedoms();
-            if has_extra_states(scene) {
-                let plant = Open::<$a, $b, $c, $t, $speed, ROOM>::assemble(scene, time);
-                with_audit::<ROOM, _>(scene, time, pose, signal, plant)
-            } else {
-                let plant = Open::<$a, $b, $c, $t, $speed, N>::assemble(scene, time);
-                with_method::<N, _>(scene, time, pose, signal, plant)
-            }
-        }};
-    }
-    /// Both drives.
-    macro_rules! driven {
-        ($speed:expr, $a:literal, $b:literal, $c:literal, $t:literal) => {
-            if $speed { open!($a, $b, $c, $t, true) } else { open!($a, $b, $c, $t, false) }
-        };
-    }
     if let Some(rod) = Rod::new(scene) {
         /// The flexible mechanism in arrays of these sizes.
         macro_rules! flexible {
@@ -71,38 +51,18 @@ pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) ->
         }
         return few!(2 4 6 8 10 12 14);
     }
-    let Topology { a, b, c, t, speed } = Topology::of(scene);
-    match (a, b, c, t) {
-        (true, true, true, true) if scene.energy.audit && speed => {
-            with_audit::<ROOM, _>(scene, time, pose, signal, Closed::<true, ROOM>::assemble(scene, time))
-        }
-        (true, true, true, true) if scene.energy.audit => {
-            with_audit::<ROOM, _>(scene, time, pose, signal, Closed::<false, ROOM>::assemble(scene, time))
-        }
-        (true, true, true, true) if speed => {
-            let plant = Closed::<true, 0>::assemble(scene, time);
-            with_method::<0, _>(scene, time, pose, signal, plant)
-        }
-        (true, true, true, true) => {
-            let plant = Closed::<false, 2>::assemble(scene, time);
-            with_method::<2, _>(scene, time, pose, signal, plant)
-        }
-        (true, true, true, false) => driven!(speed, true, true, true, false),
-        (true, true, false, true) => driven!(speed, true, true, false, true),
-        (true, true, false, false) => driven!(speed, true, true, false, false),
-        (true, false, true, true) => driven!(speed, true, false, true, true),
-        (true, false, true, false) => driven!(speed, true, false, true, false),
-        (true, false, false, true) => driven!(speed, true, false, false, true),
-        (true, false, false, false) => driven!(speed, true, false, false, false),
-        (false, true, true, true) => driven!(speed, false, true, true, true),
-        (false, true, true, false) => driven!(speed, false, true, true, false),
-        (false, true, false, true) => driven!(speed, false, true, false, true),
-        (false, true, false, false) => driven!(speed, false, true, false, false),
-        (false, false, true, true) => driven!(speed, false, false, true, true),
-        (false, false, true, false) => driven!(speed, false, false, true, false),
-        (false, false, false, true) => driven!(speed, false, false, false, true),
-        (false, false, false, false) => driven!(speed, false, false, false, false),
+    /// The mechanism with a rigid rod in arrays of so many states where there are exactly as many.
+    macro_rules! rigid {
+        ($($states:literal)*) => {
+            match 2 * Structure::new(Topology::of(scene)).positions {
+                $($states if !has_extra_states(scene) => {
+                    with_method::<$states, _>(scene, time, pose, signal, Rigid::<$states>::assemble(scene, time))
+                })*
+                _ => with_audit::<ROOM, _>(scene, time, pose, signal, Rigid::<ROOM>::assemble(scene, time)),
+            }
+        };
     }
+    rigid!(0 2 4 6 8 10 12 14 16 18)
 }
 
 /// The scene calls for states beside positions and rates.

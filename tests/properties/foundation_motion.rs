@@ -11,8 +11,8 @@ use slidercrank::integrator::methods::Verner7;
 use slidercrank::integrator::{Effort, Front, Integrator, Settings};
 use slidercrank::model::joint::foundation::Bed;
 use slidercrank::model::joint::guide::Guide;
-use slidercrank::model::open::Open;
 use slidercrank::model::plant::Plant;
+use slidercrank::model::rigid::Rigid;
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::model::start::StartPose;
 use slidercrank::scene::{DampingLaw, FrictionLaw, Method, Scene, Surface};
@@ -144,7 +144,7 @@ fn jamming(play: Play) -> Scene {
 fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
     let scene = at_tolerance(faced([false, false, false, true]), 1e-8);
     let guide = Guide::new(&scene);
-    let plant = Open::<true, true, true, false, false, 6>::assemble(&scene, 0.0);
+    let plant = Rigid::<6>::assemble(&scene, 0.0);
     let y = plant.start(&StartPose::of(&scene).expect("a loop that closes"));
     let contacts = plant.start_contacts(0.0, &y);
     let settings = Settings { tolerance: 1e-8, fixed_step: 1e-6, effort: Effort::ANY };
@@ -183,7 +183,7 @@ fn a_face_closed_at_the_start_has_the_least_approach_speed() {
     for (offset, upper) in [(1.2e-4, true), (-1.2e-4, false)] {
         let mut scene = faced([false, false, false, true]);
         scene.joint.t.offset_start = offset;
-        let plant = Open::<true, true, true, false, false, 6>::assemble(&scene, 0.0);
+        let plant = Rigid::<6>::assemble(&scene, 0.0);
         let y = plant.start(&StartPose::of(&scene).expect("a loop that closes"));
         let contacts = plant.start_contacts(0.0, &y);
         assert_eq!((contacts[3].closed, contacts[4].closed), (upper, !upper));

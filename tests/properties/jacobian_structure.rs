@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use slidercrank::integrator::{Jacobian, Problem};
 use slidercrank::math::Real;
 use slidercrank::model::contact::ContactMode;
-use slidercrank::model::open::Open;
 use slidercrank::model::plant::Plant;
+use slidercrank::model::rigid::Rigid;
 use slidercrank::model::scalar::Tangent;
 use slidercrank::model::start::StartPose;
 use slidercrank::model::state::Contacts;
@@ -19,8 +19,8 @@ const N: usize = 18;
 /// Positions: x, y of three roots and three angles.
 const P: usize = N / 2;
 
-/// Everything has clearance; nothing floats away into another compiled type.
-type Loose = Open<false, false, false, false, false, N>;
+/// Everything has clearance.
+type Loose = Rigid<N>;
 
 /// Three bodies that touch each other at crank pin and slider pin alone: state and contacts.
 fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) {
@@ -119,7 +119,7 @@ fn it_is_finite_where_journals_are_centred_and_contacts_just_touch() {
         for contact in contacts(&mut scene) {
             contact.friction.law = law;
         }
-        let plant = Open::<false, false, false, false, false, 32>::assemble(&scene, 0.0);
+        let plant = Rigid::<32>::assemble(&scene, 0.0);
         let centred = plant.start(&StartPose::of(&scene).expect("the loop closes"));
         let mut touching = centred;
         touching[1] = scene.joint.a.clearance; // exactly, in the main bearing: roots are centres of mass

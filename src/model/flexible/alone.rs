@@ -2,10 +2,11 @@
 
 use super::configuration::{Centre, Configuration, Heading};
 use crate::math::Real;
-use crate::model::coordinates::Layout;
+use crate::model::bodies::{Bodies, Body};
 use crate::model::dynamics::Loads;
-use crate::model::mechanism::{Bodies, Body, CRANK, SLIDER, Topology};
 use crate::model::plane::{Vec2, cross, perp};
+use crate::model::structure::Structure;
+use crate::model::structure::{CRANK, SLIDER, Topology};
 
 /// Sets the accelerations of the bodies that are not in the rod's chain, as biases: nothing in x moves them.
 #[inline(always)]
@@ -45,28 +46,23 @@ pub fn accelerate<R: Real, const P: usize>(
 
 /// Writes their accelerations into a list in the order of the positions.
 #[inline(always)]
-pub fn write<R: Real, const P: usize>(
-    topology: Topology,
-    layout: &Layout,
-    configuration: &Configuration<R, P>,
-    list: &mut [R],
-) {
+pub fn write<R: Real, const P: usize>(structure: &Structure, configuration: &Configuration<R, P>, list: &mut [R]) {
     let Configuration { heading, crank, pin, .. } = configuration;
-    let mut roots = layout.roots(list);
+    let mut roots = structure.roots(list);
     let mut turn = |body: usize| {
-        if let Some(position) = layout.angle(body) {
+        if let Some(position) = structure.angle(body) {
             list[position] = heading[body].bias;
         }
     };
-    if !topology.b {
+    if !structure.topology.b {
         roots.crank = crank.bias;
         turn(CRANK);
     }
-    if !topology.c {
+    if !structure.topology.c {
         roots.slider = pin.bias;
         turn(SLIDER);
     }
-    layout.set_roots(&roots, list);
+    structure.set_roots(&roots, list);
 }
 
 /// Accelerates a floating body under `force` [N] and its `moment` [N·m] about the joint centre `at`, with which it

@@ -5,12 +5,13 @@ use super::configuration::Geometry;
 use super::motion::Functions;
 use super::solver::Solvers;
 use crate::integrator::Extent;
+use crate::model::bodies::{Bodies, bodies};
 use crate::model::clearances::Clearances;
 use crate::model::drive::{InputSignal, RotaryDamper, Rotor, rotary_dampers};
 use crate::model::ideal::IdealMechanism;
 use crate::model::joint::Kernels;
-use crate::model::mechanism::{Bodies, Topology, bodies};
 use crate::model::rod::{Modes, Rod};
+use crate::model::structure::Topology;
 use crate::scene::Scene;
 
 /// A mechanism with a flexible rod, whatever array its states are in. It has room for `S` equations to solve together,

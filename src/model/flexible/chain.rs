@@ -4,9 +4,8 @@
 //! accelerates by itself.
 
 use crate::math::Real;
-use crate::model::coordinates::Layout;
-use crate::model::linkage::Arrangement;
-use crate::model::mechanism::Topology;
+use crate::model::structure::Structure;
+use crate::model::structure::Topology;
 
 /// Most places in x: two of a root, three angles, L.
 pub const PLACES: usize = 6;
@@ -26,7 +25,7 @@ pub struct Chain {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// Of the coordinates that are not modal.
-    pub arrangement: Arrangement,
+    pub structure: Structure,
     /// Which of them are in x.
     pub chain: Chain,
 }
@@ -34,8 +33,8 @@ pub struct Frame {
 impl Frame {
     /// Of a topology.
     pub const fn new(topology: Topology) -> Self {
-        let arrangement = Arrangement::new(topology);
-        Self { arrangement, chain: Chain::new(topology, &arrangement.layout) }
+        let structure = Structure::new(topology);
+        Self { structure, chain: Chain::new(&structure) }
     }
 
     /// How many coordinates x has.
@@ -48,7 +47,8 @@ impl Chain {
     const NONE: Self = Self { size: 0, positions: [0; PLACES], angle: [None; 3] };
 
     /// Of a topology.
-    pub const fn new(topology: Topology, layout: &Layout) -> Self {
+    pub const fn new(structure: &Structure) -> Self {
+        let topology = structure.topology;
         let Topology { b, c, t, .. } = topology;
         let (mut chain, mut next) = (Self::NONE, 0);
         let rail = (t && !topology.is_closed(), 1, c);
@@ -73,7 +73,7 @@ impl Chain {
         let connected = [b, true, c];
         let mut body = 0;
         while body < connected.len() {
-            if let (Some(position), true) = (layout.angle(body), connected[body]) {
+            if let (Some(position), true) = (structure.angle(body), connected[body]) {
                 chain.angle[body] = Some(chain.size);
                 chain.append(position);
             }
@@ -113,7 +113,7 @@ mod tests {
     /// The chain of a mechanism with these ideal joints, driven by a torque.
     fn chain(a: bool, b: bool, c: bool, t: bool) -> Chain {
         let topology = Topology { a, b, c, t, speed: false };
-        Chain::new(topology, &Layout::new(topology))
+        Chain::new(&Structure::new(topology))
     }
 
     #[test]

@@ -10,11 +10,10 @@ use crate::math::{self, Real, each};
 use crate::model::drive::Rotor;
 use crate::model::ideal::IdealMechanism;
 use crate::model::kinematics::{JointCentres, Turning};
-use crate::model::linkage::Arrangement;
-use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2, perp};
 use crate::model::rod::{Chord, Rod, Shape};
 use crate::model::state::{Pose, turning_at};
+use crate::model::structure::{CRANK, ROD, SLIDER, Topology};
 use std::ops::Range;
 
 /// A joint centre.
@@ -158,7 +157,7 @@ impl Geometry {
     /// Where the modal coordinates stand.
     #[inline(always)]
     pub fn modes(&self, frame: Frame) -> Range<usize> {
-        let rigid = frame.arrangement.positions;
+        let rigid = frame.structure.positions;
         rigid..rigid + self.rod.modes()
     }
 
@@ -186,15 +185,15 @@ impl Geometry {
         rates: &[R],
         chord: &Chord<R>,
     ) -> Configuration<R, P> {
-        let Frame { arrangement: Arrangement { topology, layout, .. }, chain } = frame;
-        let (place, Topology { a, b, c, t: guided, .. }) = (chain.size, topology);
-        let closed = topology.is_closed();
-        let turning = turning_at(&layout, &self.rotor, t, positions, rates);
+        let Frame { structure, chain } = frame;
+        let (place, Topology { a, b, c, t: guided, .. }) = (chain.size, structure.topology);
+        let closed = structure.closed;
+        let turning = turning_at(&structure, &self.rotor, t, positions, rates);
         let crank = Heading::new(&turning, CRANK, chain.angle[CRANK]);
         let slider = Heading::new(&turning, SLIDER, chain.angle[SLIDER]);
         let rod =
             if closed { self.closing_rod(&crank, chord, place) } else { Heading::new(&turning, ROD, chain.angle[ROD]) };
-        let (mut roots, moving) = (layout.roots(positions), layout.roots(rates));
+        let (mut roots, moving) = (structure.roots(positions), structure.roots(rates));
         let throw = crank.rotation.axis(self.ideal.crank);
         if guided {
             roots.slider.y = R::constant(self.ideal.height);

@@ -6,11 +6,12 @@
 use super::configuration::{Centre, Configuration, Heading};
 use super::sparse::Sparse;
 use crate::math::{Fused, Real, each};
+use crate::model::bodies::{Bodies, Body};
 use crate::model::dynamics::Loads;
-use crate::model::mechanism::{Bodies, Body, CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Vec2, cross, perp};
 use crate::model::reactions::Demand;
 use crate::model::rod::{FEW_MODES, Inertia, Rod, Shape};
+use crate::model::structure::{CRANK, ROD, SLIDER, Topology};
 use std::ops::Range;
 
 /// Mass matrix (lower triangle) and right side over x, the configuration's coordinates.

@@ -22,13 +22,13 @@ use super::contact::Account;
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
-use super::mechanism::{CRANK, Topology};
 use super::plant::Plant;
 use super::rod::{Rod, most_functions};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, Instant, Pose};
+use super::structure::{CRANK, Topology};
 use crate::integrator::stages::in_registers;
 use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, by_halves};
 use crate::integrator::{STAGES, Tableau, Unilateral};
@@ -57,7 +57,7 @@ pub const fn most_equations(modes: usize) -> usize {
 
 /// Number of states of the scene's mechanism with its rod.
 pub fn state_count(scene: &Scene, rod: &Rod) -> usize {
-    2 * (Frame::new(Topology::of(scene)).arrangement.positions + rod.modes()) + bristled_contacts(scene).len()
+    2 * (Frame::new(Topology::of(scene)).structure.positions + rod.modes()) + bristled_contacts(scene).len()
 }
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N, S, K, F> {
@@ -72,12 +72,12 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         let Extent { positions, states, .. } = extent;
         assert!(states <= N && (Self::ROOMY || states == N), "room for every state, or exactly as many");
         let (frame, rod) = (all.frame(), &all.geometry.rod);
-        let (rigid, modal) = (frame.arrangement.positions, all.geometry.modes(frame));
+        let (rigid, modal) = (frame.structure.positions, all.geometry.modes(frame));
         let scale = Scale::of(scene);
         let mut scales = [0.0; N];
         let (of_positions, of_rates) = scales[..2 * positions].split_at_mut(positions);
         of_positions[..rigid].fill(scale.length);
-        frame.arrangement.layout.set_angles(&scale.angle, of_positions);
+        frame.structure.set_angles(scale.angle, of_positions);
         for (rate, position) in of_rates.iter_mut().zip(of_positions.iter()) {
             *rate = position * scale.frequency;
         }
@@ -88,7 +88,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
         for (scale, (_, deflection)) in scales[2 * positions..].iter_mut().zip(bristled_contacts(scene)) {
             *scale = deflection;
         }
-        let topology = frame.arrangement.topology;
+        let topology = frame.structure.topology;
         let stages = written::stages(topology, all.modes.counts);
         let (_, row) = written::rates::<S, K, F>(topology, all.modes.counts);
         let suits_blocks = topology.has_one_play_in_a_pin() && row.is_some() && extent.is_second_order();
@@ -136,18 +136,18 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn guard_count(&self) -> usize {
-        if self.all.frame().arrangement.topology.is_closed() {
+        if self.all.frame().structure.topology.is_closed() {
             1
         } else {
-            self.all.clearances.guard_count(self.all.frame().arrangement.clear)
+            self.all.clearances.guard_count(self.all.frame().structure.play)
         }
     }
 
     fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        if self.all.frame().arrangement.topology.is_closed() {
+        if self.all.frame().structure.topology.is_closed() {
             guards[0] = self.all.change_point(t, y);
         } else {
-            self.all.clearances.guards(self.all.frame().arrangement.clear, contacts, &self.all.pose(t, y), guards);
+            self.all.clearances.guards(self.all.frame().structure.play, contacts, &self.all.pose(t, y), guards);
         }
     }
 
@@ -163,15 +163,15 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     }
 
     fn is_dead_end(&self, _: usize) -> bool {
-        self.all.frame().arrangement.topology.is_closed()
+        self.all.frame().structure.topology.is_closed()
     }
 
     fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
-        self.all.clearances.kinks(self.all.frame().arrangement.clear, contacts, &self.all.pose(t, y), kinks);
+        self.all.clearances.kinks(self.all.frame().structure.play, contacts, &self.all.pose(t, y), kinks);
     }
 
     fn guard_scale(&self) -> f64 {
-        if self.all.frame().arrangement.topology.is_closed() {
+        if self.all.frame().structure.topology.is_closed() {
             IdealMechanism::CHANGE_POINT_SCALE
         } else {
             self.guard_scale
@@ -181,7 +181,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
     fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
         let pose = self.all.pose(t, y);
         let bristles = &mut y[2 * self.all.positions..];
-        self.all.clearances.cross(self.all.frame().arrangement.clear, contacts, &pose, crossed, bristles)
+        self.all.clearances.cross(self.all.frame().structure.play, contacts, &pose, crossed, bristles)
     }
 }
 
@@ -189,26 +189,26 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Unilateral<
 
 impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, S, K, F> {
     fn start(&self, pose: &StartPose) -> [f64; N] {
-        let layout = &self.all.frame().arrangement.layout;
+        let structure = self.all.frame().structure;
         let p = self.all.positions;
         let mut y = [0.0; N];
         let (positions, rates) = y[..2 * p].split_at_mut(p);
-        if self.all.frame().arrangement.topology.is_closed() {
-            if let (Some(angle), Some(speed)) = (layout.angle(CRANK), layout.angle(CRANK)) {
+        if self.all.frame().structure.topology.is_closed() {
+            if let (Some(angle), Some(speed)) = (structure.angle(CRANK), structure.angle(CRANK)) {
                 (positions[angle], rates[speed]) = (pose.angle[CRANK], pose.speed[CRANK]);
             }
             return y;
         }
         for (centres, angles, list) in [(&pose.place, &pose.angle, positions), (&pose.velocity, &pose.speed, rates)] {
             let roots = super::kinematics::Roots { crank: centres.crank, rod: centres.big_end, slider: centres.pin };
-            layout.set_roots(&roots, list);
-            layout.set_angles(angles, list);
+            structure.set_roots(&roots, list);
+            structure.set_angles(*angles, list);
         }
         y
     }
 
     fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
-        self.all.clearances.start(self.all.frame().arrangement.clear, &self.all.pose(t, y))
+        self.all.clearances.start(self.all.frame().structure.play, &self.all.pose(t, y))
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
@@ -236,11 +236,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; CONTACTS] {
-        self.all.clearances.depths(self.all.frame().arrangement.clear, pose)
+        self.all.clearances.depths(self.all.frame().structure.play, pose)
     }
 
     fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
-        self.all.clearances.account(self.all.frame().arrangement.clear, contacts, pose, &y[2 * self.all.positions..])
+        self.all.clearances.account(self.all.frame().structure.play, contacts, pose, &y[2 * self.all.positions..])
     }
 
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
@@ -257,8 +257,7 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
         let motion = self.all.tangent_motion(contacts, t, y, &mut rates);
         let instant = self.all.instant_of(self.all.frame(), motion, y, &rates);
         let bristles = &y[2 * self.all.positions..];
-        let account =
-            self.all.clearances.account(self.all.frame().arrangement.clear, contacts, &instant.pose, bristles);
+        let account = self.all.clearances.account(self.all.frame().structure.play, contacts, &instant.pose, bristles);
         (instant, account)
     }
 }

@@ -11,12 +11,12 @@ use crate::integrator::{GUARDS, Guard};
 use crate::math::{Row, each};
 use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
-use crate::model::linkage::Arrangement;
-use crate::model::mechanism::{CRANK, ROD, SLIDER, Topology};
 use crate::model::plane::{Rotation, Vec2};
 use crate::model::rod::{Any, Counted, Counts, FEW_MODES, Inertia, Shape};
 use crate::model::scalar::{Scalar, Tangent};
 use crate::model::state::{Contacts, FlexibleInstant, Instant, Pose};
+use crate::model::structure::Structure;
+use crate::model::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::scene::modal::MOST_MODES;
 
 /// Writes the rates of a state at a time.
@@ -84,10 +84,10 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
                     row: Self::rates_in_row,
                     ends: |$all, contacts, t, y, rates, guards| {
                         let motion = $all.motion::<f64, { $places }>($frame, contacts, t, y, rates);
-                        if $frame.arrangement.topology.is_closed() {
+                        if $frame.structure.topology.is_closed() {
                             guards[0] = $all.change_point(t, y);
                         } else {
-                            $all.clearances.guards($frame.arrangement.clear, contacts, &motion.pose, guards);
+                            $all.clearances.guards($frame.structure.play, contacts, &motion.pose, guards);
                         }
                     },
                     pose: |$all, t, y| $all.pose_in::<{ $places }>($frame, t, y),
@@ -138,8 +138,7 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
         let (eta, rate) = self.modal(*frame, y);
         let chord = self.modes.shape_of::<f64, Any>(eta, rate).chord;
         let p = self.positions;
-        let (angle, speed) =
-            frame.arrangement.layout.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
+        let (angle, speed) = frame.structure.angle(CRANK).map_or((rotor.at(t), rotor.speed), |i| (y[i], y[p + i]));
         ideal.change_point(Rotation::new(angle), speed, chord.length, chord.rate)
     }
 
@@ -151,14 +150,22 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
     }
 
     #[inline(always)]
-    fn loads<R: Scalar>(&self, frame: Frame, contacts: &Contacts, t: R, bristles: &[R], pose: &Pose<R>) -> Loads<R> {
+    fn loads<R: Scalar>(
+        &self,
+        frame: Frame,
+        contacts: &Contacts,
+        t: R,
+        bristles: &[R],
+        bristle_rates: &mut [R],
+        pose: &Pose<R>,
+    ) -> Loads<R> {
         let inputs = self.signal.at(t);
         let slider_load = inputs.slider_load;
         let mut loads = Loads { pin: Vec2::new(slider_load, R::ZERO), slider_load, ..Loads::default() };
-        if !frame.arrangement.topology.speed {
+        if !frame.structure.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
-        self.clearances.add_loads(frame.arrangement.clear, contacts, pose, bristles, &mut loads);
+        self.clearances.add_loads(frame.structure.play, contacts, pose, bristles, bristle_rates, &mut loads);
         add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
@@ -189,7 +196,8 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
         y: &[R],
         rates: &mut [R],
     ) -> Motion<R, P, K, F> {
-        let Frame { arrangement: Arrangement { topology, layout, positions: rigid, .. }, chain } = frame;
+        let Frame { structure, chain } = frame;
+        let Structure { topology, positions: rigid, .. } = structure;
         let counts = C::COUNTS.unwrap_or(self.modes.counts);
         let p = rigid + counts.modes();
         let (positions, speeds) = (&y[..p], &y[p..2 * p]);
@@ -197,7 +205,9 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
         let shape = self.modes.shape_of::<R, C>(eta, rate);
         let mut configuration = self.geometry.configuration::<R, P>(frame, t, positions, speeds, &shape.chord);
         let pose = configuration.pose(shape.slope_rate);
-        let loads = self.loads(frame, contacts, t, &y[2 * p..], &pose);
+        let (velocities, others) = rates.split_at_mut(p);
+        let (accelerations, bristle_rates) = others.split_at_mut(p);
+        let loads = self.loads(frame, contacts, t, &y[2 * p..], bristle_rates, &pose);
         alone::accelerate(topology, &self.bodies, &mut configuration, &loads, self.gravity);
         let turning = configuration.heading[ROD].speed;
         let inertia = self.modes.inertia_of::<R, C>(&shape, eta, rate, turning);
@@ -208,8 +218,6 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
         let moving = Moving { rod, shape: &shape, inertia: &inertia, configuration: &configuration, modes };
         let equations = Equations::new(places, chain.size, &moving, &loads, self.gravity, &modal_force);
         let found = equations.solve::<C, P>(*R::kernel(&self.solvers));
-        let (velocities, others) = rates.split_at_mut(p);
-        let (accelerations, bristle_rates) = others.split_at_mut(p);
         each!(R::PLAIN, k < rigid, 9 => {
             velocities[k] = speeds[k];
         });
@@ -218,8 +226,7 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
             velocities[rigid + mode] = rate[mode];
             accelerations[rigid + mode] = found[chain.size + mode];
         });
-        alone::write(topology, &layout, &configuration, accelerations);
-        self.clearances.write_bristle_rates(&loads.bristle_rate, bristle_rates);
+        alone::write(&structure, &configuration, accelerations);
         Motion { shape, configuration, inertia, pose, loads }
     }
 

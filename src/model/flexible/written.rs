@@ -11,9 +11,9 @@ use super::motion::{Rates, RatesInRow, by_topology};
 use crate::integrator::stages::{IN_REGISTERS, in_registers};
 use crate::integrator::{STAGES, Tableau};
 use crate::math::Row;
-use crate::model::mechanism::Topology;
 use crate::model::rod::{Counted, Counts, Exactly, FEW_MODES};
 use crate::model::state::Contacts;
+use crate::model::structure::Topology;
 
 /// See [`Problem::stages`](crate::integrator::Problem::stages).
 pub type Stages<M, const N: usize> = fn(&M, &Tableau, &Contacts, f64, &[f64; N], f64, &mut [[f64; N]; STAGES]);
@@ -34,7 +34,7 @@ macro_rules! with_counts {
 
 /// How many states a mechanism has without bristles.
 const fn states<C: Counted>(frame: Frame) -> usize {
-    2 * (frame.arrangement.positions + C::MODES)
+    2 * (frame.structure.positions + C::MODES)
 }
 
 /// The loop over stages of exactly `N` states, where it is compiled.

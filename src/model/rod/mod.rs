@@ -17,7 +17,7 @@ pub use inertia::Inertia;
 pub use modes::{Any, Counted, Counts, Exactly, Modes};
 pub use shape::{Chord, Shape};
 
-use super::mechanism::Body;
+use super::bodies::Body;
 use super::plane::Vec2;
 use crate::math::{LANES, Real};
 use crate::scene::modal::{MOST_MODES, ModalTable, pairs};

@@ -1,0 +1,159 @@
+//! Crank, rod and slider as rigid bodies, and the constants of augmented bodies.
+//!
+//! ```text
+//!                                      com
+//!                                     *
+//!                              s _ -'     inertia about the centre of mass
+//!      reference point (first joint) o─────────── length ───────────o second joint ──> body x axis
+//! ```
+//!
+//! Within a chain (see [`structure`](super::structure)) every centre of mass is the chain's root plus vectors that turn
+//! with a body: r_i = root + Σ_k rot(θ_k)·a_ik, where the arm a_ik leads, in the axes of body k, from the joint by which
+//! k hangs to the joint by which i hangs on it, or to the centre of mass if i = k; and is zero where i does not hang on
+//! k. With absolute angles θ_k as coordinates the kinetic energy is
+//!
+//! T = ½·Σ_i (m_i·|ṙ_i|² + J_i·θ̇_i²), ṙ_i = root' + Σ_k θ̇_k·perp(rot(θ_k)·a_ik),
+//!
+//! and since rotations keep products, rot(θ_k)·a · rot(θ_l)·b = cos(θ_l − θ_k)·a·b + sin(θ_l − θ_k)·a·perp(b), the mass
+//! matrix holds nothing but constants of the augmented bodies beside the angles' differences:
+//!
+//! - M_kk = J_k + Σ_i m_i·|a_ik|² (`diagonal`),
+//! - M_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), α_kl = Σ_i m_i·a_ik·a_il, β_kl = Σ_i m_i·a_ik·perp(a_il) (`cos`,
+//!   `sin`),
+//! - and with the root's velocity, Σ_i m_i·perp(rot(θ_k)·a_ik) = perp(rot(θ_k)·h_k), h_k = Σ_i m_i·a_ik (`moment`).
+//!
+//! The root of a chain that floats is its own centre of mass: each arm is then less h_k/m, with m the chain's mass, and
+//! nothing is left of the last line. What leads from the centre of mass to the chain's first joint is the sum of
+//! rot(θ_k)·(−h_k/m) (`anchor`).
+//! (J. Wittenburg, Dynamics of Systems of Rigid Bodies, 1977, 5.2.)
+
+use super::plane::{Vec2, perp};
+use super::rod::Rod;
+use super::structure::{CRANK, Link, ROD, SLIDER, Structure, Topology};
+use crate::scene::{Point, Scene};
+
+/// A rigid body: its mass properties and its joint on the x axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// [kg]
+    pub mass: f64,
+    /// [kg·m²] About the centre of mass.
+    pub inertia: f64,
+    /// [m] Centre of mass from the reference point, in body axes.
+    pub com: Vec2,
+    /// [m] Distance of the second joint from the reference point, along the body's x axis.
+    pub length: f64,
+}
+
+/// Crank, rod and slider.
+pub type Bodies = [Body; 3];
+
+/// The three bodies of a scene; a flexible rod's mass properties are its beam's.
+pub fn bodies(scene: &Scene) -> Bodies {
+    let point = |p: Point| Vec2::new(p.x, p.y);
+    let Scene { crank, rod, slider, .. } = scene;
+    let of_rod = match Rod::new(scene) {
+        Some(flexible) => flexible.undeformed(),
+        None => Body { mass: rod.mass, inertia: rod.inertia, com: point(rod.com), length: rod.length },
+    };
+    [
+        Body { mass: crank.mass, inertia: crank.inertia, com: point(crank.com), length: crank.length },
+        of_rod,
+        Body { mass: slider.mass, inertia: slider.inertia, com: point(slider.com), length: 0.0 },
+    ]
+}
+
+/// Constants of the augmented bodies; lists are by body, or by the pairs crank and rod, rod and slider, crank and slider.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AugmentedBodies {
+    /// [kg·m²] M_kk.
+    pub diagonal: [f64; 3],
+    /// [kg·m²] α of the pairs.
+    pub cos: [f64; 3],
+    /// [kg·m²] β of the pairs.
+    pub sin: [f64; 3],
+    /// [kg·m] h_k; zero in a chain that floats.
+    pub moment: [Vec2; 3],
+    /// [m] −h_k/m in a chain that floats; zero in the others.
+    pub anchor: [Vec2; 3],
+    /// [1/kg] Inverse mass of the chain that holds each body.
+    pub per_mass: [f64; 3],
+}
+
+impl AugmentedBodies {
+    /// Sums the chains of a mechanism.
+    pub fn new(bodies: &Bodies, structure: &Structure) -> Self {
+        let Topology { b, c, .. } = structure.topology;
+        let mut sum = Self::default();
+        // arms[i][k] is a_ik; bodies of one chain have the same first one.
+        let (arms, first) = if structure.rod == Link::After { inwards(bodies, b) } else { outwards(bodies, b, c) };
+        let mut arms = arms;
+        let mut mass = [0.0; 3];
+        for i in 0..3 {
+            for j in (0..3).filter(|&j| first[j] == first[i]) {
+                mass[i] += bodies[j].mass;
+                sum.moment[i] += bodies[j].mass * arms[j][i];
+            }
+        }
+        sum.per_mass = mass.map(f64::recip);
+        for k in (0..3).filter(|&k| structure.floats[k]) {
+            let centre = sum.moment[k] / mass[k];
+            sum.anchor[k] = -centre;
+            sum.moment[k] = Vec2::ZERO;
+            for i in (0..3).filter(|&i| first[i] == first[k]) {
+                arms[i][k] -= centre;
+            }
+        }
+        for k in 0..3 {
+            let square = |i: usize| bodies[i].mass * arms[i][k].norm_squared();
+            let chain = (0..3).filter(|&i| first[i] == first[k]);
+            sum.diagonal[k] = bodies[k].inertia + chain.map(square).sum::<f64>();
+        }
+        for (pair, (k, l)) in [(CRANK, ROD), (ROD, SLIDER), (CRANK, SLIDER)].into_iter().enumerate() {
+            for i in (0..3).filter(|&i| first[i] == first[k] && first[i] == first[l]) {
+                sum.cos[pair] += bodies[i].mass * arms[i][k].dot(arms[i][l]);
+                sum.sin[pair] += bodies[i].mass * arms[i][k].dot(perp(arms[i][l]));
+            }
+        }
+        sum
+    }
+}
+
+/// Arms of each centre of mass, and the first body of each chain.
+type Arms = ([[Vec2; 3]; 3], [usize; 3]);
+
+const fn along(length: f64) -> Vec2 {
+    Vec2::new(length, 0.0)
+}
+
+/// Each body hangs by its first joint, on the one before it where their joint is ideal.
+fn outwards(bodies: &Bodies, b: bool, c: bool) -> Arms {
+    let (mut arms, mut first) = ([[Vec2::ZERO; 3]; 3], [CRANK, ROD, SLIDER]);
+    for i in [CRANK, ROD, SLIDER] {
+        arms[i][i] = bodies[i].com;
+    }
+    if b {
+        first[ROD] = CRANK;
+        arms[ROD][CRANK] = along(bodies[CRANK].length);
+    }
+    if c {
+        first[SLIDER] = first[ROD];
+        arms[SLIDER][ROD] = along(bodies[ROD].length);
+        arms[SLIDER][CRANK] = arms[ROD][CRANK];
+    }
+    (arms, first)
+}
+
+/// The slider is on its rail, the rod hangs on it by its last joint, and the crank on the rod if their joint is ideal.
+fn inwards(bodies: &Bodies, b: bool) -> Arms {
+    let mut arms = [[Vec2::ZERO; 3]; 3];
+    arms[SLIDER][SLIDER] = bodies[SLIDER].com;
+    arms[ROD][ROD] = bodies[ROD].com - along(bodies[ROD].length);
+    arms[CRANK][CRANK] = bodies[CRANK].com;
+    if !b {
+        return (arms, [CRANK, SLIDER, SLIDER]);
+    }
+    arms[CRANK][CRANK] -= along(bodies[CRANK].length);
+    arms[CRANK][ROD] = -along(bodies[ROD].length);
+    (arms, [SLIDER; 3])
+}

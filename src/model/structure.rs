@@ -1,0 +1,304 @@
+//! What hangs on what, and where the coordinates stand.
+//!
+//! Any clearance cuts the loop. Bodies that ideal joints still connect form open chains, and each body hangs on what
+//! comes before it on the way from its chain's root:
+//!
+//! ```text
+//!             crank          rod            slider
+//!    ground ────A──── ─────── B ─────── C ─────── ════T════ rail
+//! ```
+//!
+//! | [`Link`] | the body hangs on |
+//! |---|---|
+//! | `Ground` | the ground, by the main bearing |
+//! | `Before` | the body to its left, by their ideal pin |
+//! | `After` | the body to its right, whose own way to its root is the guide |
+//! | `Rail` | the ideal guide, on which its pin has one coordinate |
+//! | `Free` | nothing: two coordinates hold the centre of mass of the chain that it begins |
+//!
+//! So with a worn slider pin the crank hangs on the ground, the rod on the crank and the slider on its rail; with a worn
+//! main bearing the slider hangs on its rail, the rod on the slider and the crank on the rod.
+//!
+//! Minimal coordinates are the roots' in the order crank (x, y), rod (x, y), slider (x on its rail, otherwise x, y), and
+//! then the angles of crank (unless the drive prescribes it), rod and slider (unless its guide is ideal). Their rates
+//! follow in the same order. Where all joints are ideal the loop is closed: the chain hangs on the ground, the guide makes
+//! the rod's angle a function of the crank's, and that is the only coordinate.
+
+use super::kinematics::Roots;
+use super::plane::Vec2;
+use crate::math::Real;
+use crate::scene::{DriveMode, JointModel, Scene};
+
+/// Index of the crank, the rod and the slider in lists of bodies.
+pub const CRANK: usize = 0;
+/// The rod.
+pub const ROD: usize = 1;
+/// The slider.
+pub const SLIDER: usize = 2;
+
+/// A revolute joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pin {
+    /// A: the crank's journal in the ground.
+    MainBearing,
+    /// B: the crank's pin in the rod's big end.
+    CrankPin,
+    /// C: the slider's pin in the rod's small end.
+    SliderPin,
+}
+
+impl Pin {
+    /// In the order of lists of pins.
+    pub const ALL: [Self; 3] = [Self::MainBearing, Self::CrankPin, Self::SliderPin];
+}
+
+/// Some of the four joints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct JointSet {
+    /// A is among them.
+    pub main_bearing: bool,
+    /// B is among them.
+    pub crank_pin: bool,
+    /// C is among them.
+    pub slider_pin: bool,
+    /// T is among them.
+    pub guide: bool,
+}
+
+impl JointSet {
+    /// Whether `pin` is among them.
+    #[inline(always)]
+    pub const fn contains(self, pin: Pin) -> bool {
+        match pin {
+            Pin::MainBearing => self.main_bearing,
+            Pin::CrankPin => self.crank_pin,
+            Pin::SliderPin => self.slider_pin,
+        }
+    }
+
+    /// The pins among them.
+    pub fn pins(self) -> impl Iterator<Item = Pin> {
+        Pin::ALL.into_iter().filter(move |&pin| self.contains(pin))
+    }
+}
+
+/// Which joints are ideal and whether the crank's angle is prescribed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Topology {
+    /// Main bearing is ideal.
+    pub a: bool,
+    /// Crank pin is ideal.
+    pub b: bool,
+    /// Slider pin is ideal.
+    pub c: bool,
+    /// Guide is ideal.
+    pub t: bool,
+    /// The crank's angle is prescribed.
+    pub speed: bool,
+}
+
+impl Topology {
+    /// Of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let ideal = |model| model == JointModel::Ideal;
+        Self {
+            a: ideal(scene.joint.a.model),
+            b: ideal(scene.joint.b.model),
+            c: ideal(scene.joint.c.model),
+            t: ideal(scene.joint.t.model),
+            speed: scene.drive.mode == DriveMode::Speed,
+        }
+    }
+
+    /// All joints are ideal.
+    pub const fn is_closed(self) -> bool {
+        self.a && self.b && self.c && self.t
+    }
+
+    /// The chain with the crank floats.
+    pub const fn crank_floats(self) -> bool {
+        let on_rail = self.b && self.c && self.t;
+        !(self.a || on_rail)
+    }
+
+    /// The rod floats, alone or with the slider.
+    pub const fn rod_floats(self) -> bool {
+        let on_rail = self.c && self.t;
+        !(self.b || on_rail)
+    }
+
+    /// The slider floats alone.
+    pub const fn slider_floats(self) -> bool {
+        !self.t && !self.c
+    }
+
+    /// Whether its one play is that of a pin: with more contacts, or with those of the slider's corners, steps in blocks
+    /// take as long as others.
+    pub const fn has_one_play_in_a_pin(self) -> bool {
+        self.a as u8 + self.b as u8 + self.c as u8 == 2 && self.t
+    }
+}
+
+/// What a body hangs on; see the [module](self).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Link {
+    /// The ground.
+    Ground,
+    /// The last joint of the body before it.
+    Before,
+    /// The first joint of the body after it.
+    After,
+    /// The rail: place of its coordinate.
+    Rail(usize),
+    /// Nothing: first place of the coordinates of its chain's centre of mass.
+    Free(usize),
+}
+
+impl Link {
+    #[inline(always)]
+    fn root<R: Real>(self, list: &[R]) -> Vec2<R> {
+        match self {
+            Self::Free(at) => Vec2::new(list[at], list[at + 1]),
+            Self::Rail(at) => Vec2::new(list[at], R::ZERO),
+            _ => Vec2::ZERO,
+        }
+    }
+
+    #[inline(always)]
+    fn set_root<R: Real>(self, root: Vec2<R>, list: &mut [R]) {
+        match self {
+            Self::Free(at) => (list[at], list[at + 1]) = (root.x, root.y),
+            Self::Rail(at) => list[at] = root.x,
+            _ => {}
+        }
+    }
+}
+
+/// A mechanism's bodies, joints and coordinates, as a plain value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Structure {
+    /// Ideal joints and drive.
+    pub topology: Topology,
+    /// The joints with clearance.
+    pub play: JointSet,
+    /// All joints are ideal.
+    pub closed: bool,
+    /// What the crank hangs on.
+    pub crank: Link,
+    /// What the rod hangs on.
+    pub rod: Link,
+    /// What the slider hangs on.
+    pub slider: Link,
+    /// Place of the crank's angle, unless it is prescribed.
+    pub crank_angle: Option<usize>,
+    /// Place of the rod's angle, unless the loop is closed.
+    pub rod_angle: Option<usize>,
+    /// Place of the slider's angle, where it may tilt.
+    pub slider_angle: Option<usize>,
+    /// Number of positions, which is that of degrees of freedom.
+    pub positions: usize,
+    /// The bodies, crank, rod and slider, whose chain floats.
+    pub floats: [bool; 3],
+    /// The bodies whose angle moves centres of mass against their chain's root, and does not float.
+    pub weighs: [bool; 3],
+    /// The pairs of bodies, crank and rod, rod and slider, crank and slider, whose angles share inertia.
+    pub coupled: [bool; 3],
+}
+
+impl Structure {
+    /// Of a topology.
+    pub const fn new(topology: Topology) -> Self {
+        let Topology { a, b, c, t, speed } = topology;
+        let closed = topology.is_closed();
+        // In a closed loop the guide holds no body up: it takes a coordinate away.
+        let t = t && !closed;
+        let (rail_rod, rail_crank) = (c && t, b && c && t);
+        let mut next = Places { next: 0 };
+        let crank = match (topology.crank_floats(), rail_crank) {
+            (true, _) => Link::Free(next.take(2)),
+            (false, true) => Link::After,
+            (false, false) => Link::Ground,
+        };
+        let rod = match (topology.rod_floats(), rail_rod) {
+            (true, _) => Link::Free(next.take(2)),
+            (false, true) => Link::After,
+            (false, false) => Link::Before,
+        };
+        let slider = match (t, c) {
+            (true, _) => Link::Rail(next.take(1)),
+            (false, true) => Link::Before,
+            (false, false) => Link::Free(next.take(2)),
+        };
+        let crank_angle = if speed { None } else { Some(next.take(1)) };
+        let rod_angle = if closed { None } else { Some(next.take(1)) };
+        let slider_angle = if t || closed { None } else { Some(next.take(1)) };
+        let crank_floats = topology.crank_floats();
+        let rod_floats = topology.rod_floats() || (crank_floats && b);
+        let slider_floats = topology.slider_floats() || (rod_floats && c && !t);
+        Self {
+            topology,
+            play: JointSet { main_bearing: !a, crank_pin: !b, slider_pin: !c, guide: !topology.t },
+            closed,
+            crank,
+            rod,
+            slider,
+            crank_angle,
+            rod_angle,
+            slider_angle,
+            positions: next.next,
+            floats: [crank_floats, rod_floats, slider_floats],
+            weighs: [a || rail_crank, (a && b) || rail_rod, a && b && c && !topology.t],
+            coupled: [b, c && !topology.t, b && c && !topology.t],
+        }
+    }
+
+    /// Place of the angle of body `k`, if it is a coordinate.
+    #[inline(always)]
+    pub const fn angle(&self, k: usize) -> Option<usize> {
+        match k {
+            CRANK => self.crank_angle,
+            ROD => self.rod_angle,
+            _ => self.slider_angle,
+        }
+    }
+
+    /// The roots in a list of positions, or of their rates or accelerations; 0 where there is none.
+    #[inline(always)]
+    pub fn roots<R: Real>(&self, list: &[R]) -> Roots<Vec2<R>> {
+        Roots { crank: self.crank.root(list), rod: self.rod.root(list), slider: self.slider.root(list) }
+    }
+
+    /// Writes the roots into such a list.
+    #[inline(always)]
+    pub fn set_roots<R: Real>(&self, roots: &Roots<Vec2<R>>, list: &mut [R]) {
+        self.crank.set_root(roots.crank, list);
+        self.rod.set_root(roots.rod, list);
+        self.slider.set_root(roots.slider, list);
+    }
+
+    /// Writes the angles of crank, rod and slider, or their rates or accelerations, into such a list.
+    #[inline(always)]
+    pub fn set_angles<R: Real>(&self, [crank, rod, slider]: [R; 3], list: &mut [R]) {
+        if let Some(place) = self.crank_angle {
+            list[place] = crank;
+        }
+        if let Some(place) = self.rod_angle {
+            list[place] = rod;
+        }
+        if let Some(place) = self.slider_angle {
+            list[place] = slider;
+        }
+    }
+}
+
+/// Hands out places in a list.
+struct Places {
+    next: usize,
+}
+
+impl Places {
+    const fn take(&mut self, count: usize) -> usize {
+        self.next += count;
+        self.next - count
+    }
+}
