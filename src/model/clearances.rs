@@ -174,9 +174,9 @@ impl Clearances {
         bristles: &mut [f64],
     ) -> Reset<Contacts> {
         let penetrations = self.penetrations(clear, pose);
-        let mut reset = Reset { modes: *contacts, impact: None };
+        let mut reset = Reset { discrete: *contacts, impact: None };
         let crossed = self.guide.contacts_of(&by_joint(clear, crossed));
-        for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
+        for (index, mode) in reset.discrete.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if mode.closed {
                 *mode = ContactMode::default();
                 for (deflection, _) in bristles.iter_mut().zip(&self.bristles).filter(|(_, c)| **c == index) {

@@ -9,12 +9,15 @@ use super::joint::guide::CORNERS;
 use super::kinematics::{JointCentres, Turning};
 use super::mechanism::{Bodies, CRANK, ROD, SLIDER, bodies};
 use super::plane::{Rotation, Vec2, perp};
-use super::plant::Plant;
+use super::plant::{Plant, ROOM};
 use super::scalar::Tangent;
 use super::scales::Scale;
+use super::stages::in_registers;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, ROOM, Reset, Unilateral};
+use crate::integrator::{
+    EventFunctions, Events, Extent, Jacobian, Linearizable, Ode, SeveralInstants, Tableau, Unilateral,
+};
 use crate::math::{self, Real, Row};
 use crate::scene::Scene;
 
@@ -58,7 +61,7 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
     }
 
     #[inline(always)]
-    fn crank<R: Real>(&self, t: R, y: &[R; N]) -> (R, R) {
+    fn crank<R: Real>(&self, t: R, y: &[R]) -> (R, R) {
         if SPEED { (self.rotor.at(t), R::constant(self.rotor.speed)) } else { (y[0], y[Self::P]) }
     }
 
@@ -103,7 +106,7 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
     }
 
     #[inline(always)]
-    fn write_rates<R: Real>(&self, t: R, y: &[R; N], rates: &mut [R; N]) {
+    fn write_rates<R: Real>(&self, t: R, y: &[R], rates: &mut [R]) {
         if SPEED {
             return;
         }
@@ -116,7 +119,7 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
         rates[Self::P] = self.acceleration(crank, speed, &motion, &loads);
     }
 
-    fn everything<R: Real>(&self, t: R, y: &[R; N]) -> Instant<R> {
+    fn everything<R: Real>(&self, t: R, y: &[R]) -> Instant<R> {
         let (angle, speed) = self.crank(t, y);
         let crank = Rotation::new(angle);
         let motion = self.ideal.motion(crank, speed);
@@ -162,43 +165,53 @@ impl<const SPEED: bool, const N: usize> Closed<SPEED, N> {
     }
 }
 
-impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
-    type Modes = Contacts;
+impl<const SPEED: bool, const N: usize> Ode for Closed<SPEED, N> {
+    type Discrete = Contacts;
 
     fn extent(&self) -> Extent {
         Extent::second_order(2 * Self::P)
     }
 
     #[inline(always)] // into the loop over stages
-    fn rates(&self, _: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+    fn rates(&self, _: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         self.write_rates(t, y, rates);
     }
 
-    fn rates_in_row(&self, _: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
-        self.write_rates(*t, y, rates);
+    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
+        in_registers::<N>(tableau, t, y, h, k, |t, y, rates| self.rates(contacts, t, y, rates))
     }
 
-    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
-        let states = 2 * Self::P;
-        differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
-    }
-
-    fn scales(&self) -> &[f64; N] {
+    fn scales(&self) -> &[f64] {
         &self.scales
     }
 
     fn longest_step(&self) -> f64 {
         self.longest_step
     }
+}
 
-    fn guard_count(&self) -> usize {
+impl<const SPEED: bool, const N: usize> SeveralInstants for Closed<SPEED, N> {
+    fn rates_in_row(&self, _: &Contacts, t: &Row, y: &[Row], rates: &mut [Row]) {
+        self.write_rates(*t, y, rates);
+    }
+}
+
+impl<const SPEED: bool, const N: usize> Linearizable for Closed<SPEED, N> {
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
+        let states = 2 * Self::P;
+        differentiate::<N>(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
+    }
+}
+
+impl<const SPEED: bool, const N: usize> Events for Closed<SPEED, N> {
+    fn event_count(&self) -> usize {
         usize::from(self.ideal.has_change_point())
     }
 
-    fn guards(&self, _: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
+    fn event_functions(&self, _: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
         if self.ideal.has_change_point() {
             let (angle, speed) = self.crank(t, y);
-            guards[0] = self.ideal.change_point(Rotation::new(angle), speed, self.ideal.rod, 0.0);
+            functions[0] = self.ideal.change_point(Rotation::new(angle), speed, self.ideal.rod, 0.0);
         }
     }
 
@@ -206,27 +219,21 @@ impl<const SPEED: bool, const N: usize> Problem<N> for Closed<SPEED, N> {
         true
     }
 
-    fn guard_scale(&self) -> f64 {
+    fn event_scale(&self) -> f64 {
         IdealMechanism::CHANGE_POINT_SCALE
-    }
-
-    fn cross(&self, contacts: &Contacts, _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<Contacts> {
-        Reset { modes: *contacts, impact: None }
     }
 }
 
-impl<const SPEED: bool, const N: usize> Unilateral<N> for Closed<SPEED, N> {}
+impl<const SPEED: bool, const N: usize> Unilateral for Closed<SPEED, N> {}
 
-impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
-    fn start(&self, pose: &StartPose) -> [f64; N] {
-        let mut y = [0.0; N];
+impl<const SPEED: bool, const N: usize> Plant for Closed<SPEED, N> {
+    fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
         for (state, start) in y.iter_mut().take(2 * Self::P).zip([pose.angle[CRANK], pose.speed[CRANK]]) {
             *state = start;
         }
-        y
     }
 
-    fn start_contacts(&self, _: f64, _: &[f64; N]) -> Contacts {
+    fn start_contacts(&self, _: f64, _: &[f64]) -> Contacts {
         Contacts::default()
     }
 
@@ -246,7 +253,7 @@ impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
         self.rotor.start_time = time;
     }
 
-    fn instant(&self, _: &Contacts, t: f64, y: &[f64; N]) -> Instant {
+    fn instant(&self, _: &Contacts, t: f64, y: &[f64]) -> Instant {
         self.everything(t, y)
     }
 
@@ -254,11 +261,11 @@ impl<const SPEED: bool, const N: usize> Plant<N> for Closed<SPEED, N> {
         [f64::NEG_INFINITY; 3 + CORNERS]
     }
 
-    fn tangent_rates(&self, _: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
+    fn tangent_rates(&self, _: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         self.write_rates(t, y, rates);
     }
 
-    fn tangent_instant(&self, _: &Contacts, t: Tangent, y: &[Tangent; N]) -> (Instant<Tangent>, Account<Tangent>) {
+    fn tangent_instant(&self, _: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
         (self.everything(t, y), Account::default())
     }
 }

@@ -11,12 +11,16 @@ use super::joint::guide::CORNERS;
 use super::kinematics::{Place, Velocity, roots};
 use super::linkage::{Arrangement, Linkage};
 use super::mechanism::Topology;
-use super::plant::Plant;
+use super::plant::{Plant, ROOM};
 use super::scalar::Tangent;
 use super::scales;
+use super::stages::in_registers;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Impulses, Jacobian, Kinks, Problem, ROOM, Reset};
+use crate::integrator::{
+    Discontinuities, EventFunctions, Events, Extent, Impulses, Jacobian, Linearizable, Ode, Reset, SeveralInstants,
+    Tableau, Triggered,
+};
 use crate::math::Row;
 use crate::scene::Scene;
 
@@ -62,103 +66,134 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     #[inline(always)]
-    pub(super) fn pose(&self, t: f64, y: &[f64; N]) -> Pose {
-        self.linkage.pose(Self::ARRANGEMENT, t, y)
+    pub(super) fn pose(&self, t: f64, y: &[f64]) -> Pose {
+        self.linkage.pose(Self::ARRANGEMENT, t, self.own(y))
     }
 }
 
-impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Problem<N>
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize>
+    Open<A, B, C, T, SPEED, N>
+{
+    /// Of a list of states or rates as many as there are, known to the compiler where that is so.
+    #[inline(always)]
+    fn own<'y, V>(&self, y: &'y [V]) -> &'y [V] {
+        if Self::ROOMY { y } else { &y[..N] }
+    }
+
+    #[inline(always)]
+    fn own_mut<'y, V>(&self, y: &'y mut [V]) -> &'y mut [V] {
+        if Self::ROOMY { y } else { &mut y[..N] }
+    }
+}
+
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Ode
     for Open<A, B, C, T, SPEED, N>
 {
-    type Modes = Contacts;
-
-    #[inline(always)] // into the loop over stages
-    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        self.linkage.rates(Self::ARRANGEMENT, contacts, t, y, rates);
-    }
-
-    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
-        self.linkage.rates(Self::ARRANGEMENT, contacts, *t, y, rates);
-    }
-
-    fn suits_blocks(&self) -> bool {
-        Self::ARRANGEMENT.topology.has_one_play_in_a_pin() && Extent::of(self).is_second_order()
-    }
-
-    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
-        let states = Extent::of(self).states;
-        differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
-    }
+    type Discrete = Contacts;
 
     fn extent(&self) -> Extent {
-        let states = 2 * Self::P + self.linkage.clearances.bristles.len();
+        let bristles = if Self::ROOMY { self.linkage.clearances.bristles.len() } else { 0 };
+        let states = 2 * Self::P + bristles;
         Extent { positions: Self::P, weighed: states, states }
     }
 
-    fn scales(&self) -> &[f64; N] {
+    #[inline(always)] // into the loop over stages
+    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
+        self.linkage.rates(Self::ARRANGEMENT, contacts, t, self.own(y), self.own_mut(rates));
+    }
+
+    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
+        in_registers::<N>(tableau, t, y, h, k, |t, y, rates| self.rates(contacts, t, y, rates))
+    }
+
+    fn scales(&self) -> &[f64] {
         &self.scales
     }
 
     fn longest_step(&self) -> f64 {
         self.longest_step
     }
+}
 
-    fn guard_count(&self) -> usize {
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> SeveralInstants
+    for Open<A, B, C, T, SPEED, N>
+{
+    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row], rates: &mut [Row]) {
+        self.linkage.rates(Self::ARRANGEMENT, contacts, *t, self.own(y), self.own_mut(rates));
+    }
+
+    fn suits_blocks(&self) -> bool {
+        Self::ARRANGEMENT.topology.has_one_play_in_a_pin() && self.extent().is_second_order()
+    }
+}
+
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Linearizable
+    for Open<A, B, C, T, SPEED, N>
+{
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
+        let states = self.extent().states;
+        differentiate::<N>(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
+    }
+}
+
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Events
+    for Open<A, B, C, T, SPEED, N>
+{
+    fn event_count(&self) -> usize {
         self.linkage.clearances.guard_count(Self::ARRANGEMENT.clear)
     }
 
     #[inline]
-    fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        self.linkage.clearances.guards(Self::ARRANGEMENT.clear, contacts, &self.pose(t, y), guards);
+    fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
+        self.linkage.clearances.guards(Self::ARRANGEMENT.clear, contacts, &self.pose(t, y), functions);
     }
 
-    fn rates_and_guards(
+    fn rates_and_event_functions(
         &self,
         contacts: &Contacts,
         t: f64,
-        y: &[f64; N],
-        rates: &mut [f64; N],
-        guards: &mut [Guard; GUARDS],
+        y: &[f64],
+        rates: &mut [f64],
+        functions: &mut EventFunctions,
     ) {
+        let (y, rates) = (self.own(y), self.own_mut(rates));
         let pose = self.pose(t, y);
         let loads = self.linkage.loads(Self::ARRANGEMENT, contacts, t, &y[2 * Self::P..], &pose);
         self.linkage.rates_under(Self::ARRANGEMENT, &pose, &loads, y, rates);
-        self.linkage.clearances.guards(Self::ARRANGEMENT.clear, contacts, &pose, guards);
+        self.linkage.clearances.guards(Self::ARRANGEMENT.clear, contacts, &pose, functions);
     }
 
-    fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
-        self.linkage.clearances.kinks(Self::ARRANGEMENT.clear, contacts, &self.pose(t, y), kinks);
+    fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
+        self.linkage.clearances.kinks(Self::ARRANGEMENT.clear, contacts, &self.pose(t, y), functions);
     }
 
-    fn guard_scale(&self) -> f64 {
+    fn event_scale(&self) -> f64 {
         self.guard_scale
     }
 
-    fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
+    fn reset(&self, contacts: &Contacts, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Contacts> {
         let pose = self.pose(t, y);
         let bristles = if Self::ROOMY { &mut y[2 * Self::P..] } else { &mut [] };
-        self.linkage.clearances.cross(Self::ARRANGEMENT.clear, contacts, &pose, crossed, bristles)
+        self.linkage.clearances.cross(Self::ARRANGEMENT.clear, contacts, &pose, triggered, bristles)
     }
 }
 
-impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Plant<N>
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Plant
     for Open<A, B, C, T, SPEED, N>
 {
-    fn start(&self, pose: &StartPose) -> [f64; N] {
+    fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
         let Arrangement { topology, layout, .. } = Self::ARRANGEMENT;
         let turning = turning(pose.angle, pose.speed, !T);
         let place = roots(topology, &self.linkage.chains, &pose.place, Place(&turning));
         let velocity = roots(topology, &self.linkage.chains, &pose.velocity, Velocity(&turning));
-        let mut y = [0.0; N];
         let (positions, rates) = y[..2 * Self::P].split_at_mut(Self::P);
         layout.set_roots(&place, positions);
         layout.set_angles(&pose.angle, positions);
         layout.set_roots(&velocity, rates);
         layout.set_angles(&pose.speed, rates);
-        y
     }
 
-    fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
+    fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts {
         self.linkage.clearances.start(Self::ARRANGEMENT.clear, &self.pose(t, y))
     }
 
@@ -178,20 +213,20 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         self.linkage.rotor.start_time = time;
     }
 
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        self.linkage.instant(Self::ARRANGEMENT, contacts, t, y)
+    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant {
+        self.linkage.instant(Self::ARRANGEMENT, contacts, t, self.own(y))
     }
 
-    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
-        self.linkage.rates_and_instant(Self::ARRANGEMENT, contacts, t, y, rates)
+    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
+        self.linkage.rates_and_instant(Self::ARRANGEMENT, contacts, t, self.own(y), rates)
     }
 
-    fn instant_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
+    fn instant_under(&self, impulses: &Impulses, t: f64, y: &[f64]) -> Instant {
         let pose = self.pose(t, y);
         self.linkage.instant_under(Self::ARRANGEMENT, pose, self.loads_under(impulses, t, y, &pose))
     }
 
-    fn rates_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+    fn rates_under(&self, impulses: &Impulses, t: f64, y: &[f64], rates: &mut [f64]) {
         let pose = self.pose(t, y);
         let loads = self.loads_under(impulses, t, y, &pose);
         self.linkage.rates_under(Self::ARRANGEMENT, &pose, &loads, y, rates);
@@ -201,20 +236,15 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         self.linkage.clearances.depths(Self::ARRANGEMENT.clear, pose)
     }
 
-    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
+    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> Account {
         self.linkage.account(Self::ARRANGEMENT, contacts, pose, y)
     }
 
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         self.linkage.tangent_rates(Self::ARRANGEMENT, contacts, t, y, rates);
     }
 
-    fn tangent_instant(
-        &self,
-        contacts: &Contacts,
-        t: Tangent,
-        y: &[Tangent; N],
-    ) -> (Instant<Tangent>, Account<Tangent>) {
+    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
         let instant = self.linkage.tangent_instant(Self::ARRANGEMENT, contacts, t, y);
         let account = self.linkage.account(Self::ARRANGEMENT, contacts, &instant.pose, y);
         (instant, account)

@@ -59,12 +59,12 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     Open<A, B, C, T, SPEED, N>
 {
     /// Loads under the forces of `impulses`, which act as they did at the middle of their step.
-    pub(super) fn loads_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N], pose: &Pose) -> Loads {
+    pub(super) fn loads_under(&self, impulses: &Impulses, t: f64, y: &[f64], pose: &Pose) -> Loads {
         let bristles = &y[2 * Self::P..];
         let mut loads = self.linkage.loads(Self::ARRANGEMENT, &Contacts::default(), t, bristles, pose);
         let mut acting = (0..CONTACTS).filter(|&contact| impulses.acts(contact)).peekable();
         if acting.peek().is_some() {
-            let there = self.pose(impulses.t, &impulses.y);
+            let there = self.pose(impulses.t, &impulses.y[..y.len()]);
             for contact in acting {
                 self.linkage.clearances.add_rigid(contact, &there, impulses.forces[contact], &mut loads);
             }
@@ -73,14 +73,14 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 }
 
-impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Unilateral<N>
+impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bool, const N: usize> Unilateral
     for Open<A, B, C, T, SPEED, N>
 {
     fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
         self.linkage.clearances.laws
     }
 
-    fn contacts(&self, t: f64, y: &[f64; N]) -> Relative {
+    fn contacts(&self, t: f64, y: &[f64]) -> Relative {
         let pose = self.pose(t, y);
         Relative {
             gap: self.linkage.clearances.depths(Self::ARRANGEMENT.clear, &pose).map(|depth| -depth),
@@ -88,7 +88,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         }
     }
 
-    fn response(&self, t: f64, y: &[f64; N], contact: usize, part: usize) -> [f64; N] {
+    fn response(&self, t: f64, y: &[f64], contact: usize, part: usize, response: &mut [f64]) {
         let pose = self.pose(t, y);
         let mut loads = Loads::default();
         let mut unit = [0.0; 2];
@@ -98,9 +98,8 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
         let Arrangement { topology, layout, positions: p, .. } = Self::ARRANGEMENT;
         let Linkage { bodies, chains, .. } = &self.linkage;
         let accelerations = accelerate(topology, bodies, chains, 0.0, &still, &loads);
-        let mut rates = [0.0; N];
-        layout.set_roots(&accelerations.roots, &mut rates[p..2 * p]);
-        layout.set_angles(&accelerations.angle, &mut rates[p..2 * p]);
-        rates
+        response.fill(0.0);
+        layout.set_roots(&accelerations.roots, &mut response[p..2 * p]);
+        layout.set_angles(&accelerations.angle, &mut response[p..2 * p]);
     }
 }
