@@ -62,7 +62,7 @@ pub fn first<D: Copy>(
     system: &dyn System<Discrete = D>,
     before: &EventFunctions,
 ) -> Option<(f64, usize)> {
-    let step = stepper.state.last_step(system.extent());
+    let step = stepper.state.last_step(stepper.extent);
     let discrete = &stepper.state.start().discrete;
     (0..system.event_count())
         .filter_map(|i| {

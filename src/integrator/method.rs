@@ -29,6 +29,8 @@ pub struct Properties {
     pub predicts: bool,
     /// This share of the tolerance is for one step.
     pub error_share: f64,
+    /// The kinds that attempt a step which time and again cannot be made in the present one, in their order.
+    pub others: &'static [MethodKind],
 }
 
 /// The share of the tolerance for one step where the errors of many add up.
@@ -130,11 +132,6 @@ pub trait Method<D: Copy>: Send {
     /// How the next step is to be made.
     fn next_kind(&self) -> MethodKind {
         self.kind()
-    }
-
-    /// The kinds that attempt a step which time and again cannot be made in the present one, in their order.
-    fn others(&self) -> &'static [MethodKind] {
-        &[]
     }
 
     /// Stays with the present kind, after a step that could not be made as it was to be.

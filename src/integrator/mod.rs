@@ -86,9 +86,9 @@ impl<D: Copy> Integrator<D> {
         &*self.stepper.method
     }
 
-    /// The same, to take it back from where it was saved.
-    pub fn method_mut(&mut self) -> &mut dyn Method<D> {
-        &mut *self.stepper.method
+    /// Takes back what the method remembered when it was saved.
+    pub fn load_method(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        self.stepper.with_method(|method| method.load(reader))
     }
 
     /// Goes on from another state.
@@ -102,14 +102,14 @@ impl<D: Copy> Integrator<D> {
     /// See [`IntegrationError`]; the state at the error's time is intact.
     pub fn advance(&mut self, system: &dyn System<Discrete = D>, t: f64) -> Result<(), IntegrationError> {
         // Most communication points lie within the last step.
-        let Stepper { settings, method, state, .. } = &self.stepper;
+        let Stepper { settings, properties, state, .. } = &self.stepper;
         if t <= state.front().t {
             return Ok(());
         }
         let longest = system.longest_step();
-        let longest = if method.properties().adaptive { longest } else { settings.fixed_step.min(longest) };
+        let longest = if properties.adaptive { longest } else { settings.fixed_step.min(longest) };
         settings.effort.check(state.front().t, t, longest)?;
-        self.march(system, t, &|_| false)
+        self.march(system, t, None)
     }
 
     /// Steps until `t` lies within the last step, or until a step has ended with an event after `after`, and tells
@@ -123,33 +123,31 @@ impl<D: Copy> Integrator<D> {
         after: f64,
         t: f64,
     ) -> Result<Option<f64>, IntegrationError> {
-        let happened = |state: &SolverState<D>| state.crossings > 0 && state.front().t > after;
-        self.march(system, t, &happened)?;
-        let state = self.state();
-        Ok(Some(state.front().t).filter(|&event| happened(state) && event <= t))
+        self.march(system, t, Some(after))?;
+        Ok(Some(self.state().front().t).filter(|&event| self.has_crossed(after) && event <= t))
     }
 
     /// Starts anew from the state `y` at `t`, with the step that it had.
     pub fn place(&mut self, system: &dyn System<Discrete = D>, t: f64, y: &[f64], discrete: D) {
         let SolverState { step, mut statistics, .. } = *self.state();
         statistics.evaluations += 1;
-        self.stepper.method.begin(system);
+        self.stepper.with_method(|method| method.begin(system));
         let mut state = state_of_start(system, t, y, discrete);
         (state.step, state.statistics) = (step, statistics);
         self.stepper.set_state(system, state);
     }
 
-    /// Steps until `t` lies within the last step, or `done` is so.
-    fn march(
-        &mut self,
-        system: &dyn System<Discrete = D>,
-        t: f64,
-        done: &dyn Fn(&SolverState<D>) -> bool,
-    ) -> Result<(), IntegrationError> {
+    /// The last step has ended with an event after `after`.
+    fn has_crossed(&self, after: f64) -> bool {
+        self.state().crossings > 0 && self.state().front().t > after
+    }
+
+    /// Steps until `t` lies within the last step, or until a step has ended with an event after `after`.
+    fn march(&mut self, system: &dyn System<Discrete = D>, t: f64, after: Option<f64>) -> Result<(), IntegrationError> {
         let mut standing = 0;
         let before = self.state().statistics.evaluations;
         let most = self.stepper.settings.effort.over(t - self.state().front().t);
-        while self.state().front().t < t && !done(self.state()) {
+        while self.state().front().t < t && !after.is_some_and(|after| self.has_crossed(after)) {
             let front = self.state().front().t;
             let evaluations = self.state().statistics.evaluations - before;
             if evaluations > most {
@@ -177,12 +175,12 @@ impl<D: Copy> Integrator<D> {
         let foreseen = step_acceptance::foreseen_discontinuity(stepper, system);
         let earlier_kind = stepper.method.kind();
         stepper.state.begin_step();
-        stepper.method.set_kind(stepper.method.next_kind());
+        stepper.set_kind(stepper.method.next_kind());
         let h = match step_acceptance::accepted(stepper, system, foreseen) {
             Ok(h) => h,
             Err(error) => {
                 stepper.state.give_up_step();
-                stepper.method.set_kind(earlier_kind);
+                stepper.set_kind(earlier_kind);
                 stepper.method.forget();
                 return Err(error);
             }
@@ -200,7 +198,7 @@ impl<D: Copy> Integrator<D> {
             return Ok(());
         }
         // A state beyond a dead end is not one, not even between two communication points.
-        if !stepper.method.properties().locates && !(0..system.event_count()).any(|event| system.is_dead_end(event)) {
+        if !stepper.properties.locates && !(0..system.event_count()).any(|event| system.is_dead_end(event)) {
             event_location::notice(stepper, system);
             return Ok(());
         }
@@ -217,14 +215,13 @@ impl<D: Copy> Integrator<D> {
 
     /// Takes back the last step, of `h` from where the event functions were `events`: this `component` was lost in it.
     fn take_back(&mut self, events: EventFunctions, h: f64, component: usize) -> Result<(), IntegrationError> {
-        let Stepper { state, method, events: at_front, .. } = &mut self.stepper;
+        let Stepper { state, method, properties, events: at_front, .. } = &mut self.stepper;
         state.take_back();
         state.statistics.steps -= 1;
         state.statistics.events -= state.crossings;
         state.crossings = 0;
         method.forget();
         *at_front = events;
-        let properties = method.properties();
         if properties.adaptive {
             // Nothing had estimated the error of what was lost: a shorter step may end before that.
             state.statistics.rejected += 1;

@@ -48,10 +48,10 @@ pub fn accepted<D: Copy>(
     let time = stepper.state.start().t;
     // Forces that are gone may have left a step that no longer moves time.
     let least = time.next_up() - time;
-    let adaptive = stepper.method.properties().adaptive;
+    let adaptive = stepper.properties.adaptive;
     let first = if adaptive { stepper.state.step.max(least) } else { stepper.settings.fixed_step };
     let own = stepper.method.kind();
-    let others = stepper.method.others();
+    let others = stepper.properties.others;
     let failures = if others.is_empty() { usize::MAX } else { TOO_MANY };
     let mut shortest = match fitted(stepper, system, first, foreseen, failures) {
         Ok(h) => return Ok(h),
@@ -60,10 +60,10 @@ pub fn accepted<D: Copy>(
     let in_turn = others.iter().map(|other| (*other, first, TOO_MANY));
     let to_the_end = std::iter::once(&own).chain(others).map(|kind| (*kind, 0.0, usize::MAX));
     for (kind, wanted, failures) in in_turn.chain(to_the_end.filter(|_| !others.is_empty())) {
-        stepper.method.set_kind(kind);
+        stepper.set_kind(kind);
         match fitted(stepper, system, wanted.max(shortest), None, failures) {
             Ok(h) => {
-                stepper.method.hand_over();
+                stepper.with_method(|method| method.hand_over());
                 return Ok(h);
             }
             Err(reached) => shortest = shortest.min(reached),
@@ -89,7 +89,7 @@ fn fitted<D: Copy>(
     let time = start.t;
     let least = time.next_up() - time;
     let of_impact = if time < start.impact_end { IMPACT_SHARE } else { 1.0 };
-    let tolerance = of_impact * stepper.method.properties().error_share * stepper.settings.tolerance;
+    let tolerance = of_impact * stepper.properties.error_share * stepper.settings.tolerance;
     let (mut first, mut cuts, mut cut) = (None, 0, false);
     let creeping = stepper.state.cuts >= CREEPING;
     let mut failed = None;
@@ -104,7 +104,7 @@ fn fitted<D: Copy>(
             break;
         }
         stepper.attempt(system, h);
-        let (full, predicts) = (stepper.method.properties().error_power, stepper.method.properties().predicts);
+        let (full, predicts) = (stepper.properties.error_power, stepper.properties.predicts);
         let error = judged(stepper, system, h, tolerance);
         let state = &mut stepper.state;
         if error <= 1.0 {
@@ -156,11 +156,13 @@ fn judged<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, 
         return f64::INFINITY;
     }
     let start = stepper.state.start();
-    let (t, properties) = (start.t + h, stepper.method.properties());
-    let error = control::norm(&stepper.attempt, &start.y, system, properties, tolerance);
+    let t = start.t + h;
+    let weighed = stepper.extent.weighed;
+    let error =
+        control::norm(&stepper.attempt, &start.y, &system.scales()[..weighed], stepper.properties.coarse, tolerance);
     if error <= 1.0 {
         stepper.look_at_end_if_due(system, t);
-        if stepper.method.properties().adaptive && lost_state(&stepper.state.attempt().rates).is_some() {
+        if stepper.properties.adaptive && lost_state(&stepper.state.attempt().rates).is_some() {
             return f64::INFINITY;
         }
     }

@@ -1,7 +1,7 @@
 //! Error norm and step-size control.
 
 use super::error::IntegrationError;
-use super::method::{Attempt, Properties};
+use super::method::Attempt;
 use super::state::StepPoint;
 use super::system::System;
 use crate::math;
@@ -61,30 +61,30 @@ const UNSEEN: f64 = 1e3;
 /// A state cannot be asked to be more accurate than a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Root mean square of the error over the tolerance; at most 1 for a step to be accepted.
-pub fn norm<D: Copy>(
-    attempt: &Attempt,
-    y: &[f64],
-    system: &dyn System<Discrete = D>,
-    properties: &Properties,
-    tolerance: f64,
-) -> f64 {
-    let n = system.extent().weighed;
-    let (scales, y) = (&system.scales()[..n], &y[..n]);
-    let weight = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
-    let square = |error: &[f64]| {
-        let error = &error[..n];
-        (0..n).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / n.max(1) as f64
-    };
-    if attempt.unseen[..n].iter().enumerate().any(|(i, unseen)| *unseen > UNSEEN * weight(i)) {
+/// Root mean square of the error of a step from `y` over the tolerance, of the states that have a scale; at most 1 for a
+/// step to be accepted. There may be a coarse estimate, too.
+pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], coarse: bool, tolerance: f64) -> f64 {
+    let n = scales.len().max(1) as f64;
+    let weight = |scale: &f64, y: &f64| tolerance * scale + ROUNDINGS * y.abs();
+    let (mut fine, mut missed) = (0.0, false);
+    for (((scale, y), error), unseen) in scales.iter().zip(y).zip(&attempt.error).zip(&attempt.unseen) {
+        let weight = weight(scale, y);
+        missed |= *unseen > UNSEEN * weight;
+        fine += (error / weight).powi(2);
+    }
+    if missed {
         return f64::INFINITY;
     }
-    let fine = square(&attempt.error);
-    if !properties.coarse {
+    let fine = fine / n;
+    if !coarse {
         return fine.sqrt();
     }
     // DOP853: the coarse estimate keeps the fine one from vanishing by chance.
-    let sum = fine + 0.01 * square(&attempt.coarse_error);
+    let mut of_coarse = 0.0;
+    for ((scale, y), error) in scales.iter().zip(y).zip(&attempt.coarse_error) {
+        of_coarse += (error / weight(scale, y)).powi(2);
+    }
+    let sum = fine + 0.01 * (of_coarse / n);
     if sum == 0.0 { 0.0 } else { fine / sum.sqrt() }
 }
 

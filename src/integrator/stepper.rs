@@ -1,15 +1,18 @@
 //! The last step and what is done with it: attempted, looked at, committed, looked into.
 
 use super::dense_output::Correction;
-use super::method::{Attempt, Method};
+use super::method::{Attempt, Method, MethodKind, Properties};
 use super::state::{SolverState, StepPoint, lost_state};
 use super::step_control::Settings;
-use super::system::{EventFunctions, System};
+use super::system::{EventFunctions, Extent, System};
 
 /// A method, its last step, and its attempt at the next.
 pub struct Stepper<D> {
     pub(super) settings: Settings,
     pub(super) method: Box<dyn Method<D>>,
+    /// Of the method, and of its present kind.
+    pub(super) properties: Properties,
+    pub(super) extent: Extent,
     pub(super) state: SolverState<D>,
     /// The event functions at the front.
     pub(super) events: EventFunctions,
@@ -30,7 +33,9 @@ impl<D: Copy> Stepper<D> {
         let n = state.front().y.len();
         let (attempt, correction) = (Attempt::new(n), Correction::new(n));
         let events = attempt.events;
-        let mut stepper = Self { settings, method, state, events, attempt, correction, inside: vec![0.0; n] };
+        let (properties, extent) = (*method.properties(), system.extent());
+        let mut stepper =
+            Self { settings, method, properties, extent, state, events, attempt, correction, inside: vec![0.0; n] };
         stepper.find_events(system);
         stepper
     }
@@ -40,6 +45,20 @@ impl<D: Copy> Stepper<D> {
         self.state = state;
         self.correction.forget();
         self.find_events(system);
+    }
+
+    /// Does something to the method, and finds out what it is like now.
+    pub(super) fn with_method<R>(&mut self, work: impl FnOnce(&mut dyn Method<D>) -> R) -> R {
+        let done = work(&mut *self.method);
+        self.properties = *self.method.properties();
+        done
+    }
+
+    /// Makes attempts in this way, if there is a choice.
+    pub(super) fn set_kind(&mut self, kind: MethodKind) {
+        if kind != self.method.kind() {
+            self.with_method(|method| method.set_kind(kind));
+        }
     }
 
     fn find_events(&mut self, system: &dyn System<Discrete = D>) {
@@ -67,7 +86,7 @@ impl<D: Copy> Stepper<D> {
 
     /// An attempt has given rates and event functions at its end.
     pub(super) fn gives_end(&self) -> bool {
-        self.method.properties().gives_end
+        self.properties.gives_end
     }
 
     /// Takes rates and event functions at the end of the attempt, at `t`.
@@ -94,7 +113,7 @@ impl<D: Copy> Stepper<D> {
 
     /// Predicts the next attempt from the last one, which ends at `t`, if the method predicts any.
     pub(super) fn predict_from_attempt(&mut self, t: f64) {
-        if self.method.properties().predicts {
+        if self.properties.predicts {
             self.method.remember(self.state.start(), t);
         }
     }
@@ -133,7 +152,7 @@ impl<D: Copy> Stepper<D> {
 
     /// Attempts a step to `t` within the last one where the method asks for it, and tells whether it leads somewhere.
     fn is_attempted_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> bool {
-        if self.method.properties().interpolates || t <= self.state.start().t {
+        if self.properties.interpolates || t <= self.state.start().t {
             return false;
         }
         let (start, end) = self.state.ends();
@@ -143,7 +162,7 @@ impl<D: Copy> Stepper<D> {
 
     /// Writes the state at `t` within the last step as it is interpolated.
     fn interpolate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
-        let step = self.state.last_step(system.extent());
+        let step = self.state.last_step(self.extent);
         self.correction.find(&step, system, &self.state.start().discrete, self.settings.tolerance);
         step.state((t - step.t) / step.h, self.correction.coefficients(), &mut self.inside);
     }

@@ -221,7 +221,7 @@ impl Motion for Run {
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
         let state = record::load(self.plant.as_mut(), time, reader)?;
         self.integrator.set_state(self.plant.as_ref(), state);
-        self.integrator.method_mut().load(reader)
+        self.integrator.load_method(reader)
     }
 }
 

@@ -35,12 +35,17 @@ impl Automatic {
     pub fn new(states: usize) -> Self {
         let block = Cong8::new(states);
         let (explicit, implicit) = (Explicit::new(&VERNER7, states), Rosenbrock::new(&RODAS4, states));
-        let named = |properties: &Properties| Properties { name: "automatic", ..*properties };
+        let with = |properties: &Properties, others: &'static [MethodKind]| Properties {
+            name: "automatic",
+            others,
+            ..*properties
+        };
+        let implicit_properties = with(implicit.properties(), &[MethodKind::Explicit, MethodKind::Block]);
         let properties = [
-            named(Method::<()>::properties(&block)),
-            named(explicit.properties()),
+            with(Method::<()>::properties(&block), &[MethodKind::Explicit, MethodKind::Implicit]),
+            with(explicit.properties(), &[MethodKind::Implicit, MethodKind::Block]),
             // The errors of steps in stiff motion fade.
-            Properties { error_share: 1.0, ..named(implicit.properties()) },
+            Properties { error_share: 1.0, ..implicit_properties },
         ];
         let switch = StiffnessSwitch::LOOSE;
         Self { kind: switch.kind, switch, block, explicit, implicit, properties }
@@ -115,14 +120,6 @@ impl<D: Copy> Method<D> for Automatic {
 
     fn next_kind(&self) -> MethodKind {
         self.switch.kind
-    }
-
-    fn others(&self) -> &'static [MethodKind] {
-        match self.kind {
-            MethodKind::Block => &[MethodKind::Explicit, MethodKind::Implicit],
-            MethodKind::Explicit => &[MethodKind::Implicit, MethodKind::Block],
-            MethodKind::Implicit => &[MethodKind::Explicit, MethodKind::Block],
-        }
     }
 
     fn hand_over(&mut self) {

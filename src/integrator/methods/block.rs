@@ -38,6 +38,7 @@ const PROPERTIES: Properties = Properties {
     gives_end: true,
     predicts: true,
     error_share: ERROR_SHARE,
+    others: &[],
 };
 /// Rounds after the prediction, where there is a step to predict from, and where there is none.
 const ROUNDS: usize = 3;

@@ -1,6 +1,6 @@
 //! The stages of one step: k_i = f(t + c_i·h, y + h·Σ a_ij·k_j).
 //!
-//! One loop serves all tableaux and any number of states: sums are taken over four states together.
+//! One loop serves all tableaux and any number of states: sums are taken over four or eight states together.
 
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, Properties};
 use crate::integrator::state::StepPoint;
@@ -9,15 +9,16 @@ use crate::integrator::tableau::{MAX_STAGES, Tableau};
 use crate::math::Fused;
 use wide::f64x4;
 
-/// How many states are summed together.
+/// How many states are summed together, at least and at most: less of the loop over stages for each.
 const FOUR: usize = 4;
+const EIGHT: usize = 2 * FOUR;
 
 /// An explicit Runge-Kutta method.
 #[derive(Clone, Debug)]
 pub struct Explicit {
     tableau: &'static Tableau,
     properties: Properties,
-    /// Rates at the stages, one stage after the other, and room to read four at a time.
+    /// Rates at the stages, one stage after the other, and room to read several at a time.
     k: Vec<f64>,
     /// First stage after the first of all that an error estimate weighs.
     weighed: usize,
@@ -40,8 +41,9 @@ impl Explicit {
             gives_end: tableau.first_same_as_last,
             predicts: false,
             error_share: ERROR_SHARE,
+            others: &[],
         };
-        let k = vec![0.0; tableau.stages * states + FOUR];
+        let k = vec![0.0; tableau.stages * states + EIGHT];
         Self { tableau, properties, k, weighed, shares: tableau.c.map(|node| node / tableau.c[weighed]) }
     }
 
@@ -126,22 +128,38 @@ fn times_plus(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
 #[inline(always)]
 fn write_sums(sums: &mut [f64], y: impl Fn(usize) -> f64, h: f64, weights: &[f64], k: &[f64]) {
     let (n, last) = (sums.len(), weights.len() - 1);
-    let weight_of_last = h * weights[last];
-    for (at, sums) in sums.chunks_mut(FOUR).enumerate() {
-        let at = FOUR * at;
-        let mut slope = f64x4::ZERO;
-        for (j, weight) in weights[..last].iter().enumerate() {
-            if *weight != 0.0 {
-                slope = times_plus(f64x4::splat(*weight), four(&k[j * n + at..]), slope);
-            }
-        }
-        let changes = (f64x4::splat(h) * slope).to_array();
-        for (i, (sum, change)) in sums.iter_mut().zip(changes).enumerate() {
+    let (weights, weight_of_last) = (&weights[..last], weights[last]);
+    let mut add = |at: usize, changes: &[f64]| {
+        for (i, (sum, change)) in sums[at..].iter_mut().zip(changes).enumerate() {
             let i = at + i;
-            let change = if weights[last] == 0.0 { change } else { weight_of_last.times_plus(k[last * n + i], change) };
+            let change =
+                if weight_of_last == 0.0 { *change } else { (h * weight_of_last).times_plus(k[last * n + i], *change) };
             *sum = y(i) + change;
         }
+    };
+    let mut at = 0;
+    while at + FOUR < n {
+        add(at, slopes::<2>(weights, &k[at..], n).map(|slope| (f64x4::splat(h) * slope).to_array()).as_flattened());
+        at += EIGHT;
     }
+    if at < n {
+        add(at, slopes::<1>(weights, &k[at..], n).map(|slope| (f64x4::splat(h) * slope).to_array()).as_flattened());
+    }
+}
+
+/// Σ weight_j·k_j of so many fours of states, whose rates at one stage are `n` places from those at the next.
+#[inline(always)]
+fn slopes<const FOURS: usize>(weights: &[f64], k: &[f64], n: usize) -> [f64x4; FOURS] {
+    let mut slopes = [f64x4::ZERO; FOURS];
+    for (j, weight) in weights.iter().enumerate() {
+        if *weight != 0.0 {
+            let (rates, _) = k[j * n..][..FOUR * FOURS].as_chunks::<FOUR>();
+            for (slope, rates) in slopes.iter_mut().zip(rates) {
+                *slope = times_plus(f64x4::splat(*weight), f64x4::new(*rates), *slope);
+            }
+        }
+    }
+    slopes
 }
 
 /// What no error estimate sees. A force that sets in early throws the stages after it out of its reach if the step is

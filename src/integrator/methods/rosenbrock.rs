@@ -62,6 +62,7 @@ impl Rosenbrock {
             gives_end: false,
             predicts: false,
             error_share: ERROR_SHARE,
+            others: &[],
         };
         let (jacobian, factors) = (Jacobian::new(states), Factors::with_capacity(states));
         Self { coefficients, properties, jacobian, factors, stages: vec![0.0; STAGES * states] }
