@@ -9,38 +9,134 @@
 //! First-order states follow the cubic through value and rate at both ends, always corrected to degree
 //! five by their rates at the same quarters: z(s) = cubic(s) + (s·(1 − s))²·(e0 + e1·x).
 
-use super::problem::{Extent, Problem};
+use super::system::{Extent, Ode};
 
 /// A quintic's error this many times a step's tolerance goes unseen.
 const SLACK: f64 = 30.0;
 
 /// An accepted step from `t` over `h`: the states and rates at its ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Step<'a, const N: usize> {
+pub struct Step<'a> {
     /// [s] Where it starts.
     pub t: f64,
     /// [s] How long it is.
     pub h: f64,
     /// State at its start.
-    pub y0: &'a [f64; N],
+    pub y0: &'a [f64],
     /// Rates at its start.
-    pub f0: &'a [f64; N],
+    pub f0: &'a [f64],
     /// State at its end.
-    pub y1: &'a [f64; N],
+    pub y1: &'a [f64],
     /// Rates at its end.
-    pub f1: &'a [f64; N],
+    pub f1: &'a [f64],
     /// How many states there are.
     pub extent: Extent,
 }
 
-/// Corrections e0, e1, e2 of each position and first-order state; `None` where none is needed.
-pub type Correction<const N: usize> = Option<[[f64; 3]; N]>;
+/// What is added to the curves through the ends of a step where they are not accurate enough.
+#[derive(Clone, Debug)]
+pub struct Correction {
+    /// e0, e1, e2 of each position and first-order state.
+    coefficients: Vec<[f64; 3]>,
+    kind: Kind,
+    /// Half-way, and after a quarter and three quarters of the step.
+    defects: [Vec<f64>; 3],
+    y: Vec<f64>,
+    rates: Vec<f64>,
+}
 
-impl<const N: usize> Step<'_, N> {
-    /// The state at the share `s` of the step, 0 to 1.
-    pub fn state(&self, s: f64, correction: &Correction<N>) -> [f64; N] {
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Unknown,
+    NotNeeded,
+    Needed,
+}
+
+impl Correction {
+    /// Of no step yet, for so many states.
+    pub fn new(states: usize) -> Self {
+        let zeros = || vec![0.0; states];
+        Self {
+            coefficients: vec![[0.0; 3]; states],
+            kind: Kind::Unknown,
+            defects: [zeros(), zeros(), zeros()],
+            y: zeros(),
+            rates: zeros(),
+        }
+    }
+
+    /// Forgets it: there is another step.
+    #[inline]
+    pub fn forget(&mut self) {
+        self.kind = Kind::Unknown;
+    }
+
+    /// e0, e1, e2 of each position and first-order state; `None` where no correction is needed.
+    pub fn coefficients(&self) -> Option<&[[f64; 3]]> {
+        (self.kind == Kind::Needed).then_some(&self.coefficients[..])
+    }
+
+    /// Looks at the acceleration half-way through the `step` and, where the quintic misses it by too much for the
+    /// tolerance, makes the correction; once for a step.
+    pub fn find<S: Ode + ?Sized>(&mut self, step: &Step<'_>, system: &S, discrete: &S::Discrete, tolerance: f64) {
+        if self.kind == Kind::Unknown {
+            self.kind = if self.is_made(step, system, discrete, tolerance) { Kind::Needed } else { Kind::NotNeeded };
+        }
+    }
+
+    fn is_made<S: Ode + ?Sized>(
+        &mut self,
+        step: &Step<'_>,
+        system: &S,
+        discrete: &S::Discrete,
+        tolerance: f64,
+    ) -> bool {
+        let Self { coefficients: e, defects: [half, before, after], y, rates, .. } = self;
+        let Extent { positions: p, states, .. } = step.extent;
+        let mut miss = |s: f64, e: Option<&[[f64; 3]]>, defect: &mut [f64]| {
+            step.state(s, e, y);
+            system.rates(discrete, step.t + s * step.h, y, rates);
+            step.write_defect(s, rates, defect);
+        };
+        miss(0.5, None, half);
+        let scales = system.scales();
+        // Largest error of a quintic with this defect half-way: position d/24, velocity d/(10·h).
+        let good = (0..p).all(|i| {
+            let d = half[i].abs();
+            d / 24.0 <= SLACK * tolerance * scales[i] && d / (10.0 * step.h) <= SLACK * tolerance * scales[p + i]
+        });
+        if good && states == 2 * p {
+            return false;
+        }
+        let bent = if good { 0 } else { p };
+        e.fill([0.0; 3]);
+        for i in 0..bent {
+            e[i][0] = -8.0 / 3.0 * half[i];
+        }
+        for i in 2 * p..states {
+            e[i][1] = 16.0 * half[i];
+        }
+        miss(0.25, Some(e), before);
+        miss(0.75, Some(e), after);
+        for i in 0..bent {
+            let even = 0.5 * (after[i] + before[i]);
+            let odd = 0.5 * (after[i] - before[i]);
+            e[i][0] = -(32.0 * half[i] + 256.0 / 9.0 * even) / 10.0;
+            e[i][1] = -512.0 / 45.0 * odd;
+            e[i][2] = 2.0 * e[i][0] - 256.0 / 9.0 * even;
+        }
+        for i in 2 * p..states {
+            e[i][0] = 8.0 / 3.0 * (before[i] - after[i]);
+        }
+        // Where a step without an error estimate has gone astray, a correction may not be finite.
+        e.iter().flatten().all(|e| e.is_finite())
+    }
+}
+
+impl Step<'_> {
+    /// Writes the state at the share `s` of the step, 0 to 1, with the coefficients of a [`Correction`].
+    pub fn state(&self, s: f64, correction: Option<&[[f64; 3]]>, y: &mut [f64]) {
         let Extent { positions: p, states, .. } = self.extent;
-        let mut y = [0.0; N];
         for i in 0..p {
             let (q, v, _) = self.quintic(i, s);
             y[i] = q;
@@ -62,7 +158,6 @@ impl<const N: usize> Step<'_, N> {
                 y[p + i] += b * b * (b * slope - 6.0 * x * c) / self.h;
             }
         }
-        y
     }
 
     /// Position, velocity and h²·acceleration of the quintic.
@@ -95,57 +190,9 @@ impl<const N: usize> Step<'_, N> {
         (z0 + s * (r0 + s * (c2 + s * c3)), r0 + s * (2.0 * c2 + s * 3.0 * c3))
     }
 
-    /// Looks at the acceleration half-way and, where the quintic misses it by too much for the
-    /// tolerance, makes the correction.
-    pub fn correction<P: Problem<N> + ?Sized>(&self, problem: &P, modes: &P::Modes, tolerance: f64) -> Correction<N> {
-        let Extent { positions: p, states, .. } = self.extent;
-        let half = self.defect(problem, modes, 0.5, &None);
-        let scales = problem.scales();
-        // Largest error of a quintic with this defect half-way: position d/24, velocity d/(10·h).
-        let good = (0..p).all(|i| {
-            let d = half[i].abs();
-            d / 24.0 <= SLACK * tolerance * scales[i] && d / (10.0 * self.h) <= SLACK * tolerance * scales[p + i]
-        });
-        if good && states == 2 * p {
-            return None;
-        }
-        let bent = if good { 0 } else { p };
-        let mut e = [[0.0; 3]; N];
-        for i in 0..bent {
-            e[i][0] = -8.0 / 3.0 * half[i];
-        }
-        for i in 2 * p..states {
-            e[i][1] = 16.0 * half[i];
-        }
-        let sextic = Some(e);
-        let before = self.defect(problem, modes, 0.25, &sextic);
-        let after = self.defect(problem, modes, 0.75, &sextic);
-        for i in 0..bent {
-            let even = 0.5 * (after[i] + before[i]);
-            let odd = 0.5 * (after[i] - before[i]);
-            e[i][0] = -(32.0 * half[i] + 256.0 / 9.0 * even) / 10.0;
-            e[i][1] = -512.0 / 45.0 * odd;
-            e[i][2] = 2.0 * e[i][0] - 256.0 / 9.0 * even;
-        }
-        for i in 2 * p..states {
-            e[i][0] = 8.0 / 3.0 * (before[i] - after[i]);
-        }
-        // Where a step without an error estimate has gone astray, a correction may be no number.
-        e.iter().flatten().all(|e| e.is_finite()).then_some(e)
-    }
-
     /// h²·(acceleration of the system − acceleration of the quintic) at the share `s`, and h·(rate − rate
-    /// of the cubic) of first-order states; the system's are taken at the corrected state.
-    fn defect<P: Problem<N> + ?Sized>(
-        &self,
-        problem: &P,
-        modes: &P::Modes,
-        s: f64,
-        correction: &Correction<N>,
-    ) -> [f64; N] {
-        let mut rates = [0.0; N];
-        problem.rates(modes, self.t + s * self.h, &self.state(s, correction), &mut rates);
-        let mut defect = [0.0; N];
+    /// of the cubic) of first-order states; the system's are those of the corrected state.
+    fn write_defect(&self, s: f64, rates: &[f64], defect: &mut [f64]) {
         let Extent { positions: p, states, .. } = self.extent;
         for i in 0..p {
             defect[i] = self.h * self.h * rates[p + i] - self.quintic(i, s).2;
@@ -153,6 +200,5 @@ impl<const N: usize> Step<'_, N> {
         for i in 2 * p..states {
             defect[i] = self.h * rates[i] - self.cubic(i, s).1;
         }
-        defect
     }
 }

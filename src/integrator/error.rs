@@ -1,6 +1,6 @@
 //! Why the integrator cannot go on.
 
-use super::problem::Guard;
+use super::system::EventFunction;
 use std::fmt;
 
 /// The time reached, and the cause. The state at that time is intact.
@@ -26,14 +26,14 @@ pub enum IntegrationError {
     EventsAccumulate {
         /// [s] Time reached.
         time: f64,
-        /// The guard that is lowest.
+        /// The event function that is lowest.
         guard: usize,
     },
     /// The motion has come to where its equations have no meaning.
     DeadEnd {
         /// [s] Time reached.
         time: f64,
-        /// The guard that fell.
+        /// The event function that fell.
         guard: usize,
     },
     /// One advance takes more evaluations of the rates than it may.
@@ -53,10 +53,10 @@ pub enum IntegrationError {
 }
 
 impl IntegrationError {
-    /// Events without end at `time`: the guard that is lowest stands for them.
-    pub(super) fn events_accumulate(time: f64, guards: &[Guard]) -> Self {
-        let lowest = |i: &usize, j: &usize| guards[*i].value.total_cmp(&guards[*j].value);
-        Self::EventsAccumulate { time, guard: (0..guards.len()).min_by(lowest).unwrap_or_default() }
+    /// Events without end at `time`: the event function that is lowest stands for all.
+    pub(super) fn events_accumulate(time: f64, functions: &[EventFunction]) -> Self {
+        let lowest = |i: &usize, j: &usize| functions[*i].value.total_cmp(&functions[*j].value);
+        Self::EventsAccumulate { time, guard: (0..functions.len()).min_by(lowest).unwrap_or_default() }
     }
 
     /// [s] Time reached.

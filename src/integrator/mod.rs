@@ -1,47 +1,257 @@
-//! Marches a hybrid system through time and knows no mechanism, only [`Problem`].
+//! Marches a hybrid system through time and knows no mechanism, only [`System`].
 //!
-//! A hybrid system has a continuous state, which follows its rates, and discrete modes, which hold
-//! during a step and change only at events. [`Integrator::advance`] attempts a step, judges its
+//! A hybrid system has a continuous state, which follows its rates, and a discrete state, which holds
+//! during a step and changes only at events. [`Integrator::advance`] attempts a step, judges its
 //! error, locates the first event in it, lands on that event and commits. Steps never look at
 //! communication points: [`Integrator::state_at`] interpolates back into the last step, so that the
 //! sequence of steps is the same however a host cuts up time.
+//!
+//! States are slices, methods are values behind [`Method`]: all of this is compiled once. Nothing is allocated once an
+//! integrator has started.
 
-pub mod block;
 pub mod complementarity;
-mod controller;
 pub mod dense_output;
+mod derivative_discontinuity;
 mod error;
-mod event;
-mod kink;
-mod landing;
-mod length;
-mod linear;
-mod memory;
-mod method;
+mod event_location;
+pub mod method;
 pub mod methods;
-mod moreau;
-mod nodes;
-mod problem;
-mod regime;
-mod rewind;
 pub mod root;
-pub mod rosenbrock;
-pub mod stages;
+mod snapshot;
+mod state;
 mod statistics;
-mod step;
-mod switching;
+mod step_acceptance;
+mod step_control;
+mod stepper;
+pub mod system;
 mod tableau;
+mod truncate;
 mod unilateral;
 
-pub use block::Past;
-pub use controller::{Effort, Settings};
 pub use error::IntegrationError;
-pub use memory::{Front, Memory};
-pub use method::{Character, Method, Room};
-pub use moreau::Moreau;
-pub use problem::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, by_halves, one_by_one};
-pub use regime::{Manner, Regime};
+pub use method::{Method, MethodKind, Properties};
+pub use methods::moreau::Moreau;
+pub use snapshot::{Reader, Snapshot};
+pub use state::{SolverState, StepPoint};
 pub use statistics::Statistics;
-pub use step::Integrator;
-pub use tableau::{Explicit, STAGES, Tableau};
+pub use step_control::{Effort, Settings};
+pub use system::{
+    Discontinuities, EventFunction, EventFunctions, Events, Extent, Jacobian, Linearizable, MAX_EVENTS, MAX_STATES,
+    Ode, Reset, SeveralInstants, System, Triggered,
+};
+pub use tableau::{MAX_STAGES, Tableau};
 pub use unilateral::{ContactLaw, Impulses, Relative, Unilateral};
+
+use state::lost_state;
+use stepper::Stepper;
+
+/// A one-step integrator with event location.
+pub struct Integrator<D> {
+    stepper: Stepper<D>,
+}
+
+impl<D: Copy> Integrator<D> {
+    /// Starts from the state `y` at `t`.
+    pub fn start(
+        system: &dyn System<Discrete = D>,
+        mut method: Box<dyn Method<D>>,
+        settings: Settings,
+        t: f64,
+        y: &[f64],
+        discrete: D,
+    ) -> Self {
+        method.begin(system);
+        Self { stepper: Stepper::new(system, method, settings, state_of_start(system, t, y, discrete)) }
+    }
+
+    /// Goes on from a saved state, by a method that remembers what it did then.
+    pub fn resume(
+        system: &dyn System<Discrete = D>,
+        method: Box<dyn Method<D>>,
+        settings: Settings,
+        state: SolverState<D>,
+    ) -> Self {
+        Self { stepper: Stepper::new(system, method, settings, state) }
+    }
+
+    /// All that is needed to go on, beside what the method remembers.
+    pub fn state(&self) -> &SolverState<D> {
+        &self.stepper.state
+    }
+
+    /// The method, with what it remembers.
+    pub fn method(&self) -> &dyn Method<D> {
+        &*self.stepper.method
+    }
+
+    /// Takes back what the method remembered when it was saved.
+    pub fn load_method(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        self.stepper.with_method(|method| method.load(reader))
+    }
+
+    /// Goes on from another state.
+    pub fn set_state(&mut self, system: &dyn System<Discrete = D>, state: SolverState<D>) {
+        self.stepper.set_state(system, state);
+    }
+
+    /// Steps until `t` lies within the last step.
+    ///
+    /// # Errors
+    /// See [`IntegrationError`]; the state at the error's time is intact.
+    pub fn advance(&mut self, system: &dyn System<Discrete = D>, t: f64) -> Result<(), IntegrationError> {
+        // Most communication points lie within the last step.
+        let Stepper { settings, properties, state, .. } = &self.stepper;
+        if t <= state.front().t {
+            return Ok(());
+        }
+        let longest = system.longest_step();
+        let longest = if properties.adaptive { longest } else { settings.fixed_step.min(longest) };
+        settings.effort.check(state.front().t, t, longest)?;
+        self.march(system, t, None)
+    }
+
+    /// Steps until `t` lies within the last step, or until a step has ended with an event after `after`, and tells
+    /// when that was.
+    ///
+    /// # Errors
+    /// As [`Integrator::advance`].
+    pub fn advance_to_event(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        after: f64,
+        t: f64,
+    ) -> Result<Option<f64>, IntegrationError> {
+        self.march(system, t, Some(after))?;
+        Ok(Some(self.state().front().t).filter(|&event| self.has_crossed(after) && event <= t))
+    }
+
+    /// Starts anew from the state `y` at `t`, with the step that it had.
+    pub fn place(&mut self, system: &dyn System<Discrete = D>, t: f64, y: &[f64], discrete: D) {
+        let SolverState { step, mut statistics, .. } = *self.state();
+        statistics.evaluations += 1;
+        self.stepper.with_method(|method| method.begin(system));
+        let mut state = state_of_start(system, t, y, discrete);
+        (state.step, state.statistics) = (step, statistics);
+        self.stepper.set_state(system, state);
+    }
+
+    /// The last step has ended with an event after `after`.
+    fn has_crossed(&self, after: f64) -> bool {
+        self.state().crossings > 0 && self.state().front().t > after
+    }
+
+    /// Steps until `t` lies within the last step, or until a step has ended with an event after `after`.
+    fn march(&mut self, system: &dyn System<Discrete = D>, t: f64, after: Option<f64>) -> Result<(), IntegrationError> {
+        let mut standing = 0;
+        let before = self.state().statistics.evaluations;
+        let most = self.stepper.settings.effort.over(t - self.state().front().t);
+        while self.state().front().t < t && !after.is_some_and(|after| self.has_crossed(after)) {
+            let front = self.state().front().t;
+            let evaluations = self.state().statistics.evaluations - before;
+            if evaluations > most {
+                return Err(IntegrationError::TooMuchWork { time: front, evaluations });
+            }
+            event_location::settle(&mut self.stepper, system)?;
+            self.step(system)?;
+            standing = if self.state().front().t > front { 0 } else { standing + 1 };
+            if standing == event_location::STANDSTILL {
+                let events = &self.stepper.events[..system.event_count()];
+                return Err(IntegrationError::events_accumulate(front, events));
+            }
+        }
+        Ok(())
+    }
+
+    /// One accepted step, up to the first event in it.
+    fn step(&mut self, system: &dyn System<Discrete = D>) -> Result<(), IntegrationError> {
+        let stepper = &mut self.stepper;
+        let StepPoint { t, rates, .. } = stepper.state.front();
+        if let Some(component) = lost_state(rates) {
+            return Err(IntegrationError::NotFinite { time: *t, component });
+        }
+        // Attempt and judge.
+        let foreseen = step_acceptance::foreseen_discontinuity(stepper, system);
+        let earlier_kind = stepper.method.kind();
+        stepper.state.begin_step();
+        stepper.set_kind(stepper.method.next_kind());
+        let h = match step_acceptance::accepted(stepper, system, foreseen) {
+            Ok(h) => h,
+            Err(error) => {
+                stepper.state.give_up_step();
+                stepper.set_kind(earlier_kind);
+                stepper.method.forget();
+                return Err(error);
+            }
+        };
+        // Commit.
+        let before = stepper.events;
+        stepper.commit(stepper.state.start().t + h);
+        if let Some(component) = lost_state(&stepper.state.end().rates) {
+            return self.take_back(before, h, component);
+        }
+        let advice = stepper.method.accepted(system, stepper.state.start(), stepper.state.end());
+        stepper.state.step = stepper.state.step.min(advice.longest_step);
+        stepper.state.statistics.evaluations += advice.evaluations;
+        if system.event_count() == 0 {
+            return Ok(());
+        }
+        // A state beyond a dead end is not one, not even between two communication points.
+        if !stepper.properties.locates && !(0..system.event_count()).any(|event| system.is_dead_end(event)) {
+            event_location::notice(stepper, system);
+            return Ok(());
+        }
+        // Locate, and commit anew.
+        if let Some((share, event)) = event_location::first(stepper, system, &before) {
+            event_location::land(stepper, system, h, share, event);
+            // The shorter step up to the event was not judged.
+            if let Some(component) = lost_state(&stepper.state.front().y) {
+                return self.take_back(before, h, component);
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes back the last step, of `h` from where the event functions were `events`: this `component` was lost in it.
+    fn take_back(&mut self, events: EventFunctions, h: f64, component: usize) -> Result<(), IntegrationError> {
+        let Stepper { state, method, properties, events: at_front, .. } = &mut self.stepper;
+        state.take_back();
+        state.statistics.steps -= 1;
+        state.statistics.events -= state.crossings;
+        state.crossings = 0;
+        method.forget();
+        *at_front = events;
+        if properties.adaptive {
+            // Nothing had estimated the error of what was lost: a shorter step may end before that.
+            state.statistics.rejected += 1;
+            state.step = step_control::shrinkage(f64::INFINITY, properties.error_power) * h;
+            return Ok(());
+        }
+        // Without an error estimate a step may have led anywhere.
+        Err(IntegrationError::NotFinite { time: state.start().t, component })
+    }
+
+    /// State and discrete state at `t` in the last step.
+    pub fn state_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> (&[f64], D) {
+        self.stepper.state_at(system, t)
+    }
+
+    /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
+    /// step of its own. To be called with the system that made the step.
+    pub fn truncate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+        truncate::truncate(&mut self.stepper, system, t);
+    }
+
+    /// To be called when the system has changed at the front: rates and event functions are computed anew.
+    pub fn refresh(&mut self, system: &dyn System<Discrete = D>) {
+        self.stepper.refresh(system);
+    }
+}
+
+/// What is remembered at the start of a motion.
+fn state_of_start<D: Copy>(system: &dyn System<Discrete = D>, t: f64, y: &[f64], discrete: D) -> SolverState<D> {
+    let mut point = StepPoint::new(t, y, discrete);
+    system.rates(&discrete, t, y, &mut point.rates);
+    let mut state = SolverState::new(&point, step_control::first_step(system, &point));
+    state.statistics.evaluations = 1;
+    state
+}

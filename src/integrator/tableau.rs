@@ -1,81 +1,40 @@
 //! Butcher tableaux, as printed in their sources and summed up by the compiler.
 
-use super::block::Past;
-use super::memory::Front;
-use super::method::{Character, Method};
-use super::problem::Problem;
-use super::regime::Manner;
-use super::stages::Attempt;
-
 /// Most stages that a method may have.
-pub const STAGES: usize = 12;
+pub const MAX_STAGES: usize = 12;
 
 /// Coefficients of an explicit Runge-Kutta method with up to two error estimates.
 #[derive(Clone, Copy, Debug)]
 pub struct Tableau {
+    /// Name in the `solver.method` enumeration.
+    pub name: &'static str,
     /// Number of stages.
     pub stages: usize,
     /// Order of the solution that is carried on.
     pub order: u32,
     /// Stage coefficients, strictly lower triangular.
-    pub a: [[f64; STAGES]; STAGES],
+    pub a: [[f64; MAX_STAGES]; MAX_STAGES],
     /// Weights of the solution.
-    pub b: [f64; STAGES],
+    pub b: [f64; MAX_STAGES],
     /// Nodes.
-    pub c: [f64; STAGES],
+    pub c: [f64; MAX_STAGES],
     /// Weights of the error estimate: the solution's minus those of the embedded one. All zero for
     /// a method without one.
-    pub error: [f64; STAGES],
+    pub error: [f64; MAX_STAGES],
     /// Weights of a second, lower-order estimate, where the method has one.
-    pub coarse_error: Option<[f64; STAGES]>,
+    pub coarse_error: Option<[f64; MAX_STAGES]>,
     /// The power of the step with which the error estimate falls.
     pub error_power: f64,
     /// The last stage is at the step's end: its weights are those of the solution, its rates the next step's first.
     pub first_same_as_last: bool,
-}
-
-/// An explicit Runge-Kutta method.
-pub trait Explicit: Send + Sync + 'static {
-    /// Name in the `solver.method` enumeration.
-    const NAME: &'static str;
-    /// Its coefficients.
-    const TABLEAU: Tableau;
-    /// Events are located and landed on.
-    const LOCATES: bool = true;
-}
-
-impl<E: Explicit> Method for E {
-    const NAME: &'static str = E::NAME;
-    const ORDER: u32 = E::TABLEAU.order;
-    const ADAPTIVE: bool = E::TABLEAU.first_weighed_stage() != 0;
-    const COARSE: bool = E::TABLEAU.coarse_error.is_some();
-    const LOCATES: bool = E::LOCATES;
-    const CHARACTER: Character = Character {
-        error_power: E::TABLEAU.error_power,
-        interpolates: true,
-        gives_end: E::TABLEAU.first_same_as_last,
-        predicts: false,
-    };
-    type Room<const N: usize> = ();
-
-    fn attempt<const N: usize, P: Problem<N> + ?Sized>(
-        made: &mut Attempt<N>,
-        (): &mut (),
-        problem: &P,
-        start: &Front<N, P::Modes>,
-        _past: &Past<N>,
-        h: f64,
-        _manner: Manner,
-    ) -> u64 {
-        made.explicitly::<E, P>(problem, start, h);
-        E::TABLEAU.stages as u64 - 1
-    }
+    /// Events are located and landed on; otherwise they are noticed at the end of a step.
+    pub locates: bool,
 }
 
 impl Tableau {
     /// Rows of different lengths as one square array.
-    pub const fn rows(rows: &[&[f64]]) -> [[f64; STAGES]; STAGES] {
-        let mut a = [[0.0; STAGES]; STAGES];
+    pub const fn rows(rows: &[&[f64]]) -> [[f64; MAX_STAGES]; MAX_STAGES] {
+        let mut a = [[0.0; MAX_STAGES]; MAX_STAGES];
         let mut i = 0;
         while i < rows.len() {
             a[i] = Self::row(rows[i]);
@@ -85,8 +44,8 @@ impl Tableau {
     }
 
     /// One row, filled up with zeros.
-    pub const fn row(row: &[f64]) -> [f64; STAGES] {
-        let mut full = [0.0; STAGES];
+    pub const fn row(row: &[f64]) -> [f64; MAX_STAGES] {
+        let mut full = [0.0; MAX_STAGES];
         let mut j = 0;
         while j < row.len() {
             full[j] = row[j];
@@ -96,7 +55,7 @@ impl Tableau {
     }
 
     /// The difference of two rows of weights.
-    pub const fn difference(weights: &[f64], embedded: &[f64]) -> [f64; STAGES] {
+    pub const fn difference(weights: &[f64], embedded: &[f64]) -> [f64; MAX_STAGES] {
         let mut full = Self::row(weights);
         let mut j = 0;
         while j < embedded.len() {
@@ -141,10 +100,10 @@ impl Tableau {
     }
 }
 
-const fn sum(row: &[f64; STAGES]) -> f64 {
+const fn sum(row: &[f64; MAX_STAGES]) -> f64 {
     let mut total = 0.0;
     let mut j = 0;
-    while j < STAGES {
+    while j < MAX_STAGES {
         total += row[j];
         j += 1;
     }

@@ -1,7 +1,10 @@
 //! What time stepping asks of a system whose contacts are rigid.
 
 use super::complementarity::{MOST_CONTACTS, NORMAL, Pairs};
-use super::problem::Problem;
+use super::system::System;
+
+/// Most states of a system with rigid contacts.
+pub const MOST_STATES: usize = 20;
 
 /// Restitution and friction of a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,33 +27,33 @@ pub struct Relative {
 /// A system of second order with unilateral contacts. Whatever is not asked for here stays as the defaults have it:
 /// no contact at all.
 ///
-/// The default of `Modes` are those in which no contact exerts a force: [`Problem::rates`] is then the motion
-/// without contacts.
-pub trait Unilateral<const N: usize>: Problem<N> {
+/// In the default of the discrete state no contact exerts a force: [`rates`](super::Ode::rates) are then those of the
+/// motion without contacts.
+pub trait Unilateral: System {
     /// Of every contact.
     fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
         [ContactLaw::default(); MOST_CONTACTS]
     }
 
     /// Gaps and relative velocities in the state `y`. Velocities are affine in the rates of `y`.
-    fn contacts(&self, _t: f64, _y: &[f64; N]) -> Relative {
+    fn contacts(&self, _t: f64, _y: &[f64]) -> Relative {
         Relative { gap: [f64::INFINITY; MOST_CONTACTS], velocity: Pairs::default() }
     }
 
-    /// By how much the rates of every state change under a unit impulse in one part of one contact, M⁻¹·W: positions
-    /// do not, velocities do.
-    fn response(&self, _t: f64, _y: &[f64; N], _contact: usize, _part: usize) -> [f64; N] {
-        [0.0; N]
+    /// Writes by how much the rates of every state change under a unit impulse in one part of one contact, M⁻¹·W:
+    /// positions do not, velocities do.
+    fn response(&self, _t: f64, _y: &[f64], _contact: usize, _part: usize, response: &mut [f64]) {
+        response.fill(0.0);
     }
 }
 
 /// What the contacts did in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impulses<const N: usize> {
+pub struct Impulses {
     /// [s] Middle of the step, where they act.
     pub t: f64,
-    /// State there.
-    pub y: [f64; N],
+    /// State there, and zeros.
+    pub y: [f64; MOST_STATES],
     /// [N] Impulses over the length of the step.
     pub forces: Pairs,
     /// Which contacts were closed in the step that led to the present state. It is the step of `forces` but for an
@@ -58,14 +61,21 @@ pub struct Impulses<const N: usize> {
     pub closed: [bool; MOST_CONTACTS],
 }
 
-impl<const N: usize> Impulses<N> {
+impl Impulses {
     /// Before the first step.
-    pub fn none(t: f64, y: [f64; N]) -> Self {
-        Self { t, y, forces: Pairs::default(), closed: [false; MOST_CONTACTS] }
+    pub fn none(t: f64, y: &[f64]) -> Self {
+        Self { t, y: padded(y), forces: Pairs::default(), closed: [false; MOST_CONTACTS] }
     }
 
     /// The contact exerts a force.
     pub fn acts(&self, contact: usize) -> bool {
         self.forces[contact][NORMAL] > 0.0
     }
+}
+
+/// A state in an array with room, behind which there are zeros.
+pub fn padded(y: &[f64]) -> [f64; MOST_STATES] {
+    let mut array = [0.0; MOST_STATES];
+    array[..y.len()].copy_from_slice(y);
+    array
 }

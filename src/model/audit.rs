@@ -21,7 +21,10 @@ use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, Reset, Unilateral};
+use crate::integrator::{
+    Discontinuities, EventFunctions, Events, Extent, Jacobian, Linearizable, MAX_STATES, Ode, Reset, SeveralInstants,
+    Triggered, Unilateral,
+};
 use crate::math::Real;
 use crate::scene::Scene;
 
@@ -31,8 +34,10 @@ pub const STATES: usize = 7;
 const NORMAL_WORK: usize = 2;
 
 /// A mechanism whose energy is reckoned up.
-pub struct Audited<const N: usize> {
-    plant: Box<dyn Plant<N>>,
+pub struct Audited {
+    plant: Box<dyn Plant>,
+    /// Of its own states 0: the error norm does not weigh them.
+    scales: Vec<f64>,
     topology: Topology,
     bodies: Bodies,
     gravity: f64,
@@ -61,12 +66,16 @@ impl Viscous {
     }
 }
 
-impl<const N: usize> Audited<N> {
+impl Audited {
     /// `plant` of a scene, which must have room for the audit.
-    pub fn new(scene: &Scene, plant: Box<dyn Plant<N>>) -> Self {
+    pub fn new(scene: &Scene, plant: Box<dyn Plant>) -> Self {
         let joint = &scene.joint;
+        let states = plant.extent().states;
+        let mut scales = vec![0.0; states + STATES];
+        scales[..states].copy_from_slice(&plant.scales()[..states]);
         Self {
             plant,
+            scales,
             topology: Topology::of(scene),
             bodies: bodies(scene),
             gravity: scene.gravity,
@@ -135,81 +144,91 @@ impl<const N: usize> Audited<N> {
     }
 }
 
-impl<const N: usize> Problem<N> for Audited<N> {
-    type Modes = Contacts;
+impl Ode for Audited {
+    type Discrete = Contacts;
 
     fn extent(&self) -> Extent {
         let Extent { positions, weighed, states } = self.plant.extent();
         Extent { positions, weighed, states: states + STATES }
     }
 
-    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        let instant = self.plant.rates_and_instant(contacts, t, y, rates);
-        let account = self.plant.account(contacts, &instant.pose, y);
-        rates[self.first()..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
-    }
-
-    /// As without the audit, whose steps these are.
-    fn suits_blocks(&self) -> bool {
-        self.plant.suits_blocks()
-    }
-
-    /// The audit's own rows are exact, too; its columns are 0.
-    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
+    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         let first = self.first();
-        differentiate(first + STATES, first, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
+        let instant = self.plant.rates_and_instant(contacts, t, &y[..first], &mut rates[..first]);
+        let account = self.plant.account(contacts, &instant.pose, &y[..first]);
+        rates[first..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
     }
 
-    fn scales(&self) -> &[f64; N] {
-        self.plant.scales()
+    fn scales(&self) -> &[f64] {
+        &self.scales
     }
 
     fn longest_step(&self) -> f64 {
         self.plant.longest_step()
     }
+}
 
-    fn guard_count(&self) -> usize {
-        self.plant.guard_count()
-    }
-
-    fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        self.plant.guards(contacts, t, y, guards);
-    }
-
-    fn is_dead_end(&self, guard: usize) -> bool {
-        self.plant.is_dead_end(guard)
-    }
-
-    fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
-        self.plant.kinks(contacts, t, y, kinks);
-    }
-
-    fn guard_scale(&self) -> f64 {
-        self.plant.guard_scale()
-    }
-
-    fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
-        self.plant.cross(contacts, t, y, crossed)
+impl SeveralInstants for Audited {
+    /// As without the audit, whose steps these are.
+    fn suits_blocks(&self) -> bool {
+        self.plant.suits_blocks()
     }
 }
 
-impl<const N: usize> Unilateral<N> for Audited<N> {}
-
-impl<const N: usize> Plant<N> for Audited<N> {
-    fn start(&self, pose: &StartPose) -> [f64; N] {
-        let mut y = self.plant.start(pose);
-        let t = self.plant.start_time();
-        let contacts = self.plant.start_contacts(t, &y);
-        let instant = self.plant.instant(&contacts, t, &y);
-        let stored = self.stored(&instant, &self.plant.account(&contacts, &instant.pose, &y));
+impl Linearizable for Audited {
+    /// The audit's own rows are exact, too; its columns are 0.
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let first = self.first();
-        y[first + NORMAL_WORK] = stored.contact;
-        y[first + STATES - 1] = stored.kinetic + stored.potential;
-        y
+        differentiate::<MAX_STATES>(first + STATES, first, t, y, jacobian, &|t, y, rates| {
+            self.tangent_rates(contacts, t, y, rates);
+        });
+    }
+}
+
+impl Events for Audited {
+    fn event_count(&self) -> usize {
+        self.plant.event_count()
     }
 
-    fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
-        self.plant.start_contacts(t, y)
+    fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
+        self.plant.event_functions(contacts, t, &y[..self.first()], functions);
+    }
+
+    fn is_dead_end(&self, event: usize) -> bool {
+        self.plant.is_dead_end(event)
+    }
+
+    fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
+        self.plant.discontinuities(contacts, t, &y[..self.first()], functions);
+    }
+
+    fn event_scale(&self) -> f64 {
+        self.plant.event_scale()
+    }
+
+    fn reset(&self, contacts: &Contacts, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Contacts> {
+        let first = self.first();
+        self.plant.reset(contacts, t, &mut y[..first], triggered)
+    }
+}
+
+impl Unilateral for Audited {}
+
+impl Plant for Audited {
+    fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
+        let first = self.first();
+        let (own, sums) = y.split_at_mut(first);
+        self.plant.write_start(pose, own);
+        let t = self.plant.start_time();
+        let contacts = self.plant.start_contacts(t, own);
+        let instant = self.plant.instant(&contacts, t, own);
+        let stored = self.stored(&instant, &self.plant.account(&contacts, &instant.pose, own));
+        sums[NORMAL_WORK] = stored.contact;
+        sums[STATES - 1] = stored.kinetic + stored.potential;
+    }
+
+    fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts {
+        self.plant.start_contacts(t, &y[..self.first()])
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
@@ -228,35 +247,31 @@ impl<const N: usize> Plant<N> for Audited<N> {
         self.plant.set_start_time(time);
     }
 
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        self.plant.instant(contacts, t, y)
+    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant {
+        self.plant.instant(contacts, t, &y[..self.first()])
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
         self.plant.penetration(pose)
     }
 
-    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
-        self.plant.account(contacts, pose, y)
+    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> Account {
+        self.plant.account(contacts, pose, &y[..self.first()])
     }
 
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
-        self.plant.tangent_rates(contacts, t, y, rates);
-        let (instant, account) = self.plant.tangent_instant(contacts, t, y);
-        rates[self.first()..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+        let first = self.first();
+        self.plant.tangent_rates(contacts, t, &y[..first], &mut rates[..first]);
+        let (instant, account) = self.plant.tangent_instant(contacts, t, &y[..first]);
+        rates[first..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
     }
 
-    fn tangent_instant(
-        &self,
-        contacts: &Contacts,
-        t: Tangent,
-        y: &[Tangent; N],
-    ) -> (Instant<Tangent>, Account<Tangent>) {
-        self.plant.tangent_instant(contacts, t, y)
+    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
+        self.plant.tangent_instant(contacts, t, &y[..self.first()])
     }
 
-    fn energies(&self, contacts: &Contacts, instant: &Instant, y: &[f64; N]) -> EnergyOutputs {
-        let account = self.plant.account(contacts, &instant.pose, y);
+    fn energies(&self, contacts: &Contacts, instant: &Instant, y: &[f64]) -> EnergyOutputs {
+        let account = self.plant.account(contacts, &instant.pose, &y[..self.first()]);
         let stored = self.stored(instant, &account);
         let first = self.first();
         let mut sums = [0.0; STATES];

@@ -13,7 +13,7 @@ use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
 use super::structure::{CRANK, JointSet, Pin, ROD, SLIDER};
 use super::unilateral;
-use crate::integrator::{ContactLaw, Crossed, GUARDS, Guard, Kinks, Reset};
+use crate::integrator::{ContactLaw, Discontinuities, EventFunctions, MAX_EVENTS, Reset, Triggered};
 use crate::scene::Scene;
 
 /// The joints of a scene as contacts.
@@ -171,7 +171,7 @@ impl Clearances {
 
     /// Writes the event functions.
     #[inline(always)]
-    pub fn guards(&self, play: JointSet, contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
+    pub fn guards(&self, play: JointSet, contacts: &Contacts, pose: &Pose, guards: &mut EventFunctions) {
         let mut place = 0;
         self.add_guard(Pin::MainBearing, play, contacts, pose, guards, &mut place);
         self.add_guard(Pin::CrankPin, play, contacts, pose, guards, &mut place);
@@ -188,7 +188,7 @@ impl Clearances {
         play: JointSet,
         contacts: &Contacts,
         pose: &Pose,
-        guards: &mut [Guard; GUARDS],
+        guards: &mut EventFunctions,
         place: &mut usize,
     ) {
         if play.contains(pin) {
@@ -198,7 +198,7 @@ impl Clearances {
     }
 
     /// Adds the kinks of the closed contacts' forces.
-    pub fn kinks(&self, play: JointSet, contacts: &Contacts, pose: &Pose, kinks: &mut Kinks) {
+    pub fn kinks(&self, play: JointSet, contacts: &Contacts, pose: &Pose, kinks: &mut Discontinuities) {
         for pin in play.pins() {
             let mode = &contacts[pin as usize];
             if mode.closed {
@@ -217,13 +217,13 @@ impl Clearances {
         play: JointSet,
         contacts: &Contacts,
         pose: &Pose,
-        crossed: &Crossed,
+        crossed: &Triggered,
         bristles: &mut [f64],
     ) -> Reset<Contacts> {
         let penetrations = self.penetrations(play, pose);
-        let mut reset = Reset { modes: *contacts, impact: None };
+        let mut reset = Reset { discrete: *contacts, impact: None };
         let crossed = self.guide.contacts_of(&by_contact(play, crossed));
-        for (index, mode) in reset.modes.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
+        for (index, mode) in reset.discrete.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if mode.closed {
                 *mode = ContactMode::default();
                 for (deflection, _) in bristles.iter_mut().zip(&self.bristles).filter(|(_, c)| **c == index) {
@@ -266,8 +266,8 @@ impl Clearances {
 }
 
 /// The same with a place for every contact, whether its joint has clearance or not.
-fn by_contact(play: JointSet, crossed: &Crossed) -> Crossed {
-    let mut all = [false; GUARDS];
+fn by_contact(play: JointSet, crossed: &Triggered) -> Triggered {
+    let mut all = [false; MAX_EVENTS];
     let mut next = 0;
     for pin in play.pins() {
         all[pin as usize] = crossed[next];

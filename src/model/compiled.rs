@@ -8,32 +8,32 @@
 //! loop over them is compiled with the equations in it.
 
 use super::mechanism::Mechanism;
+use super::stages::in_registers;
 use super::state::Contacts;
 use super::structure::{Structure, Topology};
-use crate::integrator::stages::in_registers;
-use crate::integrator::{GUARDS, Guard, STAGES, Tableau};
+use crate::integrator::{EventFunctions, Tableau};
 use crate::math::Row;
 
 /// Writes the rates of eight states at their times.
 type RatesOfEight = fn(&Mechanism, &Contacts, Row, &[Row], &mut [Row]);
 /// Writes the rates of a state, and the event functions.
-type Ends = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
-/// See [`Problem::stages`](crate::integrator::Problem::stages).
-type Stages<const N: usize> = fn(&Mechanism, &Tableau, &Contacts, f64, &[f64; N], f64, &mut [[f64; N]; STAGES]);
+type Ends = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64], &mut EventFunctions);
+/// See [`Ode::stages`](crate::integrator::Ode::stages).
+type Stages = fn(&Mechanism, &Tableau, &Contacts, f64, &[f64], f64, &mut [f64]) -> bool;
 
 /// What steps are made of, compiled for one structure or for all.
 #[derive(Clone, Copy, Debug)]
-pub struct Compiled<const N: usize> {
+pub struct Compiled {
     /// Rates of eight states.
     pub rates_of_eight: RatesOfEight,
     /// Rates and event functions of one.
     pub ends: Ends,
     /// Rates at the stages of a step.
-    pub stages: Stages<N>,
+    pub stages: Stages,
 }
 
 /// The code for a structure.
-pub fn compiled<const N: usize>(structure: &Structure) -> Compiled<N> {
+pub fn compiled(structure: &Structure) -> Compiled {
     /// That of these ideal joints (main bearing, crank pin, slider pin) beside an ideal guide, and of the prescribed speed.
     macro_rules! own {
         ($(($a:literal $b:literal $c:literal $speed:literal))*) => {
@@ -49,22 +49,16 @@ pub fn compiled<const N: usize>(structure: &Structure) -> Compiled<N> {
                             mechanism.rates_and_guards(&OWN, contacts, t, y, rates, guards);
                         },
                         stages: |mechanism, tableau, contacts, t, y, h, k| {
-                            if const { N == 2 * OWN.positions } {
-                                in_registers(tableau, t, y, h, k, |t, y, rates| {
-                                    mechanism.rates(&OWN, contacts, t, y, rates);
-                                });
-                            }
+                            in_registers::<{ 2 * OWN.positions }>(tableau, t, y, h, k, |t, y, rates| {
+                                mechanism.rates(&OWN, contacts, t, y, rates);
+                            })
                         },
                     }
                 })*
                 _ => Compiled {
                     rates_of_eight: Mechanism::rates_of_eight,
                     ends: Mechanism::ends,
-                    stages: |mechanism, tableau, contacts, t, y, h, k| {
-                        in_registers(tableau, t, y, h, k, |t, y, rates| {
-                            mechanism.rates_of_one(contacts, t, y, rates);
-                        });
-                    },
+                    stages: |_, _, _, _, _, _, _| false,
                 },
             }
         };

@@ -1,7 +1,7 @@
 //! The ideal slider-crank: rod and slider as functions of the crank's angle.
 
 use super::plane::Rotation;
-use crate::integrator::Guard;
+use crate::integrator::EventFunction;
 use crate::math::Real;
 use crate::scene::Scene;
 
@@ -50,10 +50,10 @@ impl IdealMechanism {
 
     /// The event at which the rod, then `rod` [m] long and growing at `rate` [m/s], stands across the guide: cos²φ and
     /// its rate, which are smooth there.
-    pub fn change_point(&self, crank: Rotation, speed: f64, rod: f64, rate: f64) -> Guard {
+    pub fn change_point(&self, crank: Rotation, speed: f64, rod: f64, rate: f64) -> EventFunction {
         let sin = (self.height - crank.sin * self.crank) / rod;
         let sin_rate = -(crank.cos * self.crank * speed + sin * rate) / rod;
-        Guard { value: (1.0 - sin) * (1.0 + sin) - LEAST_COSINE * LEAST_COSINE, rate: -2.0 * sin * sin_rate }
+        EventFunction { value: (1.0 - sin) * (1.0 + sin) - LEAST_COSINE * LEAST_COSINE, rate: -2.0 * sin * sin_rate }
     }
 
     /// [unit of that event's value] What is just noticeable in it.

@@ -5,34 +5,36 @@ use crate::integrator::Jacobian;
 use crate::math::Real;
 
 /// Rates of a state at a time, all with derivatives.
-pub type Rates<'a, const N: usize> = dyn Fn(Tangent, &[Tangent; N], &mut [Tangent; N]) + 'a;
+pub type Rates<'a> = dyn Fn(Tangent, &[Tangent], &mut [Tangent]) + 'a;
 
 /// Evaluates `rates` with derivatives along the first `moving` states and time, and writes those of
-/// the first `states` rates at `t` and `y`. Nothing depends on the other states.
+/// the first `states` rates at `t` and `y`, with arrays of `N`. Nothing depends on the other states.
 pub fn differentiate<const N: usize>(
     states: usize,
     moving: usize,
     t: f64,
-    y: &[f64; N],
-    jacobian: &mut Jacobian<N>,
-    rates: &Rates<'_, N>,
+    y: &[f64],
+    jacobian: &mut Jacobian,
+    rates: &Rates<'_>,
 ) {
-    for row in jacobian.state.iter_mut().take(states) {
-        row[moving..states].fill(0.0);
+    for i in 0..states {
+        jacobian.row_mut(i)[moving..states].fill(0.0);
     }
-    let mut found = [Tangent::ZERO; N];
+    let (mut at, mut found) = ([Tangent::ZERO; N], [Tangent::ZERO; N]);
     for first in (0..=moving).step_by(DIRECTIONS) {
         let seed = |value: f64, column: usize| match column.checked_sub(first) {
             Some(direction) if direction < DIRECTIONS => Tangent::variable(value, direction),
             _ => Tangent::constant(value),
         };
         // Time is the column after those of the states.
-        let y = std::array::from_fn(|k| if k < moving { seed(y[k], k) } else { Tangent::constant(y[k]) });
-        rates(seed(t, moving), &y, &mut found);
+        for (k, (at, y)) in at.iter_mut().zip(y).enumerate() {
+            *at = if k < moving { seed(*y, k) } else { Tangent::constant(*y) };
+        }
+        rates(seed(t, moving), &at[..states], &mut found[..states]);
         for (i, Tangent { slope, .. }) in found.iter().enumerate().take(states) {
             for (column, slope) in (first..=moving).zip(slope) {
                 if column < moving {
-                    jacobian.state[i][column] = *slope;
+                    jacobian.row_mut(i)[column] = *slope;
                 } else {
                     jacobian.time[i] = *slope;
                 }

@@ -17,7 +17,7 @@ use super::scalar::{Scalar, Tangent};
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning, turning_at};
 use super::structure::{CRANK, Link, ROD, Structure, Topology};
-use crate::integrator::{GUARDS, Guard};
+use crate::integrator::EventFunctions;
 use crate::math::{self, Row, each};
 use crate::scene::Scene;
 
@@ -89,7 +89,7 @@ impl Mechanism {
         t: f64,
         y: &[f64],
         rates: &mut [f64],
-        guards: &mut [Guard; GUARDS],
+        guards: &mut EventFunctions,
     ) {
         let stance = self.stance(of, t, y);
         let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
@@ -191,7 +191,7 @@ impl Mechanism {
 
     /// Writes the event functions at this pose.
     #[inline(always)]
-    fn guards_at(&self, of: &Structure, contacts: &Contacts, pose: &Pose, guards: &mut [Guard; GUARDS]) {
+    fn guards_at(&self, of: &Structure, contacts: &Contacts, pose: &Pose, guards: &mut EventFunctions) {
         if of.closed {
             if self.ideal.has_change_point() {
                 let Turning { rotation, speed, .. } = &pose.turning;
@@ -257,7 +257,7 @@ impl Mechanism {
 
     /// [`Mechanism::rates_and_guards`].
     #[inline(never)]
-    pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut [Guard; GUARDS]) {
+    pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut EventFunctions) {
         self.rates_and_guards(&self.structure, contacts, t, y, rates, guards);
     }
 
@@ -271,7 +271,7 @@ impl Mechanism {
     }
 
     /// Writes the event functions.
-    pub fn guards(&self, contacts: &Contacts, t: f64, y: &[f64], guards: &mut [Guard; GUARDS]) {
+    pub fn guards(&self, contacts: &Contacts, t: f64, y: &[f64], guards: &mut EventFunctions) {
         self.guards_at(&self.structure, contacts, &self.pose(t, y), guards);
     }
 

@@ -30,6 +30,7 @@ pub mod rod;
 pub mod scalar;
 pub mod scales;
 pub mod signals;
+pub mod stages;
 pub mod start;
 pub mod state;
 pub mod structure;

@@ -9,13 +9,17 @@ use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
 use crate::integrator::{Impulses, Unilateral};
 
+/// From this `N` on, the arrays of a mechanism are room for states and its extent tells how many there are; a smaller `N`
+/// is their exact number, known to the compiler.
+pub const ROOM: usize = 32;
+
 /// A mechanism in minimal coordinates.
-pub trait Plant<const N: usize>: Unilateral<N, Modes = Contacts> + Send {
-    /// The state of a start pose.
-    fn start(&self, pose: &StartPose) -> [f64; N];
+pub trait Plant: Unilateral<Discrete = Contacts> + Send {
+    /// Writes the state of a start pose in place of zeros.
+    fn write_start(&self, pose: &StartPose, y: &mut [f64]);
 
     /// The contacts of a state that no motion has led to: those that penetrate are closed.
-    fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts;
+    fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts;
 
     /// Inputs from a communication point on.
     fn set_signal(&mut self, signal: InputSignal);
@@ -30,21 +34,21 @@ pub trait Plant<const N: usize>: Unilateral<N, Modes = Contacts> + Send {
     fn set_start_time(&mut self, time: f64);
 
     /// Everything about one instant.
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant;
+    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant;
 
     /// The rates of a state and everything about that instant, at the cost of about one of them.
-    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
+    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
         self.rates(contacts, t, y, rates);
         self.instant(contacts, t, y)
     }
 
     /// Everything about one instant of a motion with rigid contacts, whose forces are those of `impulses`.
-    fn instant_under(&self, _: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
+    fn instant_under(&self, _: &Impulses, t: f64, y: &[f64]) -> Instant {
         self.instant(&Contacts::default(), t, y)
     }
 
     /// The rates of that instant.
-    fn rates_under(&self, _: &Impulses<N>, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+    fn rates_under(&self, _: &Impulses, t: f64, y: &[f64], rates: &mut [f64]) {
         self.rates(&Contacts::default(), t, y, rates);
     }
 
@@ -52,23 +56,18 @@ pub trait Plant<const N: usize>: Unilateral<N, Modes = Contacts> + Send {
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];
 
     /// Elastic energy of the closed contacts, and the powers that they take.
-    fn account(&self, _: &Contacts, _: &Pose, _: &[f64; N]) -> Account {
+    fn account(&self, _: &Contacts, _: &Pose, _: &[f64]) -> Account {
         Account::default()
     }
 
-    /// [`Problem::rates`] with derivatives.
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]);
+    /// The rates with derivatives.
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);
 
     /// [`Plant::instant`] and [`Plant::account`] with derivatives.
-    fn tangent_instant(
-        &self,
-        contacts: &Contacts,
-        t: Tangent,
-        y: &[Tangent; N],
-    ) -> (Instant<Tangent>, Account<Tangent>);
+    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>);
 
     /// Energies, works and losses; 0 without an audit.
-    fn energies(&self, _: &Contacts, _: &Instant, _: &[f64; N]) -> EnergyOutputs {
+    fn energies(&self, _: &Contacts, _: &Instant, _: &[f64]) -> EnergyOutputs {
         EnergyOutputs::default()
     }
 }

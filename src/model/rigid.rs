@@ -8,7 +8,7 @@ use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
 use super::joint::guide::CORNERS;
 use super::mechanism::Mechanism;
-use super::plant::Plant;
+use super::plant::{Plant, ROOM};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
@@ -16,33 +16,33 @@ use super::state::{Contacts, Instant, Pose};
 use super::unilateral::Acting;
 use crate::integrator::complementarity::MOST_CONTACTS;
 use crate::integrator::{
-    ContactLaw, Crossed, Extent, GUARDS, Guard, Impulses, Jacobian, Kinks, Problem, ROOM, Relative, Reset, STAGES,
-    Tableau, Unilateral,
+    ContactLaw, Discontinuities, EventFunctions, Events, Extent, Impulses, Jacobian, Linearizable, Ode, Relative, Reset,
+    SeveralInstants, Tableau, Triggered, Unilateral,
 };
 use crate::math::{Real, Row};
 use crate::scene::Scene;
 
-/// A mechanism in arrays of exactly `N` states, or with room for `N`.
+/// A mechanism, and the code that its steps are made of.
 #[derive(Clone, Debug)]
-pub struct Rigid<const N: usize> {
-    /// Without regard to its arrays.
+pub struct Rigid {
+    /// The mechanism.
     pub mechanism: Mechanism,
-    compiled: Compiled<N>,
+    compiled: Compiled,
     suits_blocks: bool,
-    scales: [f64; N],
+    scales: Vec<f64>,
     longest_step: f64,
-    guard_scale: f64,
+    event_scale: f64,
 }
 
-impl<const N: usize> Rigid<N> {
+impl Rigid {
     /// Assembles the mechanism of a scene that starts at `time` [s].
     pub fn assemble(scene: &Scene, time: f64) -> Self {
         let mechanism = Mechanism::assemble(scene, time);
         let (structure, states) = (mechanism.structure, mechanism.states());
-        assert!(states == N || (N >= ROOM && states <= N), "room for every state, or exactly as many");
+        assert!(states <= ROOM, "room for every state");
         let scale = Scale::of(scene);
         let p = structure.positions;
-        let mut scales = [0.0; N];
+        let mut scales = vec![0.0; states];
         let (positions, rates) = scales[..2 * p].split_at_mut(p);
         positions.fill(scale.length);
         if !structure.closed {
@@ -59,42 +59,25 @@ impl<const N: usize> Rigid<N> {
             suits_blocks: structure.topology.has_one_play_in_a_pin() && states == 2 * p,
             scales,
             longest_step: scale.longest_step,
-            guard_scale: if structure.closed { IdealMechanism::CHANGE_POINT_SCALE } else { scale.length },
+            event_scale: if structure.closed { IdealMechanism::CHANGE_POINT_SCALE } else { scale.length },
             mechanism,
         }
     }
 }
 
-impl<const N: usize> Problem<N> for Rigid<N> {
-    type Modes = Contacts;
+impl Ode for Rigid {
+    type Discrete = Contacts;
 
     fn extent(&self) -> Extent {
-        let states = self.mechanism.states();
+        let states = self.scales.len();
         Extent { positions: self.mechanism.structure.positions, weighed: states, states }
     }
 
-    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         self.mechanism.rates_of_one(contacts, t, y, rates);
     }
 
-    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
-        (self.compiled.rates_of_eight)(&self.mechanism, contacts, *t, y, rates);
-    }
-
-    fn suits_blocks(&self) -> bool {
-        self.suits_blocks
-    }
-
-    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
-        (self.compiled.stages)(&self.mechanism, tableau, contacts, t, y, h, k);
-    }
-
-    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
-        let states = self.mechanism.states();
-        differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
-    }
-
-    fn scales(&self) -> &[f64; N] {
+    fn scales(&self) -> &[f64] {
         &self.scales
     }
 
@@ -102,78 +85,100 @@ impl<const N: usize> Problem<N> for Rigid<N> {
         self.longest_step
     }
 
-    fn guard_count(&self) -> usize {
+    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
+        // With bristles, there are more states than the compiled loops have places for.
+        let second_order = self.scales.len() == 2 * self.mechanism.structure.positions;
+        second_order && (self.compiled.stages)(&self.mechanism, tableau, contacts, t, y, h, k)
+    }
+}
+
+impl SeveralInstants for Rigid {
+    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row], rates: &mut [Row]) {
+        (self.compiled.rates_of_eight)(&self.mechanism, contacts, *t, y, rates);
+    }
+
+    fn suits_blocks(&self) -> bool {
+        self.suits_blocks
+    }
+}
+
+impl Linearizable for Rigid {
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
+        let states = self.scales.len();
+        differentiate::<ROOM>(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
+    }
+}
+
+impl Events for Rigid {
+    fn event_count(&self) -> usize {
         self.mechanism.guard_count()
     }
 
-    fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
-        self.mechanism.guards(contacts, t, y, guards);
+    fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
+        self.mechanism.guards(contacts, t, y, functions);
     }
 
-    fn rates_and_guards(
+    fn rates_and_event_functions(
         &self,
         contacts: &Contacts,
         t: f64,
-        y: &[f64; N],
-        rates: &mut [f64; N],
-        guards: &mut [Guard; GUARDS],
+        y: &[f64],
+        rates: &mut [f64],
+        functions: &mut EventFunctions,
     ) {
-        (self.compiled.ends)(&self.mechanism, contacts, t, y, rates, guards);
+        (self.compiled.ends)(&self.mechanism, contacts, t, y, rates, functions);
     }
 
-    fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
+    fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
         let Mechanism { structure, clearances, .. } = &self.mechanism;
-        clearances.kinks(structure.play, contacts, &self.mechanism.pose(t, y), kinks);
+        clearances.kinks(structure.play, contacts, &self.mechanism.pose(t, y), functions);
     }
 
     fn is_dead_end(&self, _: usize) -> bool {
         self.mechanism.structure.closed
     }
 
-    fn guard_scale(&self) -> f64 {
-        self.guard_scale
+    fn event_scale(&self) -> f64 {
+        self.event_scale
     }
 
-    fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
+    fn reset(&self, contacts: &Contacts, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Contacts> {
         let Mechanism { structure, clearances, .. } = &self.mechanism;
         if structure.closed {
-            return Reset { modes: *contacts, impact: None };
+            return Reset { discrete: *contacts, impact: None };
         }
         let pose = self.mechanism.pose(t, y);
-        clearances.cross(structure.play, contacts, &pose, crossed, &mut y[2 * structure.positions..])
+        clearances.cross(structure.play, contacts, &pose, triggered, &mut y[2 * structure.positions..])
     }
 }
 
-impl<const N: usize> Unilateral<N> for Rigid<N> {
+impl Unilateral for Rigid {
     fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
         self.mechanism.clearances.laws
     }
 
-    fn contacts(&self, t: f64, y: &[f64; N]) -> Relative {
+    fn contacts(&self, t: f64, y: &[f64]) -> Relative {
         self.mechanism.contacts(t, y)
     }
 
-    fn response(&self, t: f64, y: &[f64; N], contact: usize, part: usize) -> [f64; N] {
-        let mut rates = [0.0; N];
-        self.mechanism.response(t, y, contact, part, &mut rates);
-        rates
+    fn response(&self, t: f64, y: &[f64], contact: usize, part: usize, response: &mut [f64]) {
+        response.fill(0.0);
+        self.mechanism.response(t, y, contact, part, response);
     }
 }
 
 /// What the contacts do in a step.
-fn acting<const N: usize>(impulses: &Impulses<N>) -> Acting<'_> {
+fn acting(impulses: &Impulses, states: usize) -> Acting<'_> {
     let acts = std::array::from_fn(|contact| impulses.acts(contact));
-    Acting { t: impulses.t, y: &impulses.y, forces: &impulses.forces, acts }
+    Acting { t: impulses.t, y: &impulses.y[..states], forces: &impulses.forces, acts }
 }
 
-impl<const N: usize> Plant<N> for Rigid<N> {
-    fn start(&self, pose: &StartPose) -> [f64; N] {
-        let mut y = [0.0; N];
-        self.mechanism.start(pose, &mut y);
-        y
+impl Plant for Rigid {
+    fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
+        self.mechanism.start(pose, y);
     }
 
-    fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
+    fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts {
         self.mechanism.clearances.start(self.mechanism.structure.play, &self.mechanism.pose(t, y))
     }
 
@@ -193,40 +198,35 @@ impl<const N: usize> Plant<N> for Rigid<N> {
         self.mechanism.rotor.start_time = time;
     }
 
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        self.mechanism.instant(contacts, t, y, &mut [0.0; N])
+    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant {
+        self.mechanism.instant(contacts, t, y, &mut [0.0; ROOM][..y.len()])
     }
 
-    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
+    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
         self.mechanism.instant(contacts, t, y, rates)
     }
 
-    fn instant_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N]) -> Instant {
-        self.mechanism.instant_under(&acting(impulses), t, y, &mut [0.0; N])
+    fn instant_under(&self, impulses: &Impulses, t: f64, y: &[f64]) -> Instant {
+        self.mechanism.instant_under(&acting(impulses, y.len()), t, y, &mut [0.0; ROOM][..y.len()])
     }
 
-    fn rates_under(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        self.mechanism.instant_under(&acting(impulses), t, y, rates);
+    fn rates_under(&self, impulses: &Impulses, t: f64, y: &[f64], rates: &mut [f64]) {
+        self.mechanism.instant_under(&acting(impulses, y.len()), t, y, rates);
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
         self.mechanism.clearances.depths(self.mechanism.structure.play, pose)
     }
 
-    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
+    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> Account {
         self.mechanism.account(contacts, pose, y)
     }
 
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         self.mechanism.tangent_rates(contacts, t, y, rates);
     }
 
-    fn tangent_instant(
-        &self,
-        contacts: &Contacts,
-        t: Tangent,
-        y: &[Tangent; N],
-    ) -> (Instant<Tangent>, Account<Tangent>) {
-        self.mechanism.tangent_instant(contacts, t, y, &mut [Tangent::ZERO; N])
+    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
+        self.mechanism.tangent_instant(contacts, t, y, &mut [Tangent::ZERO; ROOM][..y.len()])
     }
 }

@@ -1,6 +1,6 @@
 //! Derivatives of outputs: in time, and with respect to the inputs.
 
-use crate::integrator::Extent;
+use crate::integrator::MAX_STATES;
 use crate::model::plant::Plant;
 use crate::model::signals::{Inputs, Outputs};
 
@@ -13,21 +13,26 @@ const SHORTENINGS: usize = 12;
 
 /// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state moves by
 /// more than is noticeable, and time by at least a few of its roundings; near the end of a mechanism's reach, by less.
-pub fn slopes<const N: usize>(
-    plant: &dyn Plant<N>,
+pub fn slopes(
+    plant: &dyn Plant,
     t: f64,
-    y: &[f64; N],
-    rates: &[f64; N],
-    observe: impl Fn(f64, &[f64; N]) -> Outputs,
+    y: &[f64],
+    rates: &[f64],
+    observe: impl Fn(f64, &[f64]) -> Outputs,
 ) -> Outputs {
     let over = |half: f64| {
-        let along = |shift: f64| std::array::from_fn(|i| y[i] + shift * rates[i]);
+        let along = |time: f64| {
+            let mut moved = [0.0; MAX_STATES];
+            for (moved, (y, rate)) in moved.iter_mut().zip(y.iter().zip(rates)) {
+                *moved = y + (time - t) * rate;
+            }
+            observe(time, &moved[..y.len()])
+        };
         let (before, after) = (t - half, t + half);
-        let first = observe(before, &along(before - t));
-        let second = observe(after, &along(after - t));
+        let (first, second) = (along(before), along(after));
         second.combined(&first, |second, first| (second - first) / (after - before))
     };
-    let weighed = rates.iter().zip(plant.scales()).take(Extent::of(plant).weighed);
+    let weighed = rates.iter().zip(plant.scales()).take(plant.extent().weighed);
     let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
     let least = LEAST_DIFFERENCE.max(4.0 * f64::EPSILON * t.abs());
     let mut half = (1.0 / fastest).min(DIFFERENCE).max(least);

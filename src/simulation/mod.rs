@@ -6,16 +6,15 @@ mod equations;
 mod phase;
 mod record;
 mod run;
-mod snapshot;
 mod system;
 mod time_stepping;
 
+pub use crate::integrator::Snapshot;
 pub use equations::Linearization;
 pub use phase::{Phase, PhaseScales};
-pub use snapshot::Snapshot;
 pub use system::System;
 
-use crate::integrator::IntegrationError;
+use crate::integrator::{IntegrationError, Reader};
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 use crate::model::start::StartPose;
@@ -167,7 +166,7 @@ impl Simulation {
     /// [`Simulation::start`].
     pub fn restore(scene: &Scene, snapshot: &Snapshot) -> Result<Self, SimulationError> {
         let mut simulation = Self::start(scene, 0.0, Inputs::default())?;
-        let mut reader = snapshot::Reader::new(snapshot);
+        let mut reader = Reader::new(snapshot);
         let restored = reader.real().filter(|&time| simulation.motion.load(time, &mut reader).is_some());
         match restored {
             Some(time) if reader.is_at_end() => {

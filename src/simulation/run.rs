@@ -5,9 +5,12 @@ use super::derivatives::{sensitivity, slopes};
 use super::equations::Linearization;
 use super::phase::{Phase, PhaseScales};
 use super::record;
-use super::snapshot::{Reader, Snapshot};
-use super::system::{Bare, Equations, write};
-use crate::integrator::{Effort, Extent, Front, IntegrationError, Integrator, Jacobian, Method, Settings, Statistics};
+use super::system::{EquationSystem, Equations, write};
+use crate::integrator::methods::named;
+use crate::integrator::{
+    Effort, Extent, IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Settings, Snapshot, Statistics,
+    StepPoint,
+};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
@@ -59,11 +62,10 @@ pub trait Motion: Send {
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()>;
 }
 
-/// A mechanism of `N` states under the method `M`.
-pub struct Run<const N: usize, M: Method> {
-    plant: Box<dyn Plant<N>>,
-    integrator: Integrator<N, Contacts, M>,
-    settings: Settings,
+/// A mechanism under a method with event location, or without.
+pub struct Run {
+    plant: Box<dyn Plant>,
+    integrator: Integrator<Contacts>,
     observer: Observer,
     /// [m/s] A noticeable difference of approach speeds.
     approach_scale: f64,
@@ -73,24 +75,18 @@ pub struct Run<const N: usize, M: Method> {
 /// what any shipped scene needs.
 const EFFORT: Effort = Effort { base: 20_000_000, per_second: 50_000_000 };
 
-impl<const N: usize, M: Method> Run<N, M> {
+impl Run {
     /// Starts `plant` at `time` from `pose`.
-    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant<N>>) -> Self {
+    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant>) -> Self {
         let settings = settings(scene);
-        let y = plant.start(pose);
+        let n = plant.extent().states;
+        let mut y = vec![0.0; n];
+        plant.write_start(pose, &mut y);
         let contacts = plant.start_contacts(time, &y);
-        let integrator = Integrator::start(plant.as_ref(), settings, time, y, contacts);
+        let method = named(scene.solver.method.name(), n).expect("every declared method is made");
+        let integrator = Integrator::start(plant.as_ref(), method, settings, time, &y, contacts);
         let Scale { length, frequency, .. } = Scale::of(scene);
-        Self { plant, integrator, settings, observer: Observer::new(scene), approach_scale: length * frequency }
-    }
-
-    fn observe(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Outputs {
-        let instant = self.plant.instant(contacts, t, y);
-        let penetration = self.plant.penetration(&instant.pose);
-        let torque = self.plant.signal().at(t).crank_torque;
-        let mut outputs = self.observer.outputs(&instant, contacts, &penetration, torque);
-        outputs.energy = self.plant.energies(contacts, &instant, y);
-        outputs
+        Self { plant, integrator, observer: Observer::new(scene), approach_scale: length * frequency }
     }
 
     /// Outputs under other inputs, the state held.
@@ -98,13 +94,23 @@ impl<const N: usize, M: Method> Run<N, M> {
         let signal = *self.plant.signal();
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
         self.plant.set_signal(InputSignal { at: t, value: inputs, rate: Inputs::default() });
-        let outputs = self.observe(&contacts, t, &y);
+        let outputs = observe(self.plant.as_ref(), &self.observer, &contacts, t, y);
         self.plant.set_signal(signal);
         outputs
     }
 }
 
-impl<const N: usize, M: Method> Motion for Run<N, M> {
+/// Outputs of the state `y` at `t`.
+pub fn observe(plant: &dyn Plant, observer: &Observer, contacts: &Contacts, t: f64, y: &[f64]) -> Outputs {
+    let instant = plant.instant(contacts, t, y);
+    let penetration = plant.penetration(&instant.pose);
+    let torque = plant.signal().at(t).crank_torque;
+    let mut outputs = observer.outputs(&instant, contacts, &penetration, torque);
+    outputs.energy = plant.energies(contacts, &instant, y);
+    outputs
+}
+
+impl Motion for Run {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
         self.integrator.advance(self.plant.as_ref(), t)
     }
@@ -114,24 +120,25 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
     }
 
     fn phase(&mut self, t: f64) -> Phase {
-        self.integrator.rewind(self.plant.as_ref(), t);
+        self.integrator.truncate(self.plant.as_ref(), t);
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
-        let weighed = Extent::of(self.plant.as_ref()).weighed;
+        let weighed = self.plant.extent().weighed;
         let approach = contacts.iter().map(|mode| Some(mode.approach).filter(|_| mode.closed)).collect();
         Phase { time: t, states: y[..weighed].to_vec(), approach }
     }
 
     fn place(&mut self, phase: &Phase) {
-        let (mut y, mut contacts) = self.integrator.state_at(self.plant.as_ref(), phase.time);
+        let (y, mut contacts) = self.integrator.state_at(self.plant.as_ref(), phase.time);
+        let mut y = y.to_vec();
         write(&phase.states, &mut y);
         for (mode, approach) in contacts.iter_mut().zip(&phase.approach) {
             *mode = approach.map_or(ContactMode::default(), |approach| ContactMode::closing(approach, approach));
         }
-        self.integrator.place(self.plant.as_ref(), phase.time, y, contacts);
+        self.integrator.place(self.plant.as_ref(), phase.time, &y, contacts);
     }
 
     fn phase_scales(&self) -> PhaseScales {
-        let weighed = Extent::of(self.plant.as_ref()).weighed;
+        let weighed = self.plant.extent().weighed;
         PhaseScales { states: self.plant.scales()[..weighed].to_vec(), approach: self.approach_scale }
     }
 
@@ -139,24 +146,25 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
         if signal.continues(self.plant.signal()) {
             return;
         }
-        self.integrator.rewind(self.plant.as_ref(), signal.at);
+        self.integrator.truncate(self.plant.as_ref(), signal.at);
         self.plant.set_signal(signal);
         self.integrator.refresh(self.plant.as_ref());
     }
 
     fn outputs(&mut self, t: f64) -> Outputs {
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
-        let mut outputs = self.observe(&contacts, t, &y);
-        outputs.solver = solver_outputs(self.integrator.memory().statistics_at(t));
+        let mut outputs = observe(self.plant.as_ref(), &self.observer, &contacts, t, y);
+        outputs.solver = solver_outputs(self.integrator.state().statistics_at(t));
         outputs
     }
 
     fn output_rates(&mut self, t: f64) -> Outputs {
         let (y, contacts) = self.integrator.state_at(self.plant.as_ref(), t);
-        let mut rates = [0.0; N];
-        self.plant.rates(&contacts, t, &y, &mut rates);
-        let mut slopes = slopes(self.plant.as_ref(), t, &y, &rates, |t, y| self.observe(&contacts, t, y));
-        self.observer.set_known_rates(&self.plant.instant(&contacts, t, &y), &mut slopes);
+        let (mut rates, plant, observer) = ([0.0; MAX_STATES], self.plant.as_ref(), &self.observer);
+        let rates = &mut rates[..y.len()];
+        plant.rates(&contacts, t, y, rates);
+        let mut slopes = slopes(plant, t, y, rates, |t, y| observe(plant, observer, &contacts, t, y));
+        observer.set_known_rates(&plant.instant(&contacts, t, y), &mut slopes);
         slopes
     }
 
@@ -165,57 +173,55 @@ impl<const N: usize, M: Method> Motion for Run<N, M> {
     }
 
     fn size(&self) -> Size {
-        let Extent { positions, states, .. } = Extent::of(self.plant.as_ref());
-        Size { degrees_of_freedom: positions, states, event_functions: self.plant.guard_count() }
+        let Extent { positions, states, .. } = self.plant.extent();
+        Size { degrees_of_freedom: positions, states, event_functions: self.plant.event_count() }
     }
 
     fn evaluate(&self, times: usize) {
-        let Front { t, y, modes, .. } = &self.integrator.memory().front;
-        let mut rates = [0.0; N];
+        let StepPoint { t, y, discrete, .. } = self.integrator.state().front();
+        let mut rates = vec![0.0; y.len()];
         for _ in 0..times {
-            self.plant.rates(black_box(modes), *t, black_box(y), &mut rates);
+            self.plant.rates(black_box(discrete), *t, black_box(y), &mut rates);
             black_box(&rates);
         }
     }
 
     fn equations(self: Box<Self>) -> Box<dyn Equations> {
-        let start = self.integrator.memory().front;
-        Box::new(Bare::new(self.plant, self.observer, start))
+        let StepPoint { y, discrete, .. } = self.integrator.state().front();
+        Box::new(EquationSystem::new(self.plant, self.observer, y.clone(), *discrete))
     }
 
     fn differentiate(&self, times: usize) {
-        let Front { t, y, modes, .. } = &self.integrator.memory().front;
-        let mut jacobian = Jacobian::ZERO;
+        let StepPoint { t, y, discrete, .. } = self.integrator.state().front();
+        let mut jacobian = Jacobian::new(y.len());
         for _ in 0..times {
-            self.plant.jacobian(black_box(modes), *t, black_box(y), &mut jacobian);
+            self.plant.jacobian(black_box(discrete), *t, black_box(y), &mut jacobian);
             black_box(&jacobian);
         }
     }
 
     fn front(&self) -> (f64, Vec<f64>) {
-        let Front { t, y, .. } = &self.integrator.memory().front;
-        (*t, y[..Extent::of(self.plant.as_ref()).states].to_vec())
+        let StepPoint { t, y, .. } = self.integrator.state().front();
+        (*t, y.clone())
     }
 
     fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
-        let mut rates = [0.0; N];
-        self.plant.rates(&self.integrator.memory().front.modes, time, &filled(states), &mut rates);
-        rates[..Extent::of(self.plant.as_ref()).states].to_vec()
+        rates_at(self.plant.as_ref(), &self.integrator.state().front().discrete, time, states)
     }
 
     fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
-        let modes = &self.integrator.memory().front.modes;
-        linearization(self.plant.as_ref(), modes, time, &filled(states))
+        linearization(self.plant.as_ref(), &self.integrator.state().front().discrete, time, states)
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        record::save(self.plant.as_ref(), self.integrator.memory(), snapshot);
+        record::save(self.plant.as_ref(), self.integrator.state(), snapshot);
+        self.integrator.method().save(snapshot);
     }
 
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
-        let memory = record::load(self.plant.as_mut(), time, reader)?;
-        self.integrator = Integrator::resume(self.plant.as_ref(), self.settings, memory);
-        Some(())
+        let state = record::load(self.plant.as_mut(), time, reader)?;
+        self.integrator.set_state(self.plant.as_ref(), state);
+        self.integrator.load_method(reader)
     }
 }
 
@@ -241,33 +247,28 @@ pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
     }
 }
 
-/// The equations of motion of `plant` near `y` and `time` [s].
-pub fn linearization<const N: usize>(
-    plant: &dyn Plant<N>,
-    contacts: &Contacts,
-    time: f64,
-    y: &[f64; N],
-) -> Linearization {
-    let Extent { positions, states: count, .. } = Extent::of(plant);
-    let (mut rates, mut jacobian) = ([0.0; N], Jacobian::ZERO);
-    plant.rates(contacts, time, y, &mut rates);
-    plant.jacobian(contacts, time, y, &mut jacobian);
-    Linearization {
-        time,
-        states: y[..count].to_vec(),
-        positions,
-        rates: rates[..count].to_vec(),
-        by_state: jacobian.state[..count].iter().map(|row| row[..count].to_vec()).collect(),
-        by_time: jacobian.time[..count].to_vec(),
-    }
+/// A state in a list of so many: those that are missing count as 0.
+pub fn filled(list: &[f64], states: usize) -> Vec<f64> {
+    let mut all = vec![0.0; states];
+    write(list, &mut all);
+    all
 }
 
-/// A list in an array with room, or as much of it as has room.
-#[inline(always)]
-pub fn filled<const N: usize>(list: &[f64]) -> [f64; N] {
-    let mut array = [0.0; N];
-    for (place, value) in array.iter_mut().zip(list) {
-        *place = *value;
-    }
-    array
+/// Rates of the `states` at `time` [s].
+pub fn rates_at(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Vec<f64> {
+    let n = plant.extent().states;
+    let mut rates = vec![0.0; n];
+    plant.rates(contacts, time, &filled(states, n), &mut rates);
+    rates
+}
+
+/// The equations of motion of `plant` near `states` and `time` [s].
+pub fn linearization(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Linearization {
+    let Extent { positions, states: n, .. } = plant.extent();
+    let states = filled(states, n);
+    let (mut rates, mut jacobian) = (vec![0.0; n], Jacobian::new(n));
+    plant.rates(contacts, time, &states, &mut rates);
+    plant.jacobian(contacts, time, &states, &mut jacobian);
+    let by_state = (0..n).map(|i| jacobian.row(i).to_vec()).collect();
+    Linearization { time, states, positions, rates, by_state, by_time: jacobian.time }
 }

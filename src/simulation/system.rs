@@ -1,9 +1,9 @@
 //! The equations of motion of a scene for an integrator that is not ours: right-hand side, event
 //! functions, and what happens at an event.
 
-use super::run::{Motion, filled};
+use super::run::{Motion, observe};
 use super::{SimulationError, Size, assemble, start_pose};
-use crate::integrator::{Crossed, Extent, Front, GUARDS, Guard};
+use crate::integrator::{EventFunction, EventFunctions, Extent, MAX_EVENTS, MAX_STATES, Triggered};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
@@ -103,30 +103,38 @@ pub trait Equations: Send {
     fn outputs(&self, t: f64, y: &[f64]) -> Outputs;
 }
 
-/// A mechanism of up to `N` states without an integrator.
-pub struct Bare<const N: usize> {
-    plant: Box<dyn Plant<N>>,
+/// A mechanism without an integrator.
+pub struct EquationSystem {
+    plant: Box<dyn Plant>,
     observer: Observer,
-    start: Front<N, Contacts>,
+    start: (Vec<f64>, Contacts),
     contacts: Contacts,
 }
 
-impl<const N: usize> Bare<N> {
+impl EquationSystem {
     /// From a mechanism and where it starts.
-    pub fn new(plant: Box<dyn Plant<N>>, observer: Observer, start: Front<N, Contacts>) -> Self {
-        Self { plant, observer, contacts: start.modes, start }
+    pub fn new(plant: Box<dyn Plant>, observer: Observer, y: Vec<f64>, contacts: Contacts) -> Self {
+        Self { plant, observer, start: (y, contacts), contacts }
     }
 
     fn states(&self) -> usize {
-        Extent::of(self.plant.as_ref()).states
+        self.start.0.len()
     }
 
     #[inline(always)]
-    fn guards(&self, t: f64, y: &[f64; N]) -> [Guard; GUARDS] {
-        let mut guards = [Guard::default(); GUARDS];
-        self.plant.guards(&self.contacts, t, y, &mut guards);
-        guards
+    fn events(&self, t: f64, y: &[f64]) -> EventFunctions {
+        let mut functions = [EventFunction::default(); MAX_EVENTS];
+        self.plant.event_functions(&self.contacts, t, &y[..self.states()], &mut functions);
+        functions
     }
+}
+
+/// A state in an array with room: those that are missing count as 0.
+#[inline(always)]
+fn filled(list: &[f64]) -> [f64; MAX_STATES] {
+    let mut all = [0.0; MAX_STATES];
+    write(list, &mut all);
+    all
 }
 
 /// As many of `values` as `list` has room for.
@@ -137,14 +145,14 @@ pub fn write(values: &[f64], list: &mut [f64]) {
     }
 }
 
-impl<const N: usize> Equations for Bare<N> {
+impl Equations for EquationSystem {
     fn size(&self) -> Size {
-        let Extent { positions, states, .. } = Extent::of(self.plant.as_ref());
-        Size { degrees_of_freedom: positions, states, event_functions: self.plant.guard_count() }
+        let Extent { positions, states, .. } = self.plant.extent();
+        Size { degrees_of_freedom: positions, states, event_functions: self.plant.event_count() }
     }
 
     fn write_start(&self, y: &mut [f64]) {
-        write(&self.start.y[..self.states()], y);
+        write(&self.start.0, y);
     }
 
     fn write_scales(&self, scales: &mut [f64]) {
@@ -156,41 +164,39 @@ impl<const N: usize> Equations for Bare<N> {
     }
 
     fn write_rates(&self, t: f64, y: &[f64], rates: &mut [f64]) {
-        let mut all = [0.0; N];
-        self.plant.rates(&self.contacts, t, &filled(y), &mut all);
-        write(&all, rates);
+        let n = self.states();
+        if y.len() == n && rates.len() == n {
+            return self.plant.rates(&self.contacts, t, y, rates);
+        }
+        let mut all = [0.0; MAX_STATES];
+        self.plant.rates(&self.contacts, t, &filled(y)[..n], &mut all[..n]);
+        write(&all[..n], rates);
     }
 
     fn write_guards(&self, t: f64, y: &[f64], guards: &mut [f64]) {
-        let all = self.guards(t, &filled(y));
-        for (place, guard) in guards.iter_mut().zip(all).take(self.plant.guard_count()) {
+        let all = self.events(t, &filled(y));
+        for (place, guard) in guards.iter_mut().zip(all).take(self.plant.event_count()) {
             *place = guard.value;
         }
     }
 
     fn cross(&mut self, t: f64, y: &mut [f64], crossed: &[bool]) {
         let mut state = filled(y);
-        let guards = self.guards(t, &state);
-        let mut all: Crossed = [false; GUARDS];
-        for (i, place) in all.iter_mut().enumerate().take(self.plant.guard_count()) {
-            let Guard { value, rate } = guards[i];
+        let (events, n) = (self.events(t, &state), self.states());
+        let mut all: Triggered = [false; MAX_EVENTS];
+        for (i, place) in all.iter_mut().enumerate().take(self.plant.event_count()) {
+            let EventFunction { value, rate } = events[i];
             *place = crossed.get(i).is_some_and(|crossed| *crossed) || value <= 0.0 && rate < 0.0;
         }
-        self.contacts = self.plant.cross(&self.contacts, t, &mut state, &all).modes;
-        write(&state, y);
+        self.contacts = self.plant.reset(&self.contacts, t, &mut state[..n], &all).discrete;
+        write(&state[..n], y);
     }
 
     fn restart(&mut self) {
-        self.contacts = self.start.modes;
+        self.contacts = self.start.1;
     }
 
     fn outputs(&self, t: f64, y: &[f64]) -> Outputs {
-        let y = filled(y);
-        let instant = self.plant.instant(&self.contacts, t, &y);
-        let penetration = self.plant.penetration(&instant.pose);
-        let torque = self.plant.signal().at(t).crank_torque;
-        let mut outputs = self.observer.outputs(&instant, &self.contacts, &penetration, torque);
-        outputs.energy = self.plant.energies(&self.contacts, &instant, &y);
-        outputs
+        observe(self.plant.as_ref(), &self.observer, &self.contacts, t, &filled(y)[..self.states()])
     }
 }

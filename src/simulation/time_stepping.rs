@@ -5,10 +5,11 @@ use super::derivatives::{sensitivity, slopes};
 use super::equations::Linearization;
 use super::phase::{Phase, PhaseScales};
 use super::record;
-use super::run::{Motion, filled, linearization, settings, solver_outputs};
-use super::snapshot::{Reader, Snapshot};
-use super::system::{Bare, Equations, write};
-use crate::integrator::{Extent, Front, Impulses, IntegrationError, Jacobian, Moreau, Settings};
+use super::run::{Motion, filled, linearization, rates_at, settings, solver_outputs};
+use super::system::{EquationSystem, Equations};
+use crate::integrator::{
+    Extent, Impulses, IntegrationError, Jacobian, MAX_STATES, Moreau, Reader, Settings, Snapshot, StepPoint,
+};
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
@@ -18,32 +19,23 @@ use crate::model::state::{CONTACTS, Contacts};
 use crate::scene::Scene;
 use std::hint::black_box;
 
-/// A mechanism of `N` states under Moreau's rule. The forces of its contacts are impulses over the length of a step,
+/// A mechanism under Moreau's rule. The forces of its contacts are impulses over the length of a step,
 /// from its start to its end; accelerations and reactions are those of the instant under these forces.
-pub struct TimeStepping<const N: usize> {
-    plant: Box<dyn Plant<N>>,
-    integrator: Moreau<N>,
+pub struct TimeStepping {
+    plant: Box<dyn Plant>,
+    integrator: Moreau,
     settings: Settings,
     observer: Observer,
 }
 
-impl<const N: usize> TimeStepping<N> {
+impl TimeStepping {
     /// Starts `plant` at `time` from `pose`.
-    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant<N>>) -> Self {
+    pub fn start(scene: &Scene, time: f64, pose: &StartPose, plant: Box<dyn Plant>) -> Self {
         let settings = settings(scene);
-        let integrator = Moreau::start(settings, time, plant.start(pose));
+        let mut y = vec![0.0; plant.extent().states];
+        plant.write_start(pose, &mut y);
+        let integrator = Moreau::start(settings, time, &y);
         Self { plant, integrator, settings, observer: Observer::new(scene) }
-    }
-
-    fn observe(&self, impulses: &Impulses<N>, t: f64, y: &[f64; N]) -> Outputs {
-        let instant = self.plant.instant_under(impulses, t, y);
-        let penetration = self.plant.penetration(&instant.pose);
-        let torque = self.plant.signal().at(t).crank_torque;
-        let mut contacts = Contacts::default();
-        for (index, contact) in contacts.iter_mut().enumerate().take(CONTACTS) {
-            contact.closed = impulses.acts(index);
-        }
-        self.observer.outputs(&instant, &contacts, &penetration, torque)
     }
 
     /// Outputs under other inputs, state and contact forces held.
@@ -51,13 +43,24 @@ impl<const N: usize> TimeStepping<N> {
         let signal = *self.plant.signal();
         let (y, impulses) = self.integrator.state_at(self.plant.as_ref(), t);
         self.plant.set_signal(InputSignal { at: t, value: inputs, rate: Inputs::default() });
-        let outputs = self.observe(&impulses, t, &y);
+        let outputs = observe(self.plant.as_ref(), &self.observer, &impulses, t, y);
         self.plant.set_signal(signal);
         outputs
     }
 }
 
-impl<const N: usize> Motion for TimeStepping<N> {
+fn observe(plant: &dyn Plant, observer: &Observer, impulses: &Impulses, t: f64, y: &[f64]) -> Outputs {
+    let instant = plant.instant_under(impulses, t, y);
+    let penetration = plant.penetration(&instant.pose);
+    let torque = plant.signal().at(t).crank_torque;
+    let mut contacts = Contacts::default();
+    for (index, contact) in contacts.iter_mut().enumerate().take(CONTACTS) {
+        contact.closed = impulses.acts(index);
+    }
+    observer.outputs(&instant, &contacts, &penetration, torque)
+}
+
+impl Motion for TimeStepping {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
         self.integrator.advance(self.plant.as_ref(), t)
     }
@@ -67,42 +70,40 @@ impl<const N: usize> Motion for TimeStepping<N> {
     }
 
     fn phase(&mut self, t: f64) -> Phase {
-        self.integrator.rewind(self.plant.as_ref(), t);
+        self.integrator.truncate(self.plant.as_ref(), t);
         let (y, _) = self.integrator.state_at(self.plant.as_ref(), t);
-        let states = y[..Extent::of(self.plant.as_ref()).states].to_vec();
-        Phase { time: t, states, approach: vec![None; CONTACTS] }
+        Phase { time: t, states: y.to_vec(), approach: vec![None; CONTACTS] }
     }
 
     fn place(&mut self, phase: &Phase) {
-        let mut y = [0.0; N];
-        write(&phase.states, &mut y);
-        self.integrator.place(phase.time, y);
+        self.integrator.place(phase.time, &filled(&phase.states, self.plant.extent().states));
     }
 
     fn phase_scales(&self) -> PhaseScales {
-        let states = self.plant.scales()[..Extent::of(self.plant.as_ref()).states].to_vec();
+        let states = self.plant.scales()[..self.plant.extent().states].to_vec();
         PhaseScales { states, approach: 1.0 }
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
         if !signal.continues(self.plant.signal()) {
-            self.integrator.rewind(self.plant.as_ref(), signal.at);
+            self.integrator.truncate(self.plant.as_ref(), signal.at);
             self.plant.set_signal(signal);
         }
     }
 
     fn outputs(&mut self, t: f64) -> Outputs {
+        let solver = solver_outputs(self.integrator.state().statistics_at(t));
         let (y, impulses) = self.integrator.state_at(self.plant.as_ref(), t);
-        let solver = solver_outputs(self.integrator.memory().statistics_at(t));
-        Outputs { solver, ..self.observe(&impulses, t, &y) }
+        Outputs { solver, ..observe(self.plant.as_ref(), &self.observer, &impulses, t, y) }
     }
 
     fn output_rates(&mut self, t: f64) -> Outputs {
         let (y, impulses) = self.integrator.state_at(self.plant.as_ref(), t);
-        let mut rates = [0.0; N];
-        self.plant.rates_under(&impulses, t, &y, &mut rates);
-        let mut slopes = slopes(self.plant.as_ref(), t, &y, &rates, |t, y| self.observe(&impulses, t, y));
-        self.observer.set_known_rates(&self.plant.instant_under(&impulses, t, &y), &mut slopes);
+        let (mut rates, plant, observer) = ([0.0; MAX_STATES], self.plant.as_ref(), &self.observer);
+        let rates = &mut rates[..y.len()];
+        plant.rates_under(&impulses, t, y, rates);
+        let mut slopes = slopes(plant, t, y, rates, |t, y| observe(plant, observer, &impulses, t, y));
+        observer.set_known_rates(&plant.instant_under(&impulses, t, y), &mut slopes);
         slopes
     }
 
@@ -111,13 +112,13 @@ impl<const N: usize> Motion for TimeStepping<N> {
     }
 
     fn size(&self) -> Size {
-        let Extent { positions, states, .. } = Extent::of(self.plant.as_ref());
-        Size { degrees_of_freedom: positions, states, event_functions: self.plant.guard_count() }
+        let Extent { positions, states, .. } = self.plant.extent();
+        Size { degrees_of_freedom: positions, states, event_functions: self.plant.event_count() }
     }
 
     fn evaluate(&self, times: usize) {
-        let Front { t, y, .. } = &self.integrator.memory().front;
-        let mut rates = [0.0; N];
+        let StepPoint { t, y, .. } = self.integrator.state().front();
+        let mut rates = vec![0.0; y.len()];
         for _ in 0..times {
             self.plant.rates(&Contacts::default(), *t, black_box(y), &mut rates);
             black_box(&rates);
@@ -125,8 +126,8 @@ impl<const N: usize> Motion for TimeStepping<N> {
     }
 
     fn differentiate(&self, times: usize) {
-        let Front { t, y, .. } = &self.integrator.memory().front;
-        let mut jacobian = Jacobian::ZERO;
+        let StepPoint { t, y, .. } = self.integrator.state().front();
+        let mut jacobian = Jacobian::new(y.len());
         for _ in 0..times {
             self.plant.jacobian(&Contacts::default(), *t, black_box(y), &mut jacobian);
             black_box(&jacobian);
@@ -134,33 +135,31 @@ impl<const N: usize> Motion for TimeStepping<N> {
     }
 
     fn front(&self) -> (f64, Vec<f64>) {
-        let Front { t, y, .. } = &self.integrator.memory().front;
-        (*t, y[..Extent::of(self.plant.as_ref()).states].to_vec())
+        let StepPoint { t, y, .. } = self.integrator.state().front();
+        (*t, y.clone())
     }
 
     fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
-        let mut rates = [0.0; N];
-        self.plant.rates(&Contacts::default(), time, &filled(states), &mut rates);
-        rates[..Extent::of(self.plant.as_ref()).states].to_vec()
+        rates_at(self.plant.as_ref(), &Contacts::default(), time, states)
     }
 
     fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
-        linearization(self.plant.as_ref(), &Contacts::default(), time, &filled(states))
+        linearization(self.plant.as_ref(), &Contacts::default(), time, states)
     }
 
     fn equations(self: Box<Self>) -> Box<dyn Equations> {
-        let Front { t, y, rates, .. } = self.integrator.memory().front;
-        let start = Front { t, y, rates, modes: self.plant.start_contacts(t, &y), impact_end: t };
-        Box::new(Bare::new(self.plant, self.observer, start))
+        let StepPoint { t, y, .. } = self.integrator.state().front();
+        let (y, contacts) = (y.clone(), self.plant.start_contacts(*t, y));
+        Box::new(EquationSystem::new(self.plant, self.observer, y, contacts))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        record::save(self.plant.as_ref(), self.integrator.memory(), snapshot);
+        record::save(self.plant.as_ref(), self.integrator.state(), snapshot);
     }
 
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
-        let memory = record::load(self.plant.as_mut(), time, reader)?;
-        self.integrator = Moreau::resume(self.settings, memory);
+        let state = record::load(self.plant.as_mut(), time, reader)?;
+        self.integrator = Moreau::resume(self.settings, state);
         Some(())
     }
 }

@@ -1,40 +1,30 @@
 //! First-order states beside positions, and states that the error norm does not weigh.
 
-use slidercrank::integrator::dense_output::Step;
-use slidercrank::integrator::methods::{Dop853, Dopri5, Rk4, Verner7};
-use slidercrank::integrator::{
-    Crossed, Effort, Extent, GUARDS, Guard, Integrator, Jacobian, Method, Problem, Reset, Settings,
-};
+use super::free::begin;
+use slidercrank::integrator::dense_output::{Correction, Step};
+use slidercrank::integrator::{Effort, Events, Extent, Jacobian, Linearizable, Ode, Settings, SeveralInstants};
 
-const N: usize = 32;
-
-/// q̈ = −q from (0, 1), ż = q − z from ½, ẇ = z from 0, in an array with room.
+/// q̈ = −q from (0, 1), ż = q − z from ½, ẇ = z from 0.
 struct Following {
     weighed: usize,
     states: usize,
 }
 
-static UNIT: [f64; N] = [1.0; N];
+static UNIT: [f64; 4] = [1.0; 4];
 
-impl Problem<N> for Following {
-    type Modes = ();
+impl Ode for Following {
+    type Discrete = ();
 
     fn extent(&self) -> Extent {
         Extent { positions: 1, weighed: self.weighed, states: self.states }
     }
 
-    fn rates(&self, (): &(), _: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        rates[..4].copy_from_slice(&[y[1], -y[0], y[0] - y[2], y[2]]);
-        rates[4..].fill(f64::NAN); // nobody looks there
+    fn rates(&self, (): &(), _: f64, y: &[f64], rates: &mut [f64]) {
+        let all = [y[1], -y[0], y[0] - y[2], y[2]];
+        rates.copy_from_slice(&all[..self.states]);
     }
 
-    fn jacobian(&self, (): &(), _: f64, _: &[f64; N], jacobian: &mut Jacobian<N>) {
-        for (i, j, slope) in [(0, 1, 1.0), (1, 0, -1.0), (2, 0, 1.0), (2, 2, -1.0), (3, 2, 1.0)] {
-            jacobian.state[i][j] = slope;
-        }
-    }
-
-    fn scales(&self) -> &[f64; N] {
+    fn scales(&self) -> &[f64] {
         &UNIT
     }
 
@@ -42,26 +32,23 @@ impl Problem<N> for Following {
     fn longest_step(&self) -> f64 {
         0.05
     }
+}
 
-    fn guard_count(&self) -> usize {
-        0
-    }
-
-    fn guards(&self, (): &(), _: f64, _: &[f64; N], _: &mut [Guard; GUARDS]) {}
-
-    fn guard_scale(&self) -> f64 {
-        1.0
-    }
-
-    fn cross(&self, (): &(), _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), impact: None }
+impl Linearizable for Following {
+    fn jacobian(&self, (): &(), _: f64, _: &[f64], jacobian: &mut Jacobian) {
+        for (i, j, slope) in [(0, 1, 1.0), (1, 0, -1.0), (2, 0, 1.0), (2, 2, -1.0), (3, 2, 1.0)] {
+            jacobian.row_mut(i)[j] = slope;
+        }
     }
 }
 
-fn start() -> [f64; N] {
-    let mut y = [0.0; N];
-    (y[1], y[2]) = (1.0, 0.5);
-    y
+impl SeveralInstants for Following {}
+
+impl Events for Following {}
+
+fn start(problem: &Following) -> &'static [f64] {
+    const ALL: [f64; 4] = [0.0, 1.0, 0.5, 0.0];
+    &ALL[..problem.states]
 }
 
 /// z = e^(−t) + (sin t − cos t)/2, w = ∫z.
@@ -71,9 +58,9 @@ fn known(t: f64) -> [f64; 4] {
     [sin, cos, fading + 0.5 * (sin - cos), 1.0 - fading + 0.5 * (1.0 - cos - sin)]
 }
 
-fn errors<M: Method>(problem: &Following, tolerance: f64) -> (f64, u64) {
+fn errors(method: &str, problem: &Following, tolerance: f64) -> (f64, u64) {
     let settings = Settings { tolerance, fixed_step: 1e-2, effort: Effort::ANY };
-    let mut integrator = Integrator::<N, (), M>::start(problem, settings, 0.0, start(), ());
+    let mut integrator = begin(method, problem, settings, 0.0, start(problem), ());
     let mut worst = 0.0f64;
     for i in 1..=500 {
         let t = 0.01 * f64::from(i);
@@ -83,7 +70,7 @@ fn errors<M: Method>(problem: &Following, tolerance: f64) -> (f64, u64) {
             worst = worst.max((found - wanted).abs());
         }
     }
-    (worst, integrator.memory().statistics.steps)
+    (worst, integrator.state().statistics.steps)
 }
 
 #[test]
@@ -91,15 +78,15 @@ fn first_order_states_are_as_accurate_as_positions_inside_steps_too() {
     let problem = Following { weighed: 4, states: 4 };
     for tolerance in [1e-7, 1e-10] {
         for (name, (error, steps)) in [
-            (Dopri5::NAME, errors::<Dopri5>(&problem, tolerance)),
-            (Verner7::NAME, errors::<Verner7>(&problem, tolerance)),
-            (Dop853::NAME, errors::<Dop853>(&problem, tolerance)),
+            ("dopri5", errors("dopri5", &problem, tolerance)),
+            ("verner7", errors("verner7", &problem, tolerance)),
+            ("dop853", errors("dop853", &problem, tolerance)),
         ] {
             println!("{name} at {tolerance:e}: {error:.1e} in {steps} steps");
             assert!(error < 10.0 * tolerance, "{name} at {tolerance:e}: {error:e}");
         }
     }
-    let (error, _) = errors::<Rk4>(&problem, 1.0);
+    let (error, _) = errors("rk4", &problem, 1.0);
     assert!(error < 1e-9, "rk4: {error:e}");
 }
 
@@ -107,10 +94,10 @@ fn first_order_states_are_as_accurate_as_positions_inside_steps_too() {
 fn a_state_that_is_not_weighed_changes_no_step() {
     let run = |problem: Following| {
         let settings = Settings { tolerance: 1e-13, fixed_step: 0.0, effort: Effort::ANY };
-        let mut integrator = Integrator::<N, (), Verner7>::start(&problem, settings, 0.0, start(), ());
+        let mut integrator = begin("verner7", &problem, settings, 0.0, start(&problem), ());
         integrator.advance(&problem, 20.0).expect("no trouble");
-        let memory = integrator.memory();
-        (memory.front.t, memory.front.y[..3].to_vec(), memory.statistics)
+        let memory = integrator.state();
+        (memory.front().t, memory.front().y[..3].to_vec(), memory.statistics)
     };
     let alone = run(Following { weighed: 3, states: 3 });
     assert_eq!(run(Following { weighed: 3, states: 4 }), alone);
@@ -120,58 +107,53 @@ fn a_state_that_is_not_weighed_changes_no_step() {
 #[test]
 fn inside_a_step_a_polynomial_of_degree_five_is_exact() {
     struct Power;
-    impl Problem<N> for Power {
-        type Modes = ();
+    impl Ode for Power {
+        type Discrete = ();
 
         fn extent(&self) -> Extent {
             Extent { positions: 0, weighed: 1, states: 1 }
         }
 
-        fn rates(&self, (): &(), t: f64, _: &[f64; N], rates: &mut [f64; N]) {
+        fn rates(&self, (): &(), t: f64, _: &[f64], rates: &mut [f64]) {
             rates[0] = 5.0 * t.powi(4) - 6.0 * t * t;
         }
 
-        fn jacobian(&self, (): &(), t: f64, _: &[f64; N], jacobian: &mut Jacobian<N>) {
-            jacobian.state[0][0] = 0.0;
-            jacobian.time[0] = 20.0 * t.powi(3) - 12.0 * t;
-        }
-
-        fn scales(&self) -> &[f64; N] {
+        fn scales(&self) -> &[f64] {
             &UNIT
         }
 
         fn longest_step(&self) -> f64 {
             1.0
         }
+    }
 
-        fn guard_count(&self) -> usize {
-            0
-        }
-
-        fn guards(&self, (): &(), _: f64, _: &[f64; N], _: &mut [Guard; GUARDS]) {}
-
-        fn guard_scale(&self) -> f64 {
-            1.0
-        }
-
-        fn cross(&self, (): &(), _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<()> {
-            Reset { modes: (), impact: None }
+    impl Linearizable for Power {
+        fn jacobian(&self, (): &(), t: f64, _: &[f64], jacobian: &mut Jacobian) {
+            jacobian.row_mut(0)[0] = 0.0;
+            jacobian.time[0] = 20.0 * t.powi(3) - 12.0 * t;
         }
     }
 
+    impl SeveralInstants for Power {}
+
+    impl Events for Power {}
+
     let value = |t: f64| t.powi(5) - 2.0 * t.powi(3);
     let ends = |t: f64| {
-        let (mut y, mut f) = ([0.0; N], [0.0; N]);
+        let (mut y, mut f) = ([0.0], [0.0]);
         y[0] = value(t);
         Power.rates(&(), t, &y, &mut f);
         (y, f)
     };
     let ((y0, f0), (y1, f1)) = (ends(0.3), ends(1.1));
     let step = Step { t: 0.3, h: 0.8, y0: &y0, f0: &f0, y1: &y1, f1: &f1, extent: Power.extent() };
-    let correction = step.correction(&Power, &(), 1e-6);
+    let mut correction = Correction::new(1);
+    correction.find(&step, &Power, &(), 1e-6);
     for i in 0..=20 {
         let s = f64::from(i) / 20.0;
-        let found = step.state(s, &correction)[0];
+        let mut found = [0.0];
+        step.state(s, correction.coefficients(), &mut found);
+        let [found] = found;
         assert!((found - value(0.3 + 0.8 * s)).abs() < 1e-15, "at {s}: {found}");
     }
 }

@@ -1,9 +1,13 @@
 //! Problems without events whose solutions are known.
 
-use slidercrank::integrator::{Crossed, GUARDS, Guard, Jacobian, Problem, Reset};
+use slidercrank::integrator::method::Attempt;
+use slidercrank::integrator::methods::named;
+use slidercrank::integrator::{
+    Events, Extent, Integrator, Linearizable, Method, Ode, Settings, SeveralInstants, StepPoint, System,
+};
 
 /// A second-order problem of `N` states with these accelerations and no events.
-pub struct Free<A> {
+pub struct Free<A, const N: usize = 4> {
     /// [of each position] at time, positions and velocities.
     pub accelerations: A,
 }
@@ -11,41 +15,67 @@ pub struct Free<A> {
 /// Weights of one: the tolerance is the error that a step may make.
 static UNIT: [f64; 16] = [1.0; 16];
 
-impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Problem<N> for Free<A> {
-    type Modes = ();
+impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Ode for Free<A, N> {
+    type Discrete = ();
 
-    fn rates(&self, _: &(), t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+    fn extent(&self) -> Extent {
+        Extent::second_order(N)
+    }
+
+    fn rates(&self, (): &(), t: f64, y: &[f64], rates: &mut [f64]) {
         let (positions, velocities) = y.split_at(N / 2);
         let (moving, forced) = rates.split_at_mut(N / 2);
         moving.copy_from_slice(velocities);
         (self.accelerations)(t, positions, velocities, forced);
     }
 
-    fn jacobian(&self, (): &(), _: f64, _: &[f64; N], jacobian: &mut Jacobian<N>) {
-        jacobian.state = [[f64::NAN; N]; N]; // no explicit method asks
-    }
-
-    fn scales(&self) -> &[f64; N] {
-        UNIT.first_chunk().expect("at most sixteen states")
+    fn scales(&self) -> &[f64] {
+        &UNIT
     }
 
     fn longest_step(&self) -> f64 {
         1.0
     }
+}
 
-    fn guard_count(&self) -> usize {
-        0
-    }
+impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Linearizable for Free<A, N> {}
 
-    fn guards(&self, (): &(), _: f64, _: &[f64; N], _: &mut [Guard; GUARDS]) {}
+impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> SeveralInstants for Free<A, N> {}
 
-    fn guard_scale(&self) -> f64 {
-        1.0
-    }
+impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Events for Free<A, N> {}
 
-    fn cross(&self, (): &(), _: f64, _: &mut [f64; N], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), impact: None }
-    }
+/// Starts the method of this name from the state `y` at `t`.
+pub fn begin<D: Copy + 'static>(
+    method: &str,
+    system: &dyn System<Discrete = D>,
+    settings: Settings,
+    t: f64,
+    y: impl AsRef<[f64]>,
+    discrete: D,
+) -> Integrator<D> {
+    let y = y.as_ref();
+    let method = named(method, y.len()).expect("a method of this name");
+    Integrator::start(system, method, settings, t, y, discrete)
+}
+
+/// A point at which a step of `system` starts.
+pub fn point(system: &dyn System<Discrete = ()>, t: f64, y: &[f64]) -> StepPoint<()> {
+    let mut point = StepPoint::new(t, y, ());
+    system.rates(&(), t, y, &mut point.rates);
+    point
+}
+
+/// A step of `h` from there by a method: the state at its end, and what else it tells.
+pub fn step_from(
+    method: &mut dyn Method<()>,
+    system: &dyn System<Discrete = ()>,
+    start: &StepPoint<()>,
+    h: f64,
+) -> (StepPoint<()>, Attempt) {
+    let (mut end, mut made) = (start.clone(), Attempt::new(start.y.len()));
+    method.attempt(system, start, h, &mut end, &mut made);
+    end.t = start.t + h;
+    (end, made)
 }
 
 /// Two bodies: q̈ = −q/|q|³. From (1 − e, 0) at √((1 + e)/(1 − e)) across, the period is 2π.
@@ -74,7 +104,7 @@ pub fn orbit(eccentricity: f64, t: f64) -> [f64; 4] {
 }
 
 /// Largest difference of two states.
-pub fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 

@@ -3,7 +3,7 @@
 
 use slidercrank::integrator::methods::{Automatic, Cong8, Verner7};
 use slidercrank::integrator::{
-    Crossed, Effort, GUARDS, Guard, Integrator, Jacobian, Manner, Method, Problem, Reset, Settings,
+    Triggered, Effort, MAX_EVENTS, EventFunction, Integrator, Jacobian, Manner, Method, Problem, Reset, Settings,
 };
 use slidercrank::math::{Real, Row};
 
@@ -59,13 +59,13 @@ impl Problem<4> for Pulled {
         0
     }
 
-    fn guards(&self, (): &(), _: f64, _: &[f64; 4], _: &mut [Guard; GUARDS]) {}
+    fn guards(&self, (): &(), _: f64, _: &[f64; 4], _: &mut EventFunctions) {}
 
     fn guard_scale(&self) -> f64 {
         1.0
     }
 
-    fn cross(&self, (): &(), _: f64, _: &mut [f64; 4], _: &Crossed) -> Reset<()> {
+    fn cross(&self, (): &(), _: f64, _: &mut [f64; 4], _: &Triggered) -> Reset<()> {
         Reset { modes: (), impact: None }
     }
 }

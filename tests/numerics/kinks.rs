@@ -1,8 +1,8 @@
 //! Steps that end at kinks of the rates: sliding that turns round, against its closed form.
 
-use slidercrank::integrator::methods::{Dop853, Dopri5, Verner7};
+use super::free::begin;
 use slidercrank::integrator::{
-    Crossed, Effort, GUARDS, Guard, Integrator, Jacobian, Kinks, Method, Problem, Reset, Settings, Statistics,
+    Discontinuities, Effort, Events, Extent, Linearizable, Ode, Settings, SeveralInstants, Statistics,
 };
 
 /// Of the speeds over which friction turns round.
@@ -24,43 +24,35 @@ fn rubbing(v: f64) -> f64 {
     PUSH - FRICTION * (v / WIDTH).clamp(-1.0, 1.0)
 }
 
-impl Problem<2> for Sliding {
-    type Modes = ();
+impl Ode for Sliding {
+    type Discrete = ();
 
-    fn rates(&self, (): &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
-        *rates = [y[1], (self.acceleration)(y[1])];
+    fn extent(&self) -> Extent {
+        Extent::second_order(2)
     }
 
-    fn jacobian(&self, (): &(), _: f64, _: &[f64; 2], jacobian: &mut Jacobian<2>) {
-        jacobian.state = [[f64::NAN; 2]; 2]; // no explicit method asks
+    fn rates(&self, (): &(), _: f64, y: &[f64], rates: &mut [f64]) {
+        rates.copy_from_slice(&[y[1], (self.acceleration)(y[1])]);
     }
 
-    fn scales(&self) -> &[f64; 2] {
+    fn scales(&self) -> &[f64] {
         &[1.0, 1.0]
     }
 
     fn longest_step(&self) -> f64 {
         0.1
     }
+}
 
-    fn guard_count(&self) -> usize {
-        0
-    }
+impl Linearizable for Sliding {}
 
-    fn guards(&self, (): &(), _: f64, _: &[f64; 2], _: &mut [Guard; GUARDS]) {}
+impl SeveralInstants for Sliding {}
 
-    fn kinks(&self, (): &(), _: f64, y: &[f64; 2], kinks: &mut Kinks) {
+impl Events for Sliding {
+    fn discontinuities(&self, (): &(), _: f64, y: &[f64], functions: &mut Discontinuities) {
         for corner in self.corners {
-            kinks.push(y[1] - corner);
+            functions.push(y[1] - corner);
         }
-    }
-
-    fn guard_scale(&self) -> f64 {
-        1.0
-    }
-
-    fn cross(&self, (): &(), _: f64, _: &mut [f64; 2], _: &Crossed) -> Reset<()> {
-        Reset { modes: (), impact: None }
     }
 }
 
@@ -71,33 +63,33 @@ fn exact() -> f64 {
 }
 
 /// Error of the speed at the end, and the work.
-fn slide<M: Method>(tells: bool, tolerance: f64) -> (f64, Statistics) {
+fn slide(method: &str, tells: bool, tolerance: f64) -> (f64, Statistics) {
     let problem = Sliding { acceleration: rubbing, corners: if tells { &[WIDTH, -WIDTH] } else { &[] } };
     let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
-    let mut integrator = Integrator::<2, (), M>::start(&problem, settings, 0.0, [0.0, -1.0], ());
+    let mut integrator = begin(method, &problem, settings, 0.0, [0.0, -1.0], ());
     integrator.advance(&problem, END).expect("a motion without trouble");
     let (y, ()) = integrator.state_at(&problem, END);
-    ((y[1] - exact()).abs(), integrator.memory().statistics)
+    ((y[1] - exact()).abs(), integrator.state().statistics)
 }
 
 #[test]
 fn a_step_that_fails_ends_at_the_kink_that_it_fails_by() {
     /// With a method.
-    fn compare<M: Method>() {
+    fn compare(method: &str) {
         for tolerance in [1e-8, 1e-9, 1e-10] {
-            let [(blind, searched), (error, told)] = [false, true].map(|tells| slide::<M>(tells, tolerance));
-            println!("{} at {tolerance:e}: {blind:.1e} in {searched:?}, told {error:.1e} in {told:?}", M::NAME);
-            assert!(error <= 10.0 * tolerance, "{}: {error:e} at {tolerance:e}", M::NAME);
+            let [(blind, searched), (error, told)] = [false, true].map(|tells| slide(method, tells, tolerance));
+            println!("{} at {tolerance:e}: {blind:.1e} in {searched:?}, told {error:.1e} in {told:?}", method);
+            assert!(error <= 10.0 * tolerance, "{}: {error:e} at {tolerance:e}", method);
             let work = told.evaluations as f64 / searched.evaluations as f64;
-            assert!(work < 0.9, "{} at {tolerance:e}: {told:?} against {searched:?}", M::NAME);
+            assert!(work < 0.9, "{} at {tolerance:e}: {told:?} against {searched:?}", method);
             // The second corner is foreseen from the first.
             let failed = told.rejected as f64 / searched.rejected as f64;
-            assert!(failed < 0.67, "{} at {tolerance:e}: {told:?} against {searched:?}", M::NAME);
+            assert!(failed < 0.67, "{} at {tolerance:e}: {told:?} against {searched:?}", method);
         }
     }
-    compare::<Dopri5>();
-    compare::<Verner7>();
-    compare::<Dop853>();
+    compare("dopri5");
+    compare("verner7");
+    compare("dop853");
 }
 
 /// A body that is pushed against a damper from a corner on: v̇ = GENTLE − RATE·max(v, 0) settles just beyond the corner,
@@ -115,9 +107,9 @@ fn a_motion_that_creeps_along_a_kink_is_not_cut_to_pieces() {
         let [blind, told] = [false, true].map(|tells| {
             let problem = Sliding { acceleration: creeping, corners: if tells { &[0.0] } else { &[] } };
             let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
-            let mut integrator = Integrator::<2, (), Verner7>::start(&problem, settings, 0.0, [0.0, -1e-6], ());
+            let mut integrator = begin("verner7", &problem, settings, 0.0, [0.0, -1e-6], ());
             integrator.advance(&problem, 0.01).expect("a motion without trouble");
-            integrator.memory().statistics
+            integrator.state().statistics
         });
         println!("at {tolerance:e}: {blind:?}, told {told:?}");
         assert!(told.evaluations < 2 * blind.evaluations, "at {tolerance:e}: {told:?} against {blind:?}");

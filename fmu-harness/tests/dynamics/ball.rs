@@ -8,7 +8,7 @@ use super::system::System;
 use fmu_harness::dynamics::lyapunov::{Exponent, Probe};
 use fmu_harness::dynamics::verdict::{Verdict, judge};
 use fmu_harness::dynamics::{Flow, Point};
-use slidercrank::integrator::{Crossed, GUARDS, Guard, Jacobian, Problem, Reset};
+use slidercrank::integrator::{Triggered, MAX_EVENTS, EventFunction, Jacobian, Problem, Reset};
 use std::f64::consts::{PI, TAU};
 
 /// Restitution.
@@ -57,16 +57,16 @@ impl Problem<2> for Ball {
         1
     }
 
-    fn guards(&self, _: &(), t: f64, y: &[f64; 2], guards: &mut [Guard; GUARDS]) {
+    fn guards(&self, _: &(), t: f64, y: &[f64; 2], guards: &mut EventFunctions) {
         let [height, speed] = self.table(t);
-        guards[0] = Guard { value: y[0] - height, rate: y[1] - speed };
+        guards[0] = EventFunction { value: y[0] - height, rate: y[1] - speed };
     }
 
     fn guard_scale(&self) -> f64 {
         1.0
     }
 
-    fn cross(&self, _: &(), t: f64, y: &mut [f64; 2], _: &Crossed) -> Reset<()> {
+    fn cross(&self, _: &(), t: f64, y: &mut [f64; 2], _: &Triggered) -> Reset<()> {
         let [height, speed] = self.table(t);
         *y = [height, (1.0 + E) * speed - E * y[1]];
         Reset { modes: (), impact: None }

@@ -4,7 +4,7 @@
 use super::system::System;
 use fmu_harness::dynamics::Flow;
 use fmu_harness::dynamics::lyapunov::Probe;
-use slidercrank::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Problem, Reset};
+use slidercrank::integrator::{Triggered, Extent, MAX_EVENTS, EventFunction, Jacobian, Problem, Reset};
 
 struct Lorenz;
 
@@ -37,13 +37,13 @@ impl Problem<3> for Lorenz {
         0
     }
 
-    fn guards(&self, _: &(), _: f64, _: &[f64; 3], _: &mut [Guard; GUARDS]) {}
+    fn guards(&self, _: &(), _: f64, _: &[f64; 3], _: &mut EventFunctions) {}
 
     fn guard_scale(&self) -> f64 {
         1.0
     }
 
-    fn cross(&self, _: &(), _: f64, _: &mut [f64; 3], _: &Crossed) -> Reset<()> {
+    fn cross(&self, _: &(), _: f64, _: &mut [f64; 3], _: &Triggered) -> Reset<()> {
         unreachable!("there are no guards");
     }
 }

@@ -1,32 +1,166 @@
-//! `verner7`, and `rodas4` where the motion is stiff; `cong8` where it is not at all, if the mechanism suits it.
+//! `verner7`, and `rodas4` where the motion is stiff; `cong8`, which makes its steps as blocks, where it is not at all, if
+//! the system suits it; see [`StiffnessSwitch`].
 
-use super::rodas4::Rodas;
-use super::verner7::Verner7;
-use crate::integrator::switching::{Pair, Switching};
+use super::block::Cong8;
+use super::explicit::Explicit;
+use super::rodas4::RODAS4;
+use super::rosenbrock::Rosenbrock;
+use super::stiffness_switch::{StiffnessSwitch, fastest};
+use super::verner7::VERNER7;
+use crate::integrator::method::{Advice, Attempt, Method, MethodKind, Properties};
+use crate::integrator::snapshot::{Reader, Snapshot};
+use crate::integrator::state::StepPoint;
+use crate::integrator::system::System;
+
+/// The product of step and rate from which on the explicit method is unstable: in the left half plane, |R(z)| passes 1
+/// between |z| = 4.44 (at 110° from the positive axis) and 4.75.
+const BOUND: f64 = 4.4;
 
 /// The order-7 pair that changes to the L-stable order-4 pair in stiff motion, and to steps in blocks where they pay.
-pub type Automatic = Switching<VernerRodas>;
+#[derive(Clone, Debug)]
+pub struct Automatic {
+    kind: MethodKind,
+    switch: StiffnessSwitch,
+    block: Cong8,
+    /// Where the motion is not stiff; its last two stages are at the step's end.
+    explicit: Explicit,
+    /// Where it is.
+    implicit: Rosenbrock,
+    /// By kind.
+    properties: [Properties; 3],
+}
 
-/// Its two methods.
-#[derive(Clone, Copy, Debug)]
-pub struct VernerRodas;
+impl Automatic {
+    /// For so many states.
+    pub fn new(states: usize) -> Self {
+        let block = Cong8::new(states);
+        let (explicit, implicit) = (Explicit::new(&VERNER7, states), Rosenbrock::new(&RODAS4, states));
+        let with = |properties: &Properties, others: &'static [MethodKind]| Properties {
+            name: "automatic",
+            others,
+            ..*properties
+        };
+        let implicit_properties = with(implicit.properties(), &[MethodKind::Explicit, MethodKind::Block]);
+        let properties = [
+            with(Method::<()>::properties(&block), &[MethodKind::Explicit, MethodKind::Implicit]),
+            with(explicit.properties(), &[MethodKind::Implicit, MethodKind::Block]),
+            // The errors of steps in stiff motion fade.
+            Properties { error_share: 1.0, ..implicit_properties },
+        ];
+        let switch = StiffnessSwitch::LOOSE;
+        Self { kind: switch.kind, switch, block, explicit, implicit, properties }
+    }
+}
 
-impl Pair for VernerRodas {
-    const NAME: &'static str = "automatic";
-    type Loose = Verner7;
-    type Stiff = Rodas;
-    /// In the left half plane, |R(z)| passes 1 between |z| = 4.44 (at 110° from the positive axis) and 4.75.
-    const BOUND: f64 = 4.4;
+impl<D: Copy> Method<D> for Automatic {
+    fn properties(&self) -> &Properties {
+        &self.properties[self.kind as usize]
+    }
+
+    fn begin(&mut self, system: &dyn System<Discrete = D>) {
+        self.switch = if system.suits_blocks() { StiffnessSwitch::IN_BLOCKS } else { StiffnessSwitch::LOOSE };
+        self.kind = self.switch.kind;
+        Method::<D>::forget(&mut self.block);
+    }
+
+    fn attempt(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        h: f64,
+        end: &mut StepPoint<D>,
+        attempt: &mut Attempt,
+    ) -> u64 {
+        match self.kind {
+            MethodKind::Block => self.block.attempt(system, start, h, end, attempt),
+            MethodKind::Explicit => self.explicit.attempt(system, start, h, end, attempt),
+            MethodKind::Implicit => self.implicit.attempt(system, start, h, end, attempt),
+        }
+    }
+
+    fn remember(&mut self, start: &StepPoint<D>, end: f64) {
+        self.block.remember(start, end);
+    }
+
+    fn forget(&mut self) {
+        Method::<D>::forget(&mut self.block);
+    }
+
+    fn accepted(&mut self, system: &dyn System<Discrete = D>, start: &StepPoint<D>, end: &StepPoint<D>) -> Advice {
+        let Self { kind, switch, explicit, implicit, .. } = self;
+        let (h, extent, scales) = (end.t - start.t, system.extent(), system.scales());
+        let mut advice = Advice::NONE;
+        match kind {
+            MethodKind::Block => switch.after_block(h, || {
+                system.jacobian(&end.discrete, end.t, &end.y, implicit.jacobian());
+                advice.evaluations += 1;
+                fastest(implicit.jacobian(), extent, scales)
+            }),
+            MethodKind::Explicit if system.suits_blocks() => {
+                switch.after_explicit_beside_blocks(h, BOUND, || explicit.stiffness(extent, scales));
+            }
+            MethodKind::Explicit => switch.after_explicit(BOUND, || explicit.stiffness(extent, scales)),
+            MethodKind::Implicit => {
+                let fastest = fastest(implicit.jacobian(), extent, scales);
+                if let Some(longest) = switch.after_implicit(h, BOUND, fastest, extent.positions) {
+                    advice.longest_step = longest;
+                }
+            }
+        }
+        advice
+    }
+
+    fn kind(&self) -> MethodKind {
+        self.kind
+    }
+
+    fn set_kind(&mut self, kind: MethodKind) {
+        self.kind = kind;
+    }
+
+    fn next_kind(&self) -> MethodKind {
+        self.switch.kind
+    }
+
+    fn hand_over(&mut self) {
+        self.switch.hand_over(self.kind);
+    }
+
+    fn save(&self, snapshot: &mut Snapshot) {
+        let StiffnessSwitch { kind, steps, patience, unpaid, block } = self.switch;
+        snapshot.reals.push(block);
+        snapshot.integers.extend([self.kind as u64, kind as u64]);
+        snapshot.integers.extend([steps, patience, unpaid].map(u64::from));
+        Method::<D>::save(&self.block, snapshot);
+    }
+
+    fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        let block = reader.real()?;
+        self.kind = read_kind(reader)?;
+        self.switch = StiffnessSwitch {
+            kind: read_kind(reader)?,
+            steps: reader.integer()?.try_into().ok()?,
+            patience: reader.integer()?.try_into().ok()?,
+            unpaid: reader.integer()?.try_into().ok()?,
+            block,
+        };
+        Method::<D>::load(&mut self.block, reader)?;
+        self.switch.is_sound().then_some(())
+    }
+}
+
+fn read_kind(reader: &mut Reader<'_>) -> Option<MethodKind> {
+    let place = usize::try_from(reader.integer()?).ok()?;
+    MethodKind::ALL.get(place).copied()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrator::tableau::Explicit;
 
     /// |R(z)|: by how much a step multiplies the solution of ẏ = λ·y, for z = hλ.
     fn growth([re, im]: [f64; 2]) -> f64 {
-        let method = Verner7::TABLEAU;
+        let method = &VERNER7;
         let times = |x: [f64; 2]| [re * x[0] - im * x[1], re * x[1] + im * x[0]];
         let mut k = vec![];
         let sum = |weights: &[f64], k: &[[f64; 2]]| {
@@ -46,9 +180,9 @@ mod tests {
         for degrees in (95..=180).step_by(5) {
             let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
             let at = |size: f64| growth([size * cos, size * sin]);
-            let within = (1..=44).map(|part| at(VernerRodas::BOUND * f64::from(part) / 44.0)).fold(0.0, f64::max);
+            let within = (1..=44).map(|part| at(BOUND * f64::from(part) / 44.0)).fold(0.0, f64::max);
             assert!(within <= 1.0, "{within} at {degrees}°");
-            assert!(at(1.09 * VernerRodas::BOUND) > 1.0, "at {degrees}°");
+            assert!(at(1.09 * BOUND) > 1.0, "at {degrees}°");
         }
     }
 }

@@ -1,20 +1,46 @@
 //! One method a file: coefficients as printed, and where they are printed.
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
-mod automatic;
+pub mod automatic;
+pub mod block;
 mod bs3;
-mod cong8;
 mod dop853;
 mod dopri5;
+pub mod explicit;
+mod linear;
+pub mod moreau;
 mod rk4;
 mod rodas4;
+pub mod rosenbrock;
+mod stiffness_switch;
 mod verner7;
 
-pub use automatic::Automatic;
-pub use bs3::Bs3;
-pub use cong8::Cong8;
-pub use dop853::Dop853;
-pub use dopri5::Dopri5;
-pub use rk4::{Rk4, Rk4Unlocated};
-pub use rodas4::Rodas4;
-pub use verner7::Verner7;
+pub use bs3::BS3;
+pub use dop853::DOP853;
+pub use dopri5::DOPRI5;
+pub use rk4::{RK4, RK4_UNLOCATED};
+pub use rodas4::RODAS4;
+pub use verner7::VERNER7;
+
+use super::method::Method;
+use super::tableau::Tableau;
+use automatic::Automatic;
+use block::Cong8;
+use explicit::Explicit;
+use rosenbrock::Rosenbrock;
+
+/// All explicit Runge-Kutta methods.
+pub static EXPLICIT: [&Tableau; 6] = [&BS3, &DOPRI5, &VERNER7, &DOP853, &RK4, &RK4_UNLOCATED];
+
+/// The method of this name in the `solver.method` enumeration, for so many states.
+pub fn named<D: Copy + 'static>(name: &str, states: usize) -> Option<Box<dyn Method<D>>> {
+    if let Some(tableau) = EXPLICIT.into_iter().find(|tableau| tableau.name == name) {
+        return Some(Box::new(Explicit::new(tableau, states)));
+    }
+    match name {
+        "automatic" => Some(Box::new(Automatic::new(states))),
+        "cong8" => Some(Box::new(Cong8::new(states))),
+        "rodas4" => Some(Box::new(Rosenbrock::new(&RODAS4, states))),
+        _ => None,
+    }
+}

@@ -20,7 +20,7 @@ pub use elastic::{Elastic, ElasticLaw, PowerLaw};
 pub use linear::Linear;
 
 use super::friction::{Friction, Rubbing};
-use crate::integrator::Kinks;
+use crate::integrator::Discontinuities;
 use crate::math::{self, Real};
 use crate::scene;
 
@@ -170,7 +170,7 @@ impl ContactParameters {
     /// Adds the kinks of the force in the closed contact of memory `mode`, whose penetration grows at `rate` [m/s] and
     /// whose surfaces slide at `sliding` [m/s]: where s reaches its limit, where the force is cut off at 0, where the
     /// friction law has corners.
-    pub fn kinks(&self, mode: &ContactMode, rate: f64, sliding: f64, kinks: &mut Kinks) {
+    pub fn kinks(&self, mode: &ContactMode, rate: f64, sliding: f64, kinks: &mut Discontinuities) {
         if self.damping > 0.0 {
             kinks.push(rate + mode.approach / self.damping);
             if self.ratio_limit.is_finite() {

@@ -22,16 +22,18 @@ use super::contact::Account;
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
-use super::plant::Plant;
+use super::plant::{Plant, ROOM};
 use super::rod::{Rod, most_functions};
 use super::scalar::Tangent;
 use super::scales::Scale;
+use super::stages::in_registers;
 use super::start::StartPose;
 use super::state::{CONTACTS, Contacts, Instant, Pose};
 use super::structure::{CRANK, Topology};
-use crate::integrator::stages::in_registers;
-use crate::integrator::{Crossed, Extent, GUARDS, Guard, Jacobian, Kinks, Problem, ROOM, Reset, by_halves};
-use crate::integrator::{STAGES, Tableau, Unilateral};
+use crate::integrator::{
+    Discontinuities, EventFunctions, Events, Extent, Jacobian, Linearizable, Ode, Reset, SeveralInstants, Tableau,
+    Triggered, Unilateral,
+};
 use crate::math::{Real, Row};
 use crate::scene::Scene;
 use assembly::Assembly;
@@ -43,7 +45,7 @@ use written::Stages;
 #[derive(Clone, Debug)]
 pub struct Flexible<const N: usize, const S: usize, const K: usize, const F: usize> {
     all: Assembly<S, K, F>,
-    stages: Option<Stages<Assembly<S, K, F>, N>>,
+    stages: Option<Stages<Assembly<S, K, F>>>,
     suits_blocks: bool,
     scales: [f64; N],
     longest_step: f64,
@@ -89,53 +91,69 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Flexible<N,
             *scale = deflection;
         }
         let topology = frame.structure.topology;
-        let stages = written::stages(topology, all.modes.counts);
+        let stages = written::stages::<N, S, K, F>(topology, all.modes.counts);
         let (_, row) = written::rates::<S, K, F>(topology, all.modes.counts);
         let suits_blocks = topology.has_one_play_in_a_pin() && row.is_some() && extent.is_second_order();
         Self { all, stages, suits_blocks, scales, longest_step: scale.longest_step, guard_scale: scale.length }
     }
 }
 
-impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> for Flexible<N, S, K, F> {
-    type Modes = Contacts;
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Ode for Flexible<N, S, K, F> {
+    type Discrete = Contacts;
 
     fn extent(&self) -> Extent {
         self.all.extent()
     }
 
-    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
+    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         (self.all.functions.rates)(&self.all, contacts, t, y, rates);
     }
 
-    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
-        by_halves(t, y, rates, |t, y, rates| (self.all.functions.row)(&self.all, contacts, t, y, rates));
-    }
-
-    fn suits_blocks(&self) -> bool {
-        self.suits_blocks
-    }
-
-    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
+    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
         match self.stages {
             Some(stages) => stages(&self.all, tableau, contacts, t, y, h, k),
-            None => in_registers(tableau, t, y, h, k, |t, y, rates| self.rates(contacts, t, y, rates)),
+            None => in_registers::<N>(tableau, t, y, h, k, |t, y, rates| self.rates(contacts, t, y, rates)),
         }
     }
 
-    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
-        let Extent { states, .. } = self.all.extent();
-        differentiate(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
-    }
-
-    fn scales(&self) -> &[f64; N] {
+    fn scales(&self) -> &[f64] {
         &self.scales
     }
 
     fn longest_step(&self) -> f64 {
         self.longest_step
     }
+}
 
-    fn guard_count(&self) -> usize {
+impl<const N: usize, const S: usize, const K: usize, const F: usize> SeveralInstants for Flexible<N, S, K, F> {
+    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row], rates: &mut [Row]) {
+        let n = y.len();
+        let (mut own, mut found) = ([Row::<1>::ZERO; N], [Row::<1>::ZERO; N]);
+        for half in [0, 1] {
+            for (own, all) in own.iter_mut().zip(y) {
+                *own = all.half(half);
+            }
+            (self.all.functions.row)(&self.all, contacts, t.half(half), &own[..n], &mut found[..n]);
+            for (rate, found) in rates.iter_mut().zip(&found) {
+                rate.set_half(half, *found);
+            }
+        }
+    }
+
+    fn suits_blocks(&self) -> bool {
+        self.suits_blocks
+    }
+}
+
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Linearizable for Flexible<N, S, K, F> {
+    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
+        let Extent { states, .. } = self.all.extent();
+        differentiate::<N>(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
+    }
+}
+
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Events for Flexible<N, S, K, F> {
+    fn event_count(&self) -> usize {
         if self.all.frame().structure.topology.is_closed() {
             1
         } else {
@@ -143,34 +161,34 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
         }
     }
 
-    fn guards(&self, contacts: &Contacts, t: f64, y: &[f64; N], guards: &mut [Guard; GUARDS]) {
+    fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
         if self.all.frame().structure.topology.is_closed() {
-            guards[0] = self.all.change_point(t, y);
+            functions[0] = self.all.change_point(t, y);
         } else {
-            self.all.clearances.guards(self.all.frame().structure.play, contacts, &self.all.pose(t, y), guards);
+            self.all.clearances.guards(self.all.frame().structure.play, contacts, &self.all.pose(t, y), functions);
         }
     }
 
-    fn rates_and_guards(
+    fn rates_and_event_functions(
         &self,
         contacts: &Contacts,
         t: f64,
-        y: &[f64; N],
-        rates: &mut [f64; N],
-        guards: &mut [Guard; GUARDS],
+        y: &[f64],
+        rates: &mut [f64],
+        functions: &mut EventFunctions,
     ) {
-        (self.all.functions.ends)(&self.all, contacts, t, y, rates, guards);
+        (self.all.functions.ends)(&self.all, contacts, t, y, rates, functions);
     }
 
     fn is_dead_end(&self, _: usize) -> bool {
         self.all.frame().structure.topology.is_closed()
     }
 
-    fn kinks(&self, contacts: &Contacts, t: f64, y: &[f64; N], kinks: &mut Kinks) {
-        self.all.clearances.kinks(self.all.frame().structure.play, contacts, &self.all.pose(t, y), kinks);
+    fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
+        self.all.clearances.kinks(self.all.frame().structure.play, contacts, &self.all.pose(t, y), functions);
     }
 
-    fn guard_scale(&self) -> f64 {
+    fn event_scale(&self) -> f64 {
         if self.all.frame().structure.topology.is_closed() {
             IdealMechanism::CHANGE_POINT_SCALE
         } else {
@@ -178,36 +196,34 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Problem<N> 
         }
     }
 
-    fn cross(&self, contacts: &Contacts, t: f64, y: &mut [f64; N], crossed: &Crossed) -> Reset<Contacts> {
+    fn reset(&self, contacts: &Contacts, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Contacts> {
         let pose = self.all.pose(t, y);
         let bristles = &mut y[2 * self.all.positions..];
-        self.all.clearances.cross(self.all.frame().structure.play, contacts, &pose, crossed, bristles)
+        self.all.clearances.cross(self.all.frame().structure.play, contacts, &pose, triggered, bristles)
     }
 }
 
-impl<const N: usize, const S: usize, const K: usize, const F: usize> Unilateral<N> for Flexible<N, S, K, F> {}
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Unilateral for Flexible<N, S, K, F> {}
 
-impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> for Flexible<N, S, K, F> {
-    fn start(&self, pose: &StartPose) -> [f64; N] {
+impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant for Flexible<N, S, K, F> {
+    fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
         let structure = self.all.frame().structure;
         let p = self.all.positions;
-        let mut y = [0.0; N];
         let (positions, rates) = y[..2 * p].split_at_mut(p);
         if self.all.frame().structure.topology.is_closed() {
             if let (Some(angle), Some(speed)) = (structure.angle(CRANK), structure.angle(CRANK)) {
                 (positions[angle], rates[speed]) = (pose.angle[CRANK], pose.speed[CRANK]);
             }
-            return y;
+            return;
         }
         for (centres, angles, list) in [(&pose.place, &pose.angle, positions), (&pose.velocity, &pose.speed, rates)] {
             let roots = super::kinematics::Roots { crank: centres.crank, rod: centres.big_end, slider: centres.pin };
             structure.set_roots(&roots, list);
             structure.set_angles(*angles, list);
         }
-        y
     }
 
-    fn start_contacts(&self, t: f64, y: &[f64; N]) -> Contacts {
+    fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts {
         self.all.clearances.start(self.all.frame().structure.play, &self.all.pose(t, y))
     }
 
@@ -227,11 +243,11 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
         self.all.geometry.rotor.start_time = time;
     }
 
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64; N]) -> Instant {
-        self.rates_and_instant(contacts, t, y, &mut [0.0; N])
+    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant {
+        self.rates_and_instant(contacts, t, y, &mut [0.0; N][..y.len()])
     }
 
-    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) -> Instant {
+    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
         (self.all.functions.instant)(&self.all, contacts, t, y, rates)
     }
 
@@ -239,23 +255,19 @@ impl<const N: usize, const S: usize, const K: usize, const F: usize> Plant<N> fo
         self.all.clearances.depths(self.all.frame().structure.play, pose)
     }
 
-    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64; N]) -> Account {
+    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> Account {
         self.all.clearances.account(self.all.frame().structure.play, contacts, pose, &y[2 * self.all.positions..])
     }
 
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent; N], rates: &mut [Tangent; N]) {
+    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         self.all.tangent_motion(contacts, t, y, rates);
     }
 
-    fn tangent_instant(
-        &self,
-        contacts: &Contacts,
-        t: Tangent,
-        y: &[Tangent; N],
-    ) -> (Instant<Tangent>, Account<Tangent>) {
+    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
         let mut rates = [Tangent::ZERO; N];
-        let motion = self.all.tangent_motion(contacts, t, y, &mut rates);
-        let instant = self.all.instant_of(self.all.frame(), motion, y, &rates);
+        let rates = &mut rates[..y.len()];
+        let motion = self.all.tangent_motion(contacts, t, y, rates);
+        let instant = self.all.instant_of(self.all.frame(), motion, y, rates);
         let bristles = &y[2 * self.all.positions..];
         let account = self.all.clearances.account(self.all.frame().structure.play, contacts, &instant.pose, bristles);
         (instant, account)

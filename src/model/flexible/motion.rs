@@ -7,7 +7,7 @@ use super::chain::{Frame, PLACES};
 use super::configuration::{Configuration, Geometry};
 use super::equations::{Equations, Moving, Places};
 use super::written;
-use crate::integrator::{GUARDS, Guard};
+use crate::integrator::{EventFunction, EventFunctions};
 use crate::math::{Row, each};
 use crate::model::drive::{add_viscous, viscous_guide};
 use crate::model::dynamics::Loads;
@@ -25,7 +25,7 @@ pub type Rates<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64]);
 /// Writes the rates of four states.
 pub type RatesInRow<M> = fn(&M, &Contacts, Row<1>, &[Row<1>], &mut [Row<1>]);
 
-type Ends<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
+type Ends<M> = fn(&M, &Contacts, f64, &[f64], &mut [f64], &mut EventFunctions);
 
 /// The motion in plain numbers, compiled for its frame.
 #[derive(Clone, Copy, Debug)]
@@ -133,7 +133,7 @@ impl<const S: usize, const K: usize, const F: usize> Assembly<S, K, F> {
     }
 
     /// The event at which the rod, closed in a loop of ideal joints, stands across the guide.
-    pub(super) fn change_point(&self, t: f64, y: &[f64]) -> Guard {
+    pub(super) fn change_point(&self, t: f64, y: &[f64]) -> EventFunction {
         let Geometry { frame, rotor, ideal, .. } = &self.geometry;
         let (eta, rate) = self.modal(*frame, y);
         let chord = self.modes.shape_of::<f64, Any>(eta, rate).chord;

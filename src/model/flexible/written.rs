@@ -1,22 +1,22 @@
 //! The motion of a mechanism with few modes, compiled in one piece for its topology and its numbers of modes.
 //!
 //! What the parts hand each other then stays in registers, and nothing is left of loops over modes. That is for the loop
-//! over a step's stages, where nearly all of the time goes; see [`Problem::stages`](crate::integrator::Problem::stages).
+//! over a step's stages, where nearly all of the time goes; see [`Ode::stages`](crate::integrator::Ode::stages).
 //! Of a mechanism of more states than that loop has registers for, the rates are compiled so, for the usual numbers of
 //! modes alone: such a function takes the compiler most of a second.
 
 use super::assembly::Assembly;
 use super::chain::Frame;
 use super::motion::{Rates, RatesInRow, by_topology};
-use crate::integrator::stages::{IN_REGISTERS, in_registers};
-use crate::integrator::{STAGES, Tableau};
+use crate::integrator::Tableau;
 use crate::math::Row;
 use crate::model::rod::{Counted, Counts, Exactly, FEW_MODES};
+use crate::model::stages::{IN_REGISTERS, in_registers};
 use crate::model::state::Contacts;
 use crate::model::structure::Topology;
 
-/// See [`Problem::stages`](crate::integrator::Problem::stages).
-pub type Stages<M, const N: usize> = fn(&M, &Tableau, &Contacts, f64, &[f64; N], f64, &mut [[f64; N]; STAGES]);
+/// See [`Ode::stages`](crate::integrator::Ode::stages).
+pub type Stages<M> = fn(&M, &Tableau, &Contacts, f64, &[f64], f64, &mut [f64]) -> bool;
 
 /// `with_counts!(counts in (…)…, Own => work)` does `work` with `Own` the [`Exactly`] of `counts`, of those listed, bending
 /// and axial modes, and makes `None` of others.
@@ -41,7 +41,7 @@ const fn states<C: Counted>(frame: Frame) -> usize {
 pub fn stages<const N: usize, const S: usize, const K: usize, const F: usize>(
     topology: Topology,
     counts: Counts,
-) -> Option<Stages<Assembly<S, K, F>, N>> {
+) -> Option<Stages<Assembly<S, K, F>>> {
     if const { N > IN_REGISTERS || K > FEW_MODES } {
         return None;
     }
@@ -52,9 +52,9 @@ pub fn stages<const N: usize, const S: usize, const K: usize, const F: usize>(
             with_counts!(counts in (1 0) (2 0) (3 0) (3 1), Own => {
                 if const { N == states::<Own>(FRAME) } {
                     Some(|all, tableau, contacts, t, y, h, k| {
-                        in_registers(tableau, t, y, h, k, #[inline(always)] |t, y, rates| {
+                        in_registers::<N>(tableau, t, y, h, k, #[inline(always)] |t, y, rates| {
                             all.motion_of::<f64, { FRAME.places() }, Own>(FRAME, contacts, t, y, rates);
-                        });
+                        })
                     })
                 } else {
                     None

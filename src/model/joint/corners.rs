@@ -2,7 +2,7 @@
 
 use super::guide::{CORNERS, Guide, SliderPose, Surface};
 use super::revolute::guard;
-use crate::integrator::Guard;
+use crate::integrator::EventFunction;
 use crate::math::{Fused, Real};
 use crate::model::contact::ContactMode;
 use crate::model::plane::Vec2;
@@ -74,7 +74,7 @@ impl Surface for Corners {
         (depth, rate)
     }
 
-    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
+    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
         std::array::from_fn(|k| {
             let Touch { depth, rate, .. } = guide.corners[k].touch(pose);
             guard(&modes[k], depth, rate)

@@ -10,7 +10,7 @@
 
 use super::corners::Touch;
 use super::guide::{CORNERS, Guide, SliderPose, Surface};
-use crate::integrator::Guard;
+use crate::integrator::EventFunction;
 use crate::math::{self, Real};
 use crate::model::contact::{ContactMode, compliance};
 use crate::model::plane::Vec2;
@@ -142,15 +142,15 @@ impl Surface for Faces {
 
     /// An open face closes with either of its corners and has a guard for each; a closed one opens
     /// with the deeper one.
-    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
-        let mut guards = [Guard { value: 1.0, rate: 0.0 }; CORNERS];
+    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
+        let mut guards = [EventFunction { value: 1.0, rate: 0.0 }; CORNERS];
         for (face, pair) in guards.chunks_exact_mut(2).enumerate() {
-            let [front, rear] = Self::ends(guide, face, pose).map(|end| Guard { value: end.depth, rate: end.rate });
+            let [front, rear] = Self::ends(guide, face, pose).map(|end| EventFunction { value: end.depth, rate: end.rate });
             if modes[face].closed {
                 let front_is_deeper = (front.value, front.rate) > (rear.value, rear.rate);
                 pair[0] = if front_is_deeper { front } else { rear };
             } else {
-                pair.copy_from_slice(&[front, rear].map(|end| Guard { value: -end.value, rate: -end.rate }));
+                pair.copy_from_slice(&[front, rear].map(|end| EventFunction { value: -end.value, rate: -end.rate }));
             }
         }
         guards

@@ -7,7 +7,7 @@
 
 use super::corners::{Corners, Mark, Touch};
 use super::foundation::{self, Faces};
-use crate::integrator::{Crossed, Guard, Kinks};
+use crate::integrator::{Triggered, EventFunction, Discontinuities};
 use crate::math::Real;
 use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces, Hertz, Linear};
 use crate::model::plane::{Rotation, Vec2, cross};
@@ -51,7 +51,7 @@ pub(super) trait Surface {
     /// [m], [m/s] Greatest penetration in contact `k`, and the approach speed if it closes now.
     fn approach(guide: &Guide, k: usize, pose: &SliderPose) -> (f64, f64);
     /// The events at which contacts change, each at the place of a corner.
-    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS];
+    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS];
     /// [J] Elastic energy of contact `k`.
     fn energy<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> R;
 }
@@ -172,12 +172,12 @@ impl Guide {
     }
 
     /// The events at which the contacts change.
-    pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [Guard; CORNERS] {
+    pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
         of_surface!(self, S => S::guards(self, modes, pose))
     }
 
     /// Adds the kinks of the closed contacts' forces.
-    pub fn kinks(&self, modes: &[ContactMode], pose: &SliderPose, kinks: &mut Kinks) {
+    pub fn kinks(&self, modes: &[ContactMode], pose: &SliderPose, kinks: &mut Discontinuities) {
         for (k, mode) in modes.iter().enumerate().filter(|(_, mode)| mode.closed) {
             let Touch { rate, sliding, .. } = of_surface!(self, S => S::touch(self, k, pose));
             self.contact.kinks(mode, rate, sliding, kinks);
@@ -185,7 +185,7 @@ impl Guide {
     }
 
     /// Which of the joints' and the guide's contacts change when these guards have fallen.
-    pub fn contacts_of(&self, crossed: &Crossed) -> Crossed {
+    pub fn contacts_of(&self, crossed: &Triggered) -> Triggered {
         let mut contacts = *crossed;
         contacts[3..].fill(false);
         for (corner, contact) in contact_of_corner(self.surface).into_iter().enumerate() {

@@ -4,7 +4,7 @@
 //! contact force at the one point P + R_b·n. The journal's material speed there against the bearing's
 //! is v_t = ė·t + (R_b − ε)·ω_journal − R_b·ω_bearing: force times this speed is the power lost.
 
-use crate::integrator::{Guard, Kinks};
+use crate::integrator::{EventFunction, Discontinuities};
 use crate::math::Real;
 use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces};
 use crate::model::friction::Friction;
@@ -88,12 +88,12 @@ impl Revolute {
 
     /// The event at which the contact changes: closing when open, opening when closed.
     #[inline(always)]
-    pub fn guard(&self, mode: &ContactMode, play: &Play) -> Guard {
+    pub fn guard(&self, mode: &ContactMode, play: &Play) -> EventFunction {
         guard(mode, self.penetration(play), self.penetration_rate(play))
     }
 
     /// Adds the kinks of the closed contact's force.
-    pub fn kinks(&self, mode: &ContactMode, play: &Play, kinks: &mut Kinks) {
+    pub fn kinks(&self, mode: &ContactMode, play: &Play, kinks: &mut Discontinuities) {
         let epsilon = play.eccentricity.norm().max(f64::MIN_POSITIVE);
         let n = play.eccentricity / epsilon;
         self.contact.kinks(mode, play.rate.dot(n), self.sliding(play, epsilon, perp(n)), kinks);
@@ -141,6 +141,6 @@ impl Revolute {
 
 /// −δ of an open contact, δ of a closed one.
 #[inline(always)]
-pub fn guard(mode: &ContactMode, depth: f64, rate: f64) -> Guard {
-    if mode.closed { Guard { value: depth, rate } } else { Guard { value: -depth, rate: -rate } }
+pub fn guard(mode: &ContactMode, depth: f64, rate: f64) -> EventFunction {
+    if mode.closed { EventFunction { value: depth, rate } } else { EventFunction { value: -depth, rate: -rate } }
 }

@@ -18,13 +18,28 @@
 //! The rates at eight states together take little more time than at two: a single state leaves the processor waiting
 //! for its own results.
 
-use super::controller::is_kept;
-use super::memory::Front;
-use super::nodes::{AHEAD, INTEGRALS, MONOMIALS, NODES, POWERS, TOP, Tables};
-use super::problem::{Extent, Problem};
-use super::stages::Attempt;
-use crate::math::{Fused, ROW, Real, Row, each};
+mod nodes;
 
+use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
+use crate::integrator::snapshot::{Reader, Snapshot};
+use crate::integrator::state::{StepPoint, is_kept};
+use crate::integrator::system::{Extent, System};
+use crate::math::{Fused, ROW, Real, Row, each};
+use nodes::{AHEAD, INTEGRALS, MONOMIALS, NODES, POWERS, TOP, Tables};
+
+const PROPERTIES: Properties = Properties {
+    name: "cong8",
+    order: 9,
+    adaptive: true,
+    coarse: false,
+    locates: true,
+    error_power: 12.0,
+    interpolates: true,
+    gives_end: true,
+    predicts: true,
+    error_share: ERROR_SHARE,
+    others: &[],
+};
 /// Rounds after the prediction, where there is a step to predict from, and where there is none.
 const ROUNDS: usize = 3;
 const FIRST_ROUNDS: usize = 5;
@@ -39,30 +54,26 @@ const LATE: [f64; 2] = [1.0 / 32.0, 1.0 / 288.0];
 const BENT: f64 = 0.02;
 
 /// The rates in a step that was made so, or in an attempt that failed: what the next one is predicted from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Past<const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+struct BlockHistory {
     /// [s] When the step began.
-    pub begin: f64,
+    begin: f64,
     /// [s] When it ended; as `begin` where there is none.
-    pub end: f64,
+    end: f64,
     /// Rates at its start.
-    pub start: [f64; N],
+    start: Vec<f64>,
     /// Rates at its nodes.
-    pub nodes: [Row; N],
+    nodes: Vec<Row>,
 }
 
-impl<const N: usize> Past<N> {
-    /// None.
-    pub const NONE: Self = Self { begin: 0.0, end: 0.0, start: [0.0; N], nodes: [Row::ZERO; N] };
-
-    /// There is one.
-    pub fn is_some(&self) -> bool {
-        self.end > self.begin
+impl BlockHistory {
+    fn new(states: usize) -> Self {
+        Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![Row::<2>::ZERO; states] }
     }
 
-    /// Forgets it.
-    pub fn forget(&mut self) {
-        self.end = self.begin;
+    /// There is one.
+    fn is_some(&self) -> bool {
+        self.end > self.begin
     }
 
     /// Where in it a step of `h` from `t` begins: at its start (0) or its end (1).
@@ -77,21 +88,47 @@ impl<const N: usize> Past<N> {
         }
     }
 
-    /// Whether a run at `time` can have come to this.
-    pub fn is_sound(&self, extent: Extent) -> bool {
-        self.begin <= self.end && self.start.iter().take(extent.states).all(|rate| is_kept(*rate))
+    /// Coefficients of the polynomial of rate `i` about the `origin` of a step that is `ratio` times as long, in powers of
+    /// its share: of 1, and of those from the first on.
+    #[inline(always)]
+    fn coefficients(&self, origin: usize, powers: Row, i: usize) -> (f64, Row) {
+        let (first, at) = (self.start[i], self.nodes[i].numbers());
+        let columns = &POWERS[origin];
+        let mut sums = [columns[0] * first, Row::ZERO];
+        each!(true, j < ROW => {
+            sums[j % 2] = columns[1 + j].times_plus(at[j], sums[j % 2]);
+        });
+        (if origin == 0 { first } else { at[ROW - 1] }, (sums[0] + sums[1]) * powers)
+    }
+}
+
+/// The method of eight nodes at a time.
+#[derive(Clone, Debug)]
+pub struct Cong8 {
+    history: BlockHistory,
+    /// Rates at the nodes of the last attempt.
+    nodes: Vec<Row>,
+    /// States there.
+    y: Vec<Row>,
+}
+
+impl Cong8 {
+    /// For so many states.
+    pub fn new(states: usize) -> Self {
+        let rows = || vec![Row::<2>::ZERO; states];
+        Self { history: BlockHistory::new(states), nodes: rows(), y: rows() }
     }
 }
 
 /// The states at a step's nodes, as they follow from accelerations.
-struct States<'a, const N: usize> {
-    start: &'a [f64; N],
+struct States<'a> {
+    start: &'a [f64],
     extent: Extent,
     h: f64,
-    y: [Row; N],
+    y: &'a mut [Row],
 }
 
-impl<const N: usize> States<'_, N> {
+impl States<'_> {
     /// From weights of columns for every velocity (and first-order state).
     #[inline(always)]
     fn follow(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, Row)) {
@@ -112,7 +149,7 @@ impl<const N: usize> States<'_, N> {
     }
 
     /// From rates that stay as they are at the start.
-    fn go_on(&mut self, rates: &[f64; N]) {
+    fn go_on(&mut self, rates: &[f64]) {
         let Extent { positions: p, states, .. } = self.extent;
         let [once, twice] = [MONOMIALS[0][0], MONOMIALS[1][0]];
         for (i, rate) in rates.iter().enumerate().take(states).skip(p) {
@@ -132,46 +169,40 @@ impl<const N: usize> States<'_, N> {
     }
 }
 
-impl<const N: usize> Past<N> {
-    /// Coefficients of the polynomial of rate `i` about the `origin` of a step that is `ratio` times as long, in powers of
-    /// its share: of 1, and of those from the first on.
-    #[inline(always)]
-    fn coefficients(&self, origin: usize, powers: Row, i: usize) -> (f64, Row) {
-        let (first, at) = (self.start[i], self.nodes[i].numbers());
-        let columns = &POWERS[origin];
-        let mut sums = [columns[0] * first, Row::ZERO];
-        each!(true, j < ROW => {
-            sums[j % 2] = columns[1 + j].times_plus(at[j], sums[j % 2]);
-        });
-        (if origin == 0 { first } else { at[ROW - 1] }, (sums[0] + sums[1]) * powers)
+impl<D: Copy> Method<D> for Cong8 {
+    fn properties(&self) -> &Properties {
+        &PROPERTIES
     }
-}
 
-impl<const N: usize> Attempt<N> {
-    /// Attempts a step of `h` from `start`, and tells how many evaluations of the rates it took.
+    fn kind(&self) -> MethodKind {
+        MethodKind::Block
+    }
+
     #[inline(never)]
-    pub fn in_block<P: Problem<N> + ?Sized>(
+    fn attempt(
         &mut self,
-        problem: &P,
-        start: &Front<N, P::Modes>,
-        past: &Past<N>,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
         h: f64,
+        end: &mut StepPoint<D>,
+        attempt: &mut Attempt,
     ) -> u64 {
-        let extent = Extent::of(problem);
+        let Self { history, nodes, y } = self;
+        let extent = system.extent();
         let Extent { positions: p, states, .. } = extent;
         let t = Row::of(NODES).times_plus(h, Row::constant(start.t));
-        let mut at_nodes = States { start: &start.y, extent, h, y: [Row::ZERO; N] };
-        let rounds = if let Some(origin) = past.origin(start.t, h) {
-            let ratio = h / (past.end - past.begin);
+        let mut at_nodes = States { start: &start.y, extent, h, y };
+        let rounds = if let Some(origin) = history.origin(start.t, h) {
+            let ratio = h / (history.end - history.begin);
             if origin == 1 && (ratio - 1.0).abs() < ROUNDING {
-                at_nodes.follow(&AHEAD, |i| (past.start[i], past.nodes[i]));
+                at_nodes.follow(&AHEAD, |i| (history.start[i], history.nodes[i]));
             } else {
                 let mut powers = [ratio; ROW];
                 each!(true, n in 1..ROW, ROW => {
                     powers[n] = powers[n - 1] * ratio;
                 });
                 let powers = Row::of(powers);
-                at_nodes.follow(&MONOMIALS, |i| past.coefficients(origin, powers, i));
+                at_nodes.follow(&MONOMIALS, |i| history.coefficients(origin, powers, i));
             }
             ROUNDS
         } else {
@@ -179,24 +210,58 @@ impl<const N: usize> Attempt<N> {
             FIRST_ROUNDS
         };
         for _ in 0..rounds {
-            problem.rates_in_row(&start.modes, &t, &at_nodes.y, &mut self.nodes);
-            at_nodes.follow(&INTEGRALS, |i| (start.rates[i], self.nodes[i]));
+            system.rates_in_row(&start.discrete, &t, at_nodes.y, nodes);
+            at_nodes.follow(&INTEGRALS, |i| (start.rates[i], nodes[i]));
         }
-        for (i, y) in at_nodes.y.iter().enumerate() {
-            self.y[i] = y.last();
+        for (y, at_nodes) in end.y.iter_mut().zip(&*at_nodes.y) {
+            *y = at_nodes.last();
         }
-        let Self { y, rates, guards, .. } = self;
-        problem.rates_and_guards(&start.modes, start.t + h, y, rates, guards);
+        let StepPoint { y, rates, .. } = end;
+        system.rates_and_event_functions(&start.discrete, start.t + h, y, rates, &mut attempt.events);
         for i in p..states {
-            let (first, at) = (start.rates[i], self.nodes[i]);
-            let late = (self.rates[i] - at.last()).abs();
+            let (first, at) = (start.rates[i], nodes[i]);
+            let late = (rates[i] - at.last()).abs();
             let top = BENT * TOP.0.times_plus(first, (TOP.1 * at).sum()).abs();
-            self.error[i] = h * (late * LATE[0] + top);
+            attempt.error[i] = h * (late * LATE[0] + top);
             if i < 2 * p {
-                self.error[i - p] = h * h * (late * LATE[1] + 0.3 * top);
+                attempt.error[i - p] = h * h * (late * LATE[1] + 0.3 * top);
             }
         }
-        self.unseen = [0.0; N];
+        attempt.unseen.fill(0.0);
         (ROW * rounds) as u64 + 1
+    }
+
+    fn remember(&mut self, start: &StepPoint<D>, end: f64) {
+        let Self { history, nodes, .. } = self;
+        (history.begin, history.end) = (start.t, end);
+        history.start.copy_from_slice(&start.rates);
+        std::mem::swap(&mut history.nodes, nodes);
+    }
+
+    fn forget(&mut self) {
+        self.history.end = self.history.begin;
+    }
+
+    fn save(&self, snapshot: &mut Snapshot) {
+        let BlockHistory { begin, end, start, nodes } = &self.history;
+        snapshot.integers.push(u64::from(self.history.is_some()));
+        if self.history.is_some() {
+            snapshot.reals.extend([begin, end]);
+            snapshot.reals.extend(start);
+            snapshot.reals.extend(nodes.iter().flat_map(|row| row.numbers()));
+        }
+    }
+
+    fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        let BlockHistory { begin, end, start, nodes } = &mut self.history;
+        (*begin, *end) = (0.0, 0.0);
+        if reader.integer()? != 0 {
+            [*begin, *end] = reader.reals()?;
+            reader.fill(start)?;
+            for row in nodes {
+                *row = Row::of(reader.reals()?);
+            }
+        }
+        (*begin <= *end && start.iter().all(|rate| is_kept(*rate))).then_some(())
     }
 }

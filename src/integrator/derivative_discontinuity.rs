@@ -1,15 +1,15 @@
-//! Where in a step that failed the rates have a kink.
+//! Where in a step that failed the rates have a derivative discontinuity: a kink.
 //!
 //! Past a kink the stages of a step follow another branch of the rates than those before it. The error estimate notices
 //! and the step fails, but it does not tell where: to halve steps towards a kink takes ten attempts. The functions that
-//! have their zeros there tell: one attempt then ends at the kink, and the next begins behind it. Kinks keep company: a
+//! have their zeros there tell: one attempt then ends at the kink, and the next begins behind it. Discontinuities keep company: a
 //! friction law has one at every corner, and sliding that turns round passes them all. So after a step that was cut at
 //! one, the next is looked for before anything has failed.
 //!
 //! Nothing but the length of a step follows from this. The rates keep their branches to themselves.
 
-use super::memory::Front;
-use super::problem::{GUARDS, Guard, Kinks, Problem};
+use super::state::StepPoint;
+use super::system::{Discontinuities, EventFunctions, MAX_STATES, System};
 
 /// [share of the step] How far the start is followed along its rates to see how the functions change.
 const AHEAD: f64 = 1e-6;
@@ -21,63 +21,68 @@ const WITHIN: std::ops::Range<f64> = 1e-5..0.96;
 const FAR: f64 = 0.1;
 const SHORT_OF: f64 = 0.95;
 /// A near kink, or an event, is passed by this factor of its share: a step that ends just before it gains nothing.
-const PAST_KINK: f64 = 1.01;
+const PAST_DISCONTINUITY: f64 = 1.01;
 const PAST_EVENT: f64 = 1.001;
 
-/// The share of an attempted step of `h` from `start`, where the guards are `guards`, to `end` at which a shorter one
-/// should end: at the first kink in it, or the first event.
-pub fn first<const N: usize, P: Problem<N> + ?Sized>(
-    problem: &P,
-    start: &Front<N, P::Modes>,
-    guards: &[Guard; GUARDS],
+/// The share of an attempted step of `h` from `start`, where the event functions are `events`, to `end` at which a
+/// shorter one should end: at the first derivative discontinuity in it, or the first event.
+pub fn first<D: Copy>(
+    system: &dyn System<Discrete = D>,
+    start: &StepPoint<D>,
+    events: &EventFunctions,
     h: f64,
-    end: &[f64; N],
+    end: &[f64],
 ) -> Option<f64> {
-    let mut fallen = [Guard::default(); GUARDS];
-    problem.guards(&start.modes, start.t + h, end, &mut fallen);
-    let above = guards.iter().zip(&fallen).take(problem.guard_count()).filter(|(guard, _)| guard.value > 0.0);
+    let mut fallen = EventFunctions::default();
+    system.event_functions(&start.discrete, start.t + h, end, &mut fallen);
+    let above = events.iter().zip(&fallen).take(system.event_count()).filter(|(event, _)| event.value > 0.0);
     let events = above.filter_map(|(now, then)| crossing(now.value, now.rate * h, then.value));
     let event = earliest(events.map(|share| share * PAST_EVENT));
-    let kink = first_kink(problem, start, h, end);
-    earliest([event, kink].into_iter().flatten())
+    let discontinuity = first_discontinuity(system, start, h, end);
+    earliest([event, discontinuity].into_iter().flatten())
 }
 
-/// The share at which a step of `h` from `start` that nobody has attempted should end: at the first kink, as far as the
-/// accelerations go on as they did since `earlier`.
-pub fn foreseen<const N: usize, P: Problem<N> + ?Sized>(
-    problem: &P,
-    earlier: &Front<N, P::Modes>,
-    start: &Front<N, P::Modes>,
+/// The share at which a step of `h` from `start` that nobody has attempted should end: at the first derivative
+/// discontinuity, as far as the accelerations go on as they did since `earlier`.
+pub fn foreseen<D: Copy>(
+    system: &dyn System<Discrete = D>,
+    earlier: &StepPoint<D>,
+    start: &StepPoint<D>,
     h: f64,
 ) -> Option<f64> {
     let bend = 0.5 * h * h / (start.t - earlier.t);
     let rates = start.rates.iter().zip(&earlier.rates);
-    let mut end = start.y;
-    for (end, (rate, before)) in end.iter_mut().zip(rates) {
-        *end += h * rate + bend * (rate - before);
+    let mut end = [0.0; MAX_STATES];
+    let end = &mut end[..start.y.len()];
+    for ((end, y), (rate, before)) in end.iter_mut().zip(&start.y).zip(rates) {
+        *end = *y + (h * rate + bend * (rate - before));
     }
-    first_kink(problem, start, h, &end)
+    first_discontinuity(system, start, h, end)
 }
 
-fn first_kink<const N: usize, P: Problem<N> + ?Sized>(
-    problem: &P,
-    start: &Front<N, P::Modes>,
+fn first_discontinuity<D: Copy>(
+    system: &dyn System<Discrete = D>,
+    start: &StepPoint<D>,
     h: f64,
-    end: &[f64; N],
+    end: &[f64],
 ) -> Option<f64> {
-    let Front { t, y, rates, modes, .. } = start;
-    let (mut before, mut after) = (Kinks::NONE, Kinks::NONE);
-    problem.kinks(modes, *t, y, &mut before);
-    problem.kinks(modes, t + h, end, &mut after);
+    let StepPoint { t, y, rates, discrete, .. } = start;
+    let (mut before, mut after) = (Discontinuities::NONE, Discontinuities::NONE);
+    system.discontinuities(discrete, *t, y, &mut before);
+    system.discontinuities(discrete, t + h, end, &mut after);
     if before.values().iter().zip(after.values()).all(|(now, then)| now * then >= 0.0) {
         return None;
     }
-    let soon: [f64; N] = std::array::from_fn(|i| y[i] + AHEAD * h * rates[i]);
-    let mut ahead = Kinks::NONE;
-    problem.kinks(modes, t + AHEAD * h, &soon, &mut ahead);
+    let mut soon = [0.0; MAX_STATES];
+    let soon = &mut soon[..y.len()];
+    for ((soon, y), rate) in soon.iter_mut().zip(y).zip(rates) {
+        *soon = y + AHEAD * h * rate;
+    }
+    let mut ahead = Discontinuities::NONE;
+    system.discontinuities(discrete, t + AHEAD * h, soon, &mut ahead);
     let all = before.values().iter().zip(ahead.values()).zip(after.values());
-    let kinks = all.filter_map(|((now, soon), then)| crossing(*now, (soon - now) / AHEAD, *then));
-    earliest(kinks.map(|share| share * if share > FAR { SHORT_OF } else { PAST_KINK }))
+    let shares = all.filter_map(|((now, soon), then)| crossing(*now, (soon - now) / AHEAD, *then));
+    earliest(shares.map(|share| share * if share > FAR { SHORT_OF } else { PAST_DISCONTINUITY }))
 }
 
 /// The least share at which a shorter step may end.

@@ -1,10 +1,9 @@
 //! Error norm and step-size control.
 
 use super::error::IntegrationError;
-use super::memory::Front;
-use super::method::Method;
-use super::problem::{Extent, Problem};
-use super::stages::Attempt;
+use super::method::Attempt;
+use super::state::StepPoint;
+use super::system::System;
 use crate::math;
 
 /// How accurate, or how long a step.
@@ -59,42 +58,44 @@ const GREATEST_FACTOR: f64 = 5.0;
 const MEMORY: f64 = 0.025;
 /// Rates of early stages are of low order: only this many times a tolerable error is suspicious.
 const UNSEEN: f64 = 1e3;
-/// States and rates from here on count as lost.
-const GREATEST: f64 = 1e25;
 /// A state cannot be asked to be more accurate than a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Root mean square of the error over the tolerance; at most 1 for a step to be accepted.
-pub fn norm<const N: usize, M: Method, P: Problem<N> + ?Sized>(
-    attempt: &Attempt<N>,
-    y: &[f64; N],
-    problem: &P,
-    tolerance: f64,
-) -> f64 {
-    let scales = problem.scales();
-    let n = Extent::of(problem).weighed;
-    let weight = |i: usize| tolerance * scales[i] + ROUNDINGS * y[i].abs();
-    let square = |error: &[f64; N]| (0..n).map(|i| error[i] / weight(i)).map(|e| e * e).sum::<f64>() / n.max(1) as f64;
-    if (0..n).any(|i| attempt.unseen[i] > UNSEEN * weight(i)) {
+/// Root mean square of the error of a step from `y` over the tolerance, of the states that have a scale; at most 1 for a
+/// step to be accepted. There may be a coarse estimate, too.
+pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], coarse: bool, tolerance: f64) -> f64 {
+    let n = scales.len().max(1) as f64;
+    let weight = |scale: &f64, y: &f64| tolerance * scale + ROUNDINGS * y.abs();
+    let (mut fine, mut missed) = (0.0, false);
+    for (((scale, y), error), unseen) in scales.iter().zip(y).zip(&attempt.error).zip(&attempt.unseen) {
+        let weight = weight(scale, y);
+        missed |= *unseen > UNSEEN * weight;
+        fine += (error / weight).powi(2);
+    }
+    if missed {
         return f64::INFINITY;
     }
-    let fine = square(&attempt.error);
-    if !M::COARSE {
+    let fine = fine / n;
+    if !coarse {
         return fine.sqrt();
     }
     // DOP853: the coarse estimate keeps the fine one from vanishing by chance.
-    let sum = fine + 0.01 * square(&attempt.coarse_error);
+    let mut of_coarse = 0.0;
+    for ((scale, y), error) in scales.iter().zip(y).zip(&attempt.coarse_error) {
+        of_coarse += (error / weight(scale, y)).powi(2);
+    }
+    let sum = fine + 0.01 * (of_coarse / n);
     if sum == 0.0 { 0.0 } else { fine / sum.sqrt() }
 }
 
 /// The state with the largest error over its weight.
-pub fn worst_component<const N: usize, P: Problem<N> + ?Sized>(attempt: &Attempt<N>, problem: &P) -> usize {
-    let scales = problem.scales();
+pub fn worst_component<D: Copy>(attempt: &Attempt, system: &dyn System<Discrete = D>) -> usize {
+    let scales = system.scales();
     let share = |i: &usize| {
         let e = (attempt.error[*i] / scales[*i]).abs();
         if e.is_nan() { f64::INFINITY } else { e }
     };
-    (0..Extent::of(problem).weighed).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
+    (0..system.extent().weighed).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
 }
 
 /// By how much the next step is longer after an accepted one, whose error falls with this `power` of the step: the
@@ -121,22 +122,9 @@ pub fn error_power([longer, shorter]: [(f64, f64); 2], full: f64) -> f64 {
     if power.is_nan() { full } else { power.clamp(1.0, full) }
 }
 
-/// The first state (or rate) that is not a number, or so large that its powers are none.
-pub fn lost_state<const N: usize, P: Problem<N> + ?Sized>(problem: &P, y: &[f64; N]) -> Option<usize> {
-    let states = &y[..Extent::of(problem).states];
-    // Without leaving at the first one, several are looked at in one go.
-    let all_kept = states.iter().fold(true, |kept, y| kept & is_kept(*y));
-    if all_kept { None } else { states.iter().position(|y| !is_kept(*y)) }
-}
-
-/// A number, and not so large that its powers are none.
-pub fn is_kept(y: f64) -> bool {
-    y.abs() < GREATEST
-}
-
 /// A first step over which the rates move the state by a hundredth of its scales.
-pub fn first_step<const N: usize, P: Problem<N> + ?Sized>(problem: &P, front: &Front<N, P::Modes>) -> f64 {
-    let weighed = front.rates.iter().zip(problem.scales()).take(Extent::of(problem).weighed);
+pub fn first_step<D: Copy>(system: &dyn System<Discrete = D>, front: &StepPoint<D>) -> f64 {
+    let weighed = front.rates.iter().zip(system.scales()).take(system.extent().weighed);
     let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
-    (0.01 / fastest).min(FIRST_STEP).min(problem.longest_step())
+    (0.01 / fastest).min(FIRST_STEP).min(system.longest_step())
 }

@@ -13,7 +13,8 @@
 //! A step in a block is the cheapest where its problem suits it, and the least stable: where its own bound is near, the
 //! explicit method is tried in the same way, and kept while its steps are about as long.
 
-use super::problem::{Extent, Jacobian};
+use crate::integrator::method::MethodKind;
+use crate::integrator::system::{Extent, Jacobian, MAX_STATES};
 
 /// How many accepted steps the next look waits for, after a change that paid, and at most.
 const PATIENCE: u32 = 32;
@@ -36,27 +37,11 @@ const UNPAID: u32 = 3;
 const WORTHWHILE: u32 = 10;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// How a step is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Manner {
-    /// By accelerations at several instants together, see [`block`](super::block).
-    Block,
-    /// By the stages of an explicit method, one after the other.
-    Explicit,
-    /// By a linearly implicit method.
-    Implicit,
-}
-
-impl Manner {
-    /// All, in their order.
-    pub const ALL: [Self; 3] = [Self::Block, Self::Explicit, Self::Implicit];
-}
-
 /// How the next step is made, and what speaks for a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Regime {
+pub struct StiffnessSwitch {
     /// How the next step is made.
-    pub manner: Manner,
+    pub kind: MethodKind,
     /// Accepted steps since the last look; in a stretch that is on trial, since its beginning.
     pub steps: u32,
     /// Steps between two looks.
@@ -67,11 +52,11 @@ pub struct Regime {
     pub block: f64,
 }
 
-impl Regime {
+impl StiffnessSwitch {
     /// Not stiff, and nothing known.
-    pub const LOOSE: Self = Self { manner: Manner::Explicit, steps: 0, patience: PATIENCE, unpaid: 0, block: 0.0 };
+    pub const LOOSE: Self = Self { kind: MethodKind::Explicit, steps: 0, patience: PATIENCE, unpaid: 0, block: 0.0 };
     /// The same, of a problem that suits blocks.
-    pub const IN_BLOCKS: Self = Self { manner: Manner::Block, ..Self::LOOSE };
+    pub const IN_BLOCKS: Self = Self { kind: MethodKind::Block, ..Self::LOOSE };
 
     /// Whether a run can have come to this.
     pub fn is_sound(&self) -> bool {
@@ -82,7 +67,7 @@ impl Regime {
     /// and then.
     pub fn after_block(&mut self, h: f64, fastest: impl FnOnce() -> f64) {
         if self.looks(self.patience) && h * fastest() > SUSPICIOUS * BLOCK_BOUND {
-            *self = Self { manner: Manner::Explicit, block: h, ..*self };
+            *self = Self { kind: MethodKind::Explicit, block: h, ..*self };
         }
     }
 
@@ -90,7 +75,7 @@ impl Regime {
     /// now and then; `bound` is where the method is unstable.
     pub fn after_explicit(&mut self, bound: f64, stiffness: impl FnOnce() -> f64) {
         if self.looks(self.patience) && stiffness() > SUSPICIOUS * bound {
-            self.manner = Manner::Implicit;
+            self.kind = MethodKind::Implicit;
         }
     }
 
@@ -98,8 +83,8 @@ impl Regime {
     pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
         self.unpaid = if h < PRICE_BESIDE_BLOCK * self.block { self.unpaid + 1 } else { 0 };
         if self.looks(STRETCH) {
-            let manner = if stiffness() > SUSPICIOUS * bound { Manner::Implicit } else { Manner::Block };
-            *self = Self { manner, ..Self::LOOSE };
+            let kind = if stiffness() > SUSPICIOUS * bound { MethodKind::Implicit } else { MethodKind::Block };
+            *self = Self { kind, ..Self::LOOSE };
         } else if self.unpaid == UNPAID {
             self.end_trial(Self::IN_BLOCKS);
         }
@@ -129,10 +114,10 @@ impl Regime {
         Some(SUSPICIOUS * stable)
     }
 
-    /// After a step that was made in this `manner`, since it could not be made as it was to be.
-    pub fn hand_over(&mut self, manner: Manner) {
+    /// After a step that was made in this `kind`, since it could not be made as it was to be.
+    pub fn hand_over(&mut self, kind: MethodKind) {
         self.steps = 0;
-        self.end_trial(Self { manner, ..Self::LOOSE });
+        self.end_trial(Self { kind, ..Self::LOOSE });
     }
 
     /// Goes on as `next`, and looks again later the shorter the stretch was.
@@ -144,26 +129,32 @@ impl Regime {
 
 /// [1/s] About the fastest rate of a motion near a state with these derivatives of the rates, by powers of their matrix
 /// on a vector without pattern: over an even number of them an oscillation comes back to the phase that it had.
-pub fn fastest<const N: usize>(jacobian: &Jacobian<N>, extent: Extent, scales: &[f64; N]) -> f64 {
+pub fn fastest(jacobian: &Jacobian, extent: Extent, scales: &[f64]) -> f64 {
     let Extent { positions, weighed, .. } = extent;
-    let next = |y: &[f64; N]| -> [f64; N] {
-        let slopes = |i: usize| jacobian.state[i][..weighed].iter().zip(y).map(|(slope, y)| slope * y).sum();
-        std::array::from_fn(|i| match i {
-            _ if i < positions => y[positions + i],
-            _ if i < weighed => slopes(i),
-            _ => 0.0,
-        })
+    let next = |y: &mut [f64; MAX_STATES]| {
+        let before = *y;
+        for (i, y) in y.iter_mut().enumerate().take(weighed) {
+            *y = if i < positions {
+                before[positions + i]
+            } else {
+                jacobian.row(i)[..weighed].iter().zip(&before).map(|(slope, y)| slope * y).sum()
+            };
+        }
     };
-    let square = |y: &[f64; N]| y.iter().zip(scales).take(weighed).map(|(y, scale)| (y / scale).powi(2)).sum::<f64>();
-    let mut y: [f64; N] = std::array::from_fn(|i| scales[i] * (0.5 + (GOLDEN * i as f64).fract()));
+    let square =
+        |y: &[f64; MAX_STATES]| y.iter().zip(scales).take(weighed).map(|(y, scale)| (y / scale).powi(2)).sum::<f64>();
+    let mut y = [0.0; MAX_STATES];
+    for (i, (y, scale)) in y.iter_mut().zip(scales).enumerate() {
+        *y = scale * (0.5 + (GOLDEN * i as f64).fract());
+    }
     for _ in 0..2 {
-        y = next(&y);
+        next(&mut y);
     }
     let before = square(&y);
     for _ in 0..4 {
-        y = next(&y);
+        next(&mut y);
     }
-    // None where nothing acts.
+    // 0 where nothing acts.
     (square(&y) / before).sqrt().sqrt().sqrt().max(0.0)
 }
 
@@ -174,12 +165,12 @@ mod tests {
     const EXTENT: Extent = Extent::second_order(4);
 
     fn of(elastic: [[f64; 2]; 2], damped: [[f64; 2]; 2], scales: [f64; 4]) -> f64 {
-        let mut jacobian = Jacobian::ZERO;
+        let mut jacobian = Jacobian::new(4);
         for i in 0..2 {
-            jacobian.state[i][2 + i] = 1.0;
+            jacobian.row_mut(i)[2 + i] = 1.0;
             for j in 0..2 {
-                jacobian.state[2 + i][j] = -elastic[i][j];
-                jacobian.state[2 + i][2 + j] = -damped[i][j];
+                jacobian.row_mut(2 + i)[j] = -elastic[i][j];
+                jacobian.row_mut(2 + i)[2 + j] = -damped[i][j];
             }
         }
         fastest(&jacobian, EXTENT, &scales)
@@ -201,61 +192,61 @@ mod tests {
 
     #[test]
     fn a_trial_that_does_not_pay_makes_the_next_wait_longer() {
-        let mut regime = Regime::LOOSE;
-        let trial = |regime: &mut Regime| {
+        let mut switch = StiffnessSwitch::LOOSE;
+        let trial = |switch: &mut StiffnessSwitch| {
             let looks = (1..).find(|_| {
-                regime.after_explicit(4.6, || 4.0);
-                regime.manner == Manner::Implicit
+                switch.after_explicit(4.6, || 4.0);
+                switch.kind == MethodKind::Implicit
             });
-            let ends = (1..).find(|_| regime.after_implicit(1e-6, 4.6, 4e6, 2).is_some());
+            let ends = (1..).find(|_| switch.after_implicit(1e-6, 4.6, 4e6, 2).is_some());
             (looks, ends)
         };
         for patience in [32, 64, 128, 256, 512, 1024, 1024] {
-            assert_eq!(trial(&mut regime), (Some(patience), Some(3)));
-            assert!(regime.is_sound());
+            assert_eq!(trial(&mut switch), (Some(patience), Some(3)));
+            assert!(switch.is_sound());
         }
         // One that paid for a while, and then no more.
-        regime.manner = Manner::Implicit;
+        switch.kind = MethodKind::Implicit;
         let ends = (0..50).find(|step| {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
-            regime.after_implicit(h, 4.6, 4e6, 2).is_some()
+            switch.after_implicit(h, 4.6, 4e6, 2).is_some()
         });
-        assert_eq!((ends, regime), (Some(22), Regime::LOOSE));
+        assert_eq!((ends, switch), (Some(22), StiffnessSwitch::LOOSE));
     }
 
     #[test]
     fn steps_far_within_stability_are_never_tried() {
-        let mut regime = Regime::LOOSE;
+        let mut switch = StiffnessSwitch::LOOSE;
         for _ in 0..1000 {
-            regime.after_explicit(4.6, || 2.0);
+            switch.after_explicit(4.6, || 2.0);
         }
-        assert_eq!(regime.manner, Manner::Explicit);
+        assert_eq!(switch.kind, MethodKind::Explicit);
     }
 
     #[test]
     fn explicit_steps_beside_blocks_are_kept_while_they_are_about_as_long() {
-        let mut regime = Regime::IN_BLOCKS;
-        let trial = |regime: &mut Regime, length: f64| {
+        let mut switch = StiffnessSwitch::IN_BLOCKS;
+        let trial = |switch: &mut StiffnessSwitch, length: f64| {
             let blocks = (1..).find(|_| {
-                regime.after_block(1e-6, || 1e6);
-                regime.manner == Manner::Explicit
+                switch.after_block(1e-6, || 1e6);
+                switch.kind == MethodKind::Explicit
             });
             let steps = (1..).find(|_| {
-                regime.after_explicit_beside_blocks(length, 4.6, || 2.0);
-                assert!(regime.is_sound() || regime.manner != Manner::Explicit);
-                regime.manner == Manner::Block
+                switch.after_explicit_beside_blocks(length, 4.6, || 2.0);
+                assert!(switch.is_sound() || switch.kind != MethodKind::Explicit);
+                switch.kind == MethodKind::Block
             });
             (blocks, steps)
         };
         for patience in [32, 64, 128, 256, 512, 1024, 1024] {
-            assert_eq!(trial(&mut regime, 0.5e-6), (Some(patience), Some(3)));
+            assert_eq!(trial(&mut switch, 0.5e-6), (Some(patience), Some(3)));
         }
-        assert_eq!(trial(&mut regime, 2e-6), (Some(1024), Some(256)));
-        assert_eq!(trial(&mut regime, 2e-6), (Some(32), Some(256)));
-        regime.manner = Manner::Explicit;
-        while regime.manner == Manner::Explicit {
-            regime.after_explicit_beside_blocks(2e-6, 4.6, || 4.0);
+        assert_eq!(trial(&mut switch, 2e-6), (Some(1024), Some(256)));
+        assert_eq!(trial(&mut switch, 2e-6), (Some(32), Some(256)));
+        switch.kind = MethodKind::Explicit;
+        while switch.kind == MethodKind::Explicit {
+            switch.after_explicit_beside_blocks(2e-6, 4.6, || 4.0);
         }
-        assert_eq!(regime, Regime { manner: Manner::Implicit, ..Regime::LOOSE });
+        assert_eq!(switch, StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::LOOSE });
     }
 }

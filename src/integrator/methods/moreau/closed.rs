@@ -1,8 +1,8 @@
 //! The contacts that are closed in a step.
 
-use super::attempt::Middle;
+use super::attempt::{Middle, State};
 use crate::integrator::complementarity::{MOST_CONTACTS, NORMAL, Pairs, TANGENTIAL, Touching};
-use crate::integrator::unilateral::{ContactLaw, Unilateral};
+use crate::integrator::unilateral::{ContactLaw, MOST_STATES, Unilateral};
 
 /// Share of what a lasting contact is too deep by that one step takes back. With all of it at once, contacts that
 /// share a body keep throwing each other open.
@@ -11,12 +11,12 @@ const SHARE: f64 = 0.1;
 const SKIN: f64 = 1e-6;
 
 /// The closed contacts of a step, in the order in which they are solved for.
-pub struct Closed<const N: usize> {
+pub struct Closed {
     /// Their numbers.
     pub contacts: [usize; MOST_CONTACTS],
     touching: Touching,
     /// M⁻¹·W: changes of all velocities by a unit impulse in each part of each.
-    response: [[[f64; N]; 2]; MOST_CONTACTS],
+    response: [[State; 2]; MOST_CONTACTS],
     restitution: [f64; MOST_CONTACTS],
     /// [m/s] (h/2)·Ẇᵀu: by how much γ at the step's end is more than the same velocities have in its middle.
     turning: Pairs,
@@ -26,20 +26,20 @@ pub struct Closed<const N: usize> {
     leaving: Pairs,
 }
 
-impl<const N: usize> Closed<N> {
+impl Closed {
     /// The contacts whose gap is gone by the middle of a step that would have the velocities `free` without them.
-    pub fn new<P: Unilateral<N> + ?Sized>(problem: &P, middle: &Middle<'_, N>, free: &[f64; N]) -> Self {
+    pub fn new<D: Copy>(system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, free: &State) -> Self {
         let mut closed = Self {
             contacts: [0; MOST_CONTACTS],
             touching: Touching::default(),
-            response: [[[0.0; N]; 2]; MOST_CONTACTS],
+            response: [[[0.0; MOST_STATES]; 2]; MOST_CONTACTS],
             restitution: [0.0; MOST_CONTACTS],
             turning: Pairs::default(),
             arriving: Pairs::default(),
             leaving: Pairs::default(),
         };
-        let start = problem.contacts(middle.start.t, &middle.start.y);
-        let skin = SKIN * problem.guard_scale();
+        let start = system.contacts(middle.start.t, &middle.start.y);
+        let skin = SKIN * system.event_scale();
         for (contact, (gap, velocity)) in start.gap.iter().zip(&start.velocity).enumerate() {
             if gap + 0.5 * middle.h * velocity[NORMAL] <= skin {
                 let slot = closed.count();
@@ -49,7 +49,7 @@ impl<const N: usize> Closed<N> {
             }
         }
         if closed.count() > 0 {
-            closed.linearize(problem, middle, free);
+            closed.linearize(system, middle, free);
         }
         closed
     }
@@ -60,11 +60,11 @@ impl<const N: usize> Closed<N> {
     }
 
     /// Laws, turning, responses and Delassus' matrix.
-    fn linearize<P: Unilateral<N> + ?Sized>(&mut self, problem: &P, middle: &Middle<'_, N>, free: &[f64; N]) {
-        let laws = problem.contact_laws();
-        let here = velocities(problem, middle, free);
-        let there = problem.contacts(middle.start.t + middle.h, &middle.end(free)).velocity;
-        let still = velocities(problem, middle, &[0.0; N]);
+    fn linearize<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, free: &State) {
+        let laws = system.contact_laws();
+        let here = velocities(system, middle, free);
+        let there = system.contacts(middle.start.t + middle.h, middle.of(&middle.end(free))).velocity;
+        let still = velocities(system, middle, &[0.0; MOST_STATES]);
         let count = self.count();
         for (slot, &contact) in self.contacts.iter().enumerate().take(count) {
             let ContactLaw { restitution, friction } = laws[contact];
@@ -72,8 +72,10 @@ impl<const N: usize> Closed<N> {
             self.turning[slot] = [NORMAL, TANGENTIAL].map(|part| there[contact][part] - here[contact][part]);
             self.touching.friction[slot] = friction;
             for part in self.parts(slot) {
-                let response = problem.response(middle.t, &middle.y, contact, part);
-                let moved = velocities(problem, middle, &response);
+                let mut response = [0.0; MOST_STATES];
+                let n = middle.state().len();
+                system.response(middle.t, middle.state(), contact, part, &mut response[..n]);
+                let moved = velocities(system, middle, &response);
                 for (other, &to) in self.contacts.iter().enumerate().take(count) {
                     for a in [NORMAL, TANGENTIAL] {
                         self.touching.delassus[other][a][slot][part] = moved[to][a] - still[to][a];
@@ -95,8 +97,8 @@ impl<const N: usize> Closed<N> {
     }
 
     /// Sets what the laws hold for without impulses, when the step then has the velocities `free`.
-    pub fn set_bias<P: Unilateral<N> + ?Sized>(&mut self, problem: &P, middle: &Middle<'_, N>, free: &[f64; N]) {
-        let without = velocities(problem, middle, free);
+    pub fn set_bias<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, free: &State) {
+        let without = velocities(system, middle, free);
         for slot in 0..self.count() {
             let velocity = without[self.contacts[slot]];
             let [normal, tangential] = [NORMAL, TANGENTIAL].map(|part| velocity[part] + self.turning[slot][part]);
@@ -116,14 +118,14 @@ impl<const N: usize> Closed<N> {
     }
 
     /// The forces of the last step, in the order of these contacts.
-    pub fn last(&self, middle: &Middle<'_, N>) -> Pairs {
-        let mut forces = self.contacts.map(|contact| middle.start.modes.forces[contact]);
+    pub fn last(&self, middle: &Middle<'_>) -> Pairs {
+        let mut forces = self.contacts.map(|contact| middle.start.discrete.forces[contact]);
         forces[self.count()..].fill([0.0; 2]);
         forces
     }
 
     /// The velocities of `free` with these impulses.
-    pub fn after(&self, middle: &Middle<'_, N>, free: &[f64; N], impulses: &Pairs) -> [f64; N] {
+    pub fn after(&self, middle: &Middle<'_>, free: &State, impulses: &Pairs) -> State {
         let mut y = *free;
         for (responses, impulse) in self.response.iter().zip(impulses).take(self.count()) {
             for (response, impulse) in responses.iter().zip(impulse) {
@@ -137,20 +139,20 @@ impl<const N: usize> Closed<N> {
 
     /// Takes back some of what lasting contacts are too deep at the end of the step, `y`. Where there is no way out,
     /// as in a jam, it stays.
-    pub fn press_back<P: Unilateral<N> + ?Sized>(
+    pub fn press_back<D: Copy>(
         &self,
-        problem: &P,
-        middle: &Middle<'_, N>,
+        system: &dyn Unilateral<Discrete = D>,
+        middle: &Middle<'_>,
         impulses: &Pairs,
-        y: &mut [f64; N],
+        y: &mut State,
     ) {
-        let gaps = problem.contacts(middle.start.t + middle.h, y).gap;
+        let gaps = system.contacts(middle.start.t + middle.h, middle.of(y)).gap;
         let mut places = self.touching.clone();
         places.friction = [0.0; MOST_CONTACTS];
         let mut deep = false;
         for slot in 0..places.count {
             let fastest = self.arriving[slot][NORMAL].abs().max(self.leaving[slot][NORMAL].abs());
-            let spare = gaps[self.contacts[slot]] + SKIN * problem.guard_scale() + middle.h * fastest;
+            let spare = gaps[self.contacts[slot]] + SKIN * system.event_scale() + middle.h * fastest;
             // A contact that parts is not lifted, and nothing is pushed too deep.
             let lifted = spare < 0.0 && impulses[slot][NORMAL] > 0.0;
             places.bias[slot] = [if lifted { SHARE * spare } else { spare.max(0.0) }, 0.0];
@@ -168,13 +170,9 @@ impl<const N: usize> Closed<N> {
 }
 
 /// Velocities in the contacts at the middle's positions with the velocities of `moving`.
-fn velocities<const N: usize, P: Unilateral<N> + ?Sized>(
-    problem: &P,
-    middle: &Middle<'_, N>,
-    moving: &[f64; N],
-) -> Pairs {
+fn velocities<D: Copy>(system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, moving: &State) -> Pairs {
     let mut y = middle.y;
     let rates = middle.positions..2 * middle.positions;
     y[rates.clone()].copy_from_slice(&moving[rates]);
-    problem.contacts(middle.t, &y).velocity
+    system.contacts(middle.t, middle.of(&y)).velocity
 }

@@ -1,4 +1,4 @@
-//! Where a step is looked at that is made as a [`block`](super::block), and the polynomials through what is seen there.
+//! Where a step is looked at that is made as a [`block`](super), and the polynomials through what is seen there.
 
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
@@ -42,7 +42,7 @@ const fn cardinal(j: usize, x: f64) -> f64 {
     product
 }
 
-/// Two tables by columns, one of velocities and one of positions: A_ij and B_ij of [`block`](super::block), the first
+/// Two tables by columns, one of velocities and one of positions: A_ij and B_ij of [`block`](super), the first
 /// columns for a step's start.
 pub type Tables = [[Row; POINTS]; 2];
 

@@ -1,43 +1,55 @@
-//! Systems of linear equations in room of fixed size.
+//! Systems of linear equations, solved without a new allocation.
 
 /// L·U factors of a square matrix with rows exchanged (Gaussian elimination with partial pivoting).
-pub struct Factors<const N: usize> {
+#[derive(Clone, Debug, Default)]
+pub struct Factors {
     size: usize,
-    rows: [[f64; N]; N],
+    /// Row by row.
+    elements: Vec<f64>,
     /// The row that was exchanged with row k.
-    pivot: [usize; N],
+    pivot: Vec<usize>,
 }
 
-impl<const N: usize> Factors<N> {
-    /// Of no matrix.
-    pub const NONE: Self = Self { size: 0, rows: [[0.0; N]; N], pivot: [0; N] };
+impl Factors {
+    /// With memory for matrices of up to so many rows.
+    pub fn with_capacity(rows: usize) -> Self {
+        Self { size: 0, elements: vec![0.0; rows * rows], pivot: vec![0; rows] }
+    }
 
     /// Factorises the matrix of `size` rows with these elements. A singular one gives solutions that
     /// are not finite.
     pub fn of(&mut self, size: usize, element: impl Fn(usize, usize) -> f64) {
         self.size = size;
-        for (i, row) in self.rows.iter_mut().enumerate().take(size) {
-            for (j, place) in row.iter_mut().enumerate().take(size) {
+        let Self { elements, pivot, .. } = self;
+        for i in 0..size {
+            for (j, place) in elements[i * size..][..size].iter_mut().enumerate() {
                 *place = element(i, j);
             }
         }
         for k in 0..size {
-            let by_size = |i: &usize, j: &usize| self.rows[*i][k].abs().total_cmp(&self.rows[*j][k].abs());
-            let pivot = (k..size).max_by(by_size).unwrap_or(k);
-            self.pivot[k] = pivot;
-            self.rows.swap(k, pivot);
-            let (above, below) = self.rows.split_at_mut(k + 1);
-            let top = &above[k];
-            for row in below.iter_mut().take(size - k - 1) {
+            let by_size = |i: &usize, j: &usize| elements[i * size + k].abs().total_cmp(&elements[j * size + k].abs());
+            let largest = (k..size).max_by(by_size).unwrap_or(k);
+            pivot[k] = largest;
+            if largest > k {
+                let (above, below) = elements.split_at_mut(largest * size);
+                above[k * size..][..size].swap_with_slice(&mut below[..size]);
+            }
+            let (above, below) = elements.split_at_mut((k + 1) * size);
+            let top = &above[k * size..];
+            for row in below.chunks_exact_mut(size).take(size - k - 1) {
                 let factor = row[k] / top[k];
                 row[k] = factor;
                 if factor != 0.0 {
-                    for (element, top) in row[k + 1..size].iter_mut().zip(&top[k + 1..size]) {
+                    for (element, top) in row[k + 1..].iter_mut().zip(&top[k + 1..]) {
                         *element -= factor * top;
                     }
                 }
             }
         }
+    }
+
+    fn row(&self, i: usize) -> &[f64] {
+        &self.elements[i * self.size..][..self.size]
     }
 
     /// Replaces the right side `x` by the solution.
@@ -47,12 +59,12 @@ impl<const N: usize> Factors<N> {
         }
         for i in 0..self.size {
             let (known, rest) = x.split_at_mut(i);
-            rest[0] -= self.rows[i].iter().zip(&*known).map(|(l, x)| l * x).sum::<f64>();
+            rest[0] -= self.row(i).iter().zip(&*known).map(|(l, x)| l * x).sum::<f64>();
         }
         for i in (0..self.size).rev() {
             let (rest, known) = x.split_at_mut(i + 1);
-            let sum = self.rows[i][i + 1..self.size].iter().zip(&*known).map(|(u, x)| u * x).sum::<f64>();
-            rest[i] = (rest[i] - sum) / self.rows[i][i];
+            let sum = self.row(i)[i + 1..].iter().zip(&*known).map(|(u, x)| u * x).sum::<f64>();
+            rest[i] = (rest[i] - sum) / self.row(i)[i];
         }
     }
 }
@@ -70,7 +82,7 @@ mod tests {
         for (i, x) in x.iter_mut().enumerate() {
             *x = (0..5).map(|j| element(i, j) * exact[j]).sum();
         }
-        let mut factors = Factors::<8>::NONE;
+        let mut factors = Factors::with_capacity(8);
         factors.of(5, element);
         factors.solve(&mut x);
         for (found, exact) in x.iter().zip(&exact) {

@@ -43,18 +43,24 @@ impl<'a> Reader<'a> {
     }
 
     /// The next real numbers, if they are finite.
-    pub fn reals<const N: usize>(&mut self) -> Option<[f64; N]> {
-        let list = self.any_reals()?;
-        list.iter().all(|real| real.is_finite()).then_some(list)
+    pub fn reals<const COUNT: usize>(&mut self) -> Option<[f64; COUNT]> {
+        let mut list = [0.0; COUNT];
+        self.fill(&mut list)?;
+        Some(list)
     }
 
-    /// The next real numbers: rates under a load beyond all measure are not finite.
-    pub fn any_reals<const N: usize>(&mut self) -> Option<[f64; N]> {
-        let mut list = [0.0; N];
-        for place in &mut list {
+    /// Fills a list with the next real numbers, if they are finite.
+    pub fn fill(&mut self, list: &mut [f64]) -> Option<()> {
+        self.fill_any(list)?;
+        list.iter().all(|real| real.is_finite()).then_some(())
+    }
+
+    /// The same, of rates: under a load beyond all measure they are not finite.
+    pub fn fill_any(&mut self, list: &mut [f64]) -> Option<()> {
+        for place in list {
             *place = self.any_real()?;
         }
-        Some(list)
+        Some(())
     }
 
     fn any_real(&mut self) -> Option<f64> {

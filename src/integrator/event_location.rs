@@ -1,0 +1,174 @@
+//! Which event comes first in an accepted step, and where; landing on it, and crossing it.
+//!
+//! An event function that is positive before the step and negative after it has fallen through zero; one that
+//! is positive at both ends may have dipped below in between, and one that starts from zero upward
+//! may have come back. Its rate tells where to look.
+
+use super::dense_output::Step;
+use super::error::IntegrationError;
+use super::root;
+use super::state::StepPoint;
+use super::stepper::Stepper;
+use super::system::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, System, Triggered};
+
+/// [share of the step] How well a fall is located on the interpolant.
+const RESOLUTION: f64 = 1e-13;
+/// Most events without time passing.
+pub const STANDSTILL: usize = 64;
+/// Most times that a landing is repeated to bring the event function closer to zero.
+const LANDINGS: usize = 3;
+/// Share of an impact's duration for the first step into it.
+const ONSET: f64 = 0.03;
+/// An event function this share of a tolerable error away from zero has been landed on.
+const LANDED: f64 = 0.1;
+
+/// Handles the event functions that are at or below zero and falling where the next step starts.
+///
+/// # Errors
+/// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if there is no end of them.
+pub fn settle<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) -> Result<(), IntegrationError> {
+    let count = system.event_count();
+    if count == 0 {
+        return Ok(());
+    }
+    let near = LANDED * system.event_scale();
+    let events = &stepper.events;
+    let ended = |i: &usize| events[*i].value <= near && events[*i].rate < 0.0 && system.is_dead_end(*i);
+    if let Some(guard) = (0..count).find(ended) {
+        return Err(IntegrationError::DeadEnd { time: stepper.state.front().t, guard });
+    }
+    for _ in 0..STANDSTILL {
+        let Some(event) = (0..count).find(|&i| has_fallen(&stepper.events[i])) else {
+            return Ok(());
+        };
+        cross_with(stepper, system, event, 0.0);
+    }
+    Err(IntegrationError::events_accumulate(stepper.state.front().t, &stepper.events[..count]))
+}
+
+/// Crosses the events of all event functions that are below zero at the front.
+pub fn notice<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) {
+    let events = &stepper.events;
+    let triggered: Triggered = std::array::from_fn(|i| i < system.event_count() && events[i].value < 0.0);
+    if triggered.contains(&true) {
+        cross(stepper, system, &triggered);
+    }
+}
+
+/// The first fall in the last step, which began where the event functions were those `before`: its share of the step and
+/// its event function.
+pub fn first<D: Copy>(
+    stepper: &Stepper<D>,
+    system: &dyn System<Discrete = D>,
+    before: &EventFunctions,
+) -> Option<(f64, usize)> {
+    let step = stepper.state.last_step(stepper.extent);
+    let discrete = &stepper.state.start().discrete;
+    (0..system.event_count())
+        .filter_map(|i| {
+            let inside = |s: f64| inside(system, discrete, &step, s)[i];
+            fall(before[i], stepper.events[i], step.h, inside).map(|share| (share, i))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The event functions within a step.
+fn inside<D: Copy>(system: &dyn System<Discrete = D>, discrete: &D, step: &Step<'_>, s: f64) -> EventFunctions {
+    let mut y = [0.0; MAX_STATES];
+    let y = &mut y[..step.extent.states];
+    let mut functions = [EventFunction::default(); MAX_EVENTS];
+    step.state(s, None, y);
+    system.event_functions(discrete, step.t + s * step.h, y, &mut functions);
+    functions
+}
+
+/// Repeats the step up to the event at `share` of it and crosses the event, if anything lies beyond it.
+pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, h: f64, share: f64, event: usize) {
+    let start = stepper.state.start().t;
+    // The step that was too long is made anew, shorter.
+    stepper.state.statistics.steps -= 1;
+    let close = LANDED * stepper.settings.tolerance * system.event_scale();
+    let mut t = start + share * h;
+    for landing in 1..=LANDINGS {
+        if t <= start {
+            stepper.state.take_back();
+            stepper.refresh(system);
+            break;
+        }
+        stepper.attempt_to(system, t);
+        if !stepper.gives_end() {
+            let (start, end) = stepper.state.ends();
+            system.event_functions(&start.discrete, t, &end.y, &mut stepper.attempt.events);
+        }
+        let EventFunction { value, rate } = stepper.attempt.events[event];
+        let better = t - value / rate;
+        let useful = rate < 0.0 && better < start + h && better != t;
+        if landing == LANDINGS || value.abs() <= close || !useful {
+            stepper.look_at_end_if_due(system, t);
+            stepper.commit(t);
+            break;
+        }
+        t = better;
+    }
+    if !system.is_dead_end(event) {
+        cross_with(stepper, system, event, close);
+    }
+}
+
+/// Crosses the event at the front, and those of all event functions that have fallen with it: those within `close` of
+/// zero.
+fn cross_with<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, event: usize, close: f64) {
+    let events = &stepper.events;
+    let with = |i: usize| i == event || (events[i].value <= close && events[i].rate < 0.0);
+    let triggered: Triggered = std::array::from_fn(|i| i < system.event_count() && with(i));
+    cross(stepper, system, &triggered);
+}
+
+fn cross<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, triggered: &Triggered) {
+    let state = &mut stepper.state;
+    let count = triggered.iter().map(|&triggered| u64::from(triggered)).sum::<u64>();
+    state.crossings += count;
+    state.statistics.events += count;
+    let StepPoint { t, y, discrete, impact_end, .. } = state.front_mut();
+    let reset = system.reset(discrete, *t, y, triggered);
+    *discrete = reset.discrete;
+    if let Some(duration) = reset.impact {
+        *impact_end = impact_end.max(*t + duration.min(system.longest_step()));
+        state.step = state.step.min(ONSET * duration);
+    }
+    stepper.refresh(system);
+}
+
+fn has_fallen(function: &EventFunction) -> bool {
+    function.value <= 0.0 && function.rate < 0.0
+}
+
+/// The share at which one event function first falls below zero.
+fn fall(before: EventFunction, after: EventFunction, h: f64, inside: impl Fn(f64) -> EventFunction) -> Option<f64> {
+    let value = |s: f64| inside(s).value;
+    if after.value < 0.0 {
+        if before.value > 0.0 {
+            return Some(root::falling(0.0, 1.0, before.value, after.value, RESOLUTION, value));
+        }
+        // It starts from zero: upward first, or down at once.
+        if before.rate <= 0.0 {
+            return Some(0.0);
+        }
+        let top = root::falling(0.0, 1.0, before.rate, after.rate, RESOLUTION, |s| inside(s).rate);
+        let highest = value(top);
+        return if highest > 0.0 {
+            Some(root::falling(top, 1.0, highest, after.value, RESOLUTION, value))
+        } else {
+            Some(0.0)
+        };
+    }
+    let dips = before.rate < 0.0 && after.rate > 0.0;
+    // No cubic with these ends reaches lower than half of this below them.
+    let depth = 0.5 * h * before.rate.abs().max(after.rate);
+    if !dips || before.value.min(after.value) > depth || before.value <= 0.0 {
+        return None;
+    }
+    let bottom = root::falling(0.0, 1.0, -before.rate, -after.rate, RESOLUTION, |s| -inside(s).rate);
+    let lowest = value(bottom);
+    (lowest < 0.0).then(|| root::falling(0.0, bottom, before.value, lowest, RESOLUTION, value))
+}

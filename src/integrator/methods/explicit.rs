@@ -1,0 +1,189 @@
+//! The stages of one step: k_i = f(t + c_i·h, y + h·Σ a_ij·k_j).
+//!
+//! One loop serves all tableaux and any number of states: sums are taken over four or eight states together.
+
+use crate::integrator::method::{Attempt, ERROR_SHARE, Method, Properties};
+use crate::integrator::state::StepPoint;
+use crate::integrator::system::{Extent, System};
+use crate::integrator::tableau::{MAX_STAGES, Tableau};
+use crate::math::Fused;
+use wide::f64x4;
+
+/// How many states are summed together, at least and at most: less of the loop over stages for each.
+const FOUR: usize = 4;
+const EIGHT: usize = 2 * FOUR;
+
+/// An explicit Runge-Kutta method.
+#[derive(Clone, Debug)]
+pub struct Explicit {
+    tableau: &'static Tableau,
+    properties: Properties,
+    /// Rates at the stages, one stage after the other, and room to read several at a time.
+    k: Vec<f64>,
+    /// First stage after the first of all that an error estimate weighs.
+    weighed: usize,
+    /// Nodes of the stages before that one over its node.
+    shares: [f64; MAX_STAGES],
+}
+
+impl Explicit {
+    /// For so many states.
+    pub fn new(tableau: &'static Tableau, states: usize) -> Self {
+        let weighed = tableau.first_weighed_stage();
+        let properties = Properties {
+            name: tableau.name,
+            order: tableau.order,
+            adaptive: weighed != 0,
+            coarse: tableau.coarse_error.is_some(),
+            locates: tableau.locates,
+            error_power: tableau.error_power,
+            interpolates: true,
+            gives_end: tableau.first_same_as_last,
+            predicts: false,
+            error_share: ERROR_SHARE,
+            others: &[],
+        };
+        let k = vec![0.0; tableau.stages * states + EIGHT];
+        Self { tableau, properties, k, weighed, shares: tableau.c.map(|node| node / tableau.c[weighed]) }
+    }
+
+    /// See [`Method::properties`].
+    pub fn properties(&self) -> &Properties {
+        &self.properties
+    }
+
+    /// The fastest rate that shows in a step made by a method whose last two stages are at the same instant, times the
+    /// step: how far their rates are apart over how far their states are (E. Hairer, G. Wanner, Solving Ordinary
+    /// Differential Equations II, IV.2, on stiffness detection).
+    pub fn stiffness(&self, extent: Extent, scales: &[f64]) -> f64 {
+        let Self { tableau, k, .. } = self;
+        let n = extent.states;
+        let [before, last] = [tableau.stages - 2, tableau.stages - 1];
+        let (mut rates, mut states) = (0.0, 0.0);
+        for (i, scale) in scales.iter().enumerate().take(extent.weighed) {
+            let weights = tableau.a[last].iter().zip(&tableau.a[before]).map(|(last, before)| last - before);
+            let state: f64 = weights.take(last).enumerate().map(|(j, weight)| weight * k[j * n + i]).sum();
+            rates += ((k[last * n + i] - k[before * n + i]) / scale).powi(2);
+            states += (state / scale).powi(2);
+        }
+        // By h less than the states are apart.
+        (rates / states).sqrt()
+    }
+}
+
+impl<D: Copy> Method<D> for Explicit {
+    fn properties(&self) -> &Properties {
+        &self.properties
+    }
+
+    fn attempt(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        h: f64,
+        end: &mut StepPoint<D>,
+        attempt: &mut Attempt,
+    ) -> u64 {
+        let Self { tableau, properties, k, weighed, shares } = self;
+        let n = start.y.len();
+        let inner = tableau.inner_stages();
+        k[..n].copy_from_slice(&start.rates);
+        if !system.stages(tableau, &start.discrete, start.t, &start.y, h, &mut k[..tableau.stages * n]) {
+            for i in 1..inner {
+                write_sums(&mut end.y, |i| start.y[i], h, &tableau.a[i][..i], k);
+                system.rates(&start.discrete, start.t + tableau.c[i] * h, &end.y, &mut k[i * n..][..n]);
+            }
+        }
+        write_sums(&mut end.y, |i| start.y[i], h, &tableau.b[..inner], k);
+        if tableau.first_same_as_last {
+            let StepPoint { y, rates, .. } = end;
+            system.rates_and_event_functions(&start.discrete, start.t + h, y, rates, &mut attempt.events);
+            k[inner * n..][..n].copy_from_slice(rates);
+        }
+        if properties.adaptive {
+            write_sums(&mut attempt.error, |_| 0.0, h, &tableau.error[..tableau.stages], k);
+            if let Some(weights) = &tableau.coarse_error {
+                write_sums(&mut attempt.coarse_error, |_| 0.0, h, &weights[..tableau.stages], k);
+            }
+            write_unseen(&mut attempt.unseen, h, &shares[..*weighed], k);
+        }
+        tableau.stages as u64 - 1
+    }
+}
+
+/// Four of a list.
+#[inline(always)]
+fn four(list: &[f64]) -> f64x4 {
+    list.first_chunk().map_or(f64x4::ZERO, |four| f64x4::new(*four))
+}
+
+/// a·b + c.
+#[inline(always)]
+fn times_plus(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+    if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
+}
+
+/// y + h·Σ weight_j·k_j of every state; a weight of zero costs nothing. The last rates are added last, and one by one as
+/// they were written: what they wait for is theirs alone, and they need not have left the processor's store buffer.
+#[inline(always)]
+fn write_sums(sums: &mut [f64], y: impl Fn(usize) -> f64, h: f64, weights: &[f64], k: &[f64]) {
+    let (n, last) = (sums.len(), weights.len() - 1);
+    let (weights, weight_of_last) = (&weights[..last], weights[last]);
+    let mut add = |at: usize, changes: &[f64]| {
+        for (i, (sum, change)) in sums[at..].iter_mut().zip(changes).enumerate() {
+            let i = at + i;
+            let change =
+                if weight_of_last == 0.0 { *change } else { (h * weight_of_last).times_plus(k[last * n + i], *change) };
+            *sum = y(i) + change;
+        }
+    };
+    let mut at = 0;
+    while at + FOUR < n {
+        add(at, slopes::<2>(weights, &k[at..], n).map(|slope| (f64x4::splat(h) * slope).to_array()).as_flattened());
+        at += EIGHT;
+    }
+    if at < n {
+        add(at, slopes::<1>(weights, &k[at..], n).map(|slope| (f64x4::splat(h) * slope).to_array()).as_flattened());
+    }
+}
+
+/// Σ weight_j·k_j of so many fours of states, whose rates at one stage are `n` places from those at the next.
+#[inline(always)]
+fn slopes<const FOURS: usize>(weights: &[f64], k: &[f64], n: usize) -> [f64x4; FOURS] {
+    let mut slopes = [f64x4::ZERO; FOURS];
+    for (j, weight) in weights.iter().enumerate() {
+        if *weight != 0.0 {
+            let (rates, _) = k[j * n..][..FOUR * FOURS].as_chunks::<FOUR>();
+            for (slope, rates) in slopes.iter_mut().zip(rates) {
+                *slope = times_plus(f64x4::splat(*weight), f64x4::new(*rates), *slope);
+            }
+        }
+    }
+    slopes
+}
+
+/// What no error estimate sees. A force that sets in early throws the stages after it out of its reach if the step is
+/// far too long; they see nothing, agree with each other, and the estimate is small for a step that missed
+/// everything. The early stages themselves give it away. The `shares` are those of the stages before the first weighed
+/// one of its node.
+fn write_unseen(unseen: &mut [f64], h: f64, shares: &[f64], k: &[f64]) {
+    let weighed = shares.len();
+    let n = unseen.len();
+    if weighed <= 1 {
+        unseen.fill(0.0);
+        return;
+    }
+    for (at, unseen) in unseen.chunks_mut(FOUR).enumerate() {
+        let stage = |j: usize| four(&k[j * n + FOUR * at..]);
+        let (first, late) = (stage(0), stage(weighed));
+        let usual = f64x4::splat(0.5) * first.abs().fast_max(late.abs());
+        let mut most = f64x4::ZERO;
+        for (j, share) in shares.iter().enumerate().skip(1) {
+            let apart = (stage(j) - first - f64x4::splat(*share) * (late - first)).abs();
+            most = most.fast_max(f64x4::splat(h) * (apart - usual));
+        }
+        for (unseen, most) in unseen.iter_mut().zip(most.to_array()) {
+            *unseen = most;
+        }
+    }
+}

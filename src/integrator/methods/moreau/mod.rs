@@ -1,0 +1,204 @@
+//! Moreau's midpoint rule: time stepping for rigid contacts, with Newton's restitution and Coulomb's friction (J. J.
+//! Moreau, in Nonsmooth Mechanics and Applications, CISM 302, Springer 1988; M. Jean, Comput. Methods Appl. Mech. Eng.
+//! 177 (1999) 235; for a slider-crank: P. Flores, R. Leine, C. Glocker, Multibody Syst. Dyn. 23 (2010) 165).
+//!
+//! A step of h from (q_A, u_A): q_M = q_A + (h/2)·u_A; the contacts whose gap is gone by then are closed;
+//! M(q_M)·(u_E − u_A) = h·f + W_N·Λ_N + W_T·Λ_T, where ξ_N = γ_NE + e_N·γ_NA ≥ 0 is complementary to Λ_N ≥ 0 and
+//! −Λ_T ∈ μ·Λ_N·Sgn(γ_TE); q_E = q_M + (h/2)·u_E. Impacts are not located: a step may hold several, and a lasting
+//! contact is an impact in every step.
+//!
+//! Three things are of the second order in h here that are usually of the first, all because minimal coordinates are
+//! curved:
+//! - Forces f that depend on velocity are taken half-way between u_A and u_E (as known from a first pass), not at u_A.
+//! - γ_A and γ_E are the velocities where the step starts and where it ends, not those that u_A and u_E would have at
+//!   q_M: they differ by (h/2)·Ẇᵀu (taken from the step without contacts), as much as the velocities of a lasting
+//!   contact. So a journal in its bearing leaves no step along the tangent, and chatter comes to rest.
+//! - A contact is closed if gap + (h/2)·γ_A ≤ 0 at the start, for the same reason.
+//!
+//! So the rule is of order 2 where nothing touches or contacts last, and of order 1 through an impact, which errs by
+//! what is passed in a step.
+//!
+//! Penetration: an impact goes as deep as its approach in a step, h·|γ_NA|. In a lasting contact, a tenth of what is
+//! deeper than the h·|γ_N| of the step is taken back in every step, by the shift of positions of least kinetic
+//! distance; so what an impact leaves behind fades, and what stays is of order h². Contacts that part are left alone:
+//! lifting them would add energy.
+//!
+//! Newton's restitution with friction may add energy too, where an impact turns the sliding about and restitution is
+//! near 1 (T. R. Kane, D. A. Levinson, Dynamics: Theory and Applications, McGraw-Hill 1985). Without friction and with
+//! one restitution it never does.
+
+mod attempt;
+mod closed;
+
+use crate::integrator::error::IntegrationError;
+use crate::integrator::state::{SolverState, StepPoint};
+use crate::integrator::step_control::Settings;
+use crate::integrator::system::{EventFunctions, System};
+use crate::integrator::unilateral::{Impulses, MOST_STATES, Unilateral, padded};
+use attempt::{Made, attempt};
+
+/// Time stepping with a fixed step.
+pub struct Moreau {
+    settings: Settings,
+    state: SolverState<Impulses>,
+    /// A state within the last step.
+    inside: Vec<f64>,
+}
+
+impl Moreau {
+    /// Starts from the state `y` at `t`.
+    pub fn start(settings: Settings, t: f64, y: &[f64]) -> Self {
+        assert!(y.len() <= MOST_STATES, "at most as many states as a rigid mechanism has");
+        // Rates are of no use to it.
+        let point = StepPoint::new(t, y, Impulses::none(t, y));
+        let mut state = SolverState::new(&point, settings.fixed_step);
+        state.last_error = 0.0;
+        Self::resume(settings, state)
+    }
+
+    /// Goes on from a saved state.
+    pub fn resume(settings: Settings, state: SolverState<Impulses>) -> Self {
+        let inside = state.front().y.clone();
+        Self { settings, state, inside }
+    }
+
+    /// All that is needed to go on.
+    pub fn state(&self) -> &SolverState<Impulses> {
+        &self.state
+    }
+
+    /// Steps until `t` lies within the last step.
+    ///
+    /// # Errors
+    /// See [`IntegrationError`]; the state at the error's time is intact.
+    pub fn advance<D: Copy + Default>(
+        &mut self,
+        system: &dyn Unilateral<Discrete = D>,
+        t: f64,
+    ) -> Result<(), IntegrationError> {
+        let longest = self.settings.fixed_step.min(system.longest_step());
+        self.settings.effort.check(self.state.front().t, t, longest)?;
+        self.march(system, t, |_| false)
+    }
+
+    /// Steps until `t` lies within the last step, or until a step has ended after `after` that closed or opened
+    /// contacts, and tells when that was.
+    ///
+    /// # Errors
+    /// As [`Moreau::advance`].
+    pub fn advance_to_event<D: Copy + Default>(
+        &mut self,
+        system: &dyn Unilateral<Discrete = D>,
+        after: f64,
+        t: f64,
+    ) -> Result<Option<f64>, IntegrationError> {
+        let happened = |state: &SolverState<Impulses>| state.crossings > 0 && state.front().t > after;
+        self.march(system, t, happened)?;
+        Ok(Some(self.state.front().t).filter(|&event| happened(&self.state) && event <= t))
+    }
+
+    /// Starts anew from the state `y` at `t`.
+    pub fn place(&mut self, t: f64, y: &[f64]) {
+        let statistics = self.state.statistics;
+        *self = Self::start(self.settings, t, y);
+        self.state.statistics = statistics;
+    }
+
+    /// Steps until `t` lies within the last step, or `done` is so.
+    fn march<D: Copy + Default>(
+        &mut self,
+        system: &dyn Unilateral<Discrete = D>,
+        t: f64,
+        done: impl Fn(&SolverState<Impulses>) -> bool,
+    ) -> Result<(), IntegrationError> {
+        let before = self.state.statistics.evaluations;
+        let most = self.settings.effort.over(t - self.state.front().t);
+        while self.state.front().t < t && !done(&self.state) {
+            let time = self.state.front().t;
+            let evaluations = self.state.statistics.evaluations - before;
+            if evaluations > most {
+                return Err(IntegrationError::TooMuchWork { time, evaluations });
+            }
+            // The step is what time really moves by: nothing drifts from its rounding.
+            let step = self.settings.fixed_step;
+            let end = time + step.min(system.longest_step());
+            if end <= time {
+                return Err(IntegrationError::StepUnderflow { time, step, component: 0 });
+            }
+            let made = attempt(system, self.state.front(), end - time)?;
+            if let Some(guard) = dead_end(system, end, &made.y[..self.inside.len()]) {
+                return Err(IntegrationError::DeadEnd { time, guard });
+            }
+            self.state.begin_step();
+            self.commit(end, &made);
+        }
+        Ok(())
+    }
+
+    /// State at `t` in the last step, and the step's impulses. Velocities change evenly within a step, at
+    /// impacts too.
+    pub fn state_at<D: Copy>(&mut self, system: &dyn System<Discrete = D>, t: f64) -> (&[f64], Impulses) {
+        let (start, end, front) = (self.state.start(), self.state.end(), self.state.front());
+        if t >= front.t {
+            return (&front.y, front.discrete);
+        }
+        let (span, passed) = (end.t - start.t, t - start.t);
+        let share = passed / span;
+        let y = &mut self.inside;
+        y.copy_from_slice(&end.y);
+        let p = system.extent().positions;
+        for i in 0..p {
+            let (q, u) = (start.y[i], start.y[p + i]);
+            y[i] = q + passed * u + share * share * (end.y[i] - q - span * u);
+            y[p + i] = u + share * (end.y[p + i] - u);
+        }
+        (y, end.discrete)
+    }
+
+    /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a step of its own, or
+    /// by interpolation should that step fail. Contact forces stay those of the whole step: the impulses of a part
+    /// over its length may be of any size. To be called with the system that made the step.
+    pub fn truncate<D: Copy + Default>(&mut self, system: &dyn Unilateral<Discrete = D>, t: f64) {
+        let (start, end) = (self.state.start().t, self.state.end().discrete);
+        if t >= self.state.front().t {
+            return;
+        }
+        self.state.statistics = self.state.statistics_at(t);
+        self.state.statistics.steps -= 1;
+        self.state.crossings = 0;
+        if t <= start {
+            self.state.take_back();
+            return;
+        }
+        let made = attempt(system, self.state.start(), t - start).unwrap_or_else(|_| {
+            let closed = self.state.start().discrete.closed;
+            let (y, impulses) = self.state_at(system, t);
+            Made { y: padded(y), impulses: Impulses { closed, ..impulses }, evaluations: 0 }
+        });
+        let impulses = Impulses { closed: made.impulses.closed, ..end };
+        self.commit(t, &Made { impulses, ..made });
+    }
+
+    /// Makes `made` the step that ends at `t`.
+    fn commit(&mut self, t: f64, made: &Made) {
+        let Made { y, impulses, evaluations } = made;
+        let (start, end) = self.state.ends();
+        let changes =
+            impulses.closed.iter().zip(start.discrete.closed).filter(|(now, before)| **now != *before).count();
+        end.y.copy_from_slice(&y[..self.inside.len()]);
+        self.state.commit_with(t, *impulses, t);
+        self.state.crossings = changes as u64;
+        self.state.statistics.evaluations += evaluations;
+        self.state.statistics.events += changes as u64;
+    }
+}
+
+/// The dead end that `y` lies beyond. Like impacts, dead ends are not located: a step may pass one.
+fn dead_end<D: Copy + Default>(system: &dyn Unilateral<Discrete = D>, t: f64, y: &[f64]) -> Option<usize> {
+    let mut events = EventFunctions::default();
+    if system.event_count() == 0 || !system.is_dead_end(0) {
+        return None;
+    }
+    system.event_functions(&D::default(), t, y, &mut events);
+    (0..system.event_count()).find(|&i| system.is_dead_end(i) && events[i].value < 0.0)
+}

@@ -1,0 +1,157 @@
+//! Rosenbrock methods: linearly implicit, one factorisation a step, with the exact Jacobian J.
+//!
+//! Stage i solves (1/(hγ) − J)·u_i = f(t + α_i·h, y + Σ a_ij·u_j) + Σ (c_ij/h)·u_j + γ_i·h·∂f/∂t, and the
+//! step ends at y + Σ m_j·u_j (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.7, in
+//! the variables of (7.25)). Positions drop out: their rates are velocities, so that u of a position is
+//! hγ times its right side plus u of its velocity, and only velocities and first-order states are
+//! solved for.
+
+use super::linear::Factors;
+use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
+use crate::integrator::state::StepPoint;
+use crate::integrator::system::{Extent, Jacobian, System};
+
+/// Stages of the methods here.
+pub const STAGES: usize = 6;
+
+/// Coefficients of a Rosenbrock method.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients {
+    /// Name in the `solver.method` enumeration.
+    pub name: &'static str,
+    /// Order of the solution that is carried on.
+    pub order: u32,
+    /// γ.
+    pub gamma: f64,
+    /// α_i.
+    pub nodes: [f64; STAGES],
+    /// γ_i.
+    pub slopes: [f64; STAGES],
+    /// a_ij, strictly lower triangular.
+    pub a: [[f64; STAGES]; STAGES],
+    /// c_ij, strictly lower triangular.
+    pub c: [[f64; STAGES]; STAGES],
+    /// m_j.
+    pub weights: [f64; STAGES],
+    /// Weights of the error estimate.
+    pub error: [f64; STAGES],
+}
+
+/// A Rosenbrock method.
+#[derive(Clone, Debug)]
+pub struct Rosenbrock {
+    coefficients: &'static Coefficients,
+    properties: Properties,
+    jacobian: Jacobian,
+    factors: Factors,
+    /// u_i, one stage after the other.
+    stages: Vec<f64>,
+}
+
+impl Rosenbrock {
+    /// For so many states.
+    pub fn new(coefficients: &'static Coefficients, states: usize) -> Self {
+        let properties = Properties {
+            name: coefficients.name,
+            order: coefficients.order,
+            adaptive: true,
+            coarse: false,
+            locates: true,
+            error_power: f64::from(coefficients.order),
+            interpolates: false,
+            gives_end: false,
+            predicts: false,
+            error_share: ERROR_SHARE,
+            others: &[],
+        };
+        let (jacobian, factors) = (Jacobian::new(states), Factors::with_capacity(states));
+        Self { coefficients, properties, jacobian, factors, stages: vec![0.0; STAGES * states] }
+    }
+
+    /// See [`Method::properties`].
+    pub fn properties(&self) -> &Properties {
+        &self.properties
+    }
+
+    /// The derivatives of the rates at the start of the last attempt, or what was written since.
+    pub fn jacobian(&mut self) -> &mut Jacobian {
+        &mut self.jacobian
+    }
+}
+
+impl<D: Copy> Method<D> for Rosenbrock {
+    fn properties(&self) -> &Properties {
+        &self.properties
+    }
+
+    fn kind(&self) -> MethodKind {
+        MethodKind::Implicit
+    }
+
+    fn attempt(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        h: f64,
+        end: &mut StepPoint<D>,
+        attempt: &mut Attempt,
+    ) -> u64 {
+        let Self { coefficients: method, jacobian, factors, stages: u, .. } = self;
+        let Extent { positions: p, states, .. } = system.extent();
+        let g = method.gamma * h;
+        system.jacobian(&start.discrete, start.t, &start.y, jacobian);
+        factors.of(states - p, |i, j| {
+            let row = jacobian.row(p + i);
+            let unit = if i == j { 1.0 } else { 0.0 };
+            let through_position = if j < p { g * row[j] } else { 0.0 };
+            unit - g * (row[p + j] + through_position)
+        });
+        for i in 0..STAGES {
+            let (earlier, later) = u.split_at_mut(i * states);
+            let right = &mut later[..states];
+            if i == 0 {
+                right.copy_from_slice(&start.rates);
+            } else {
+                sum(&mut end.y, |k| start.y[k], &method.a[i][..i], earlier);
+                system.rates(&start.discrete, start.t + method.nodes[i] * h, &end.y, right);
+                let couplings = method.c[i].map(|c| c / h);
+                for (k, right) in right.iter_mut().enumerate() {
+                    let coupled = couplings.iter().take(i).enumerate();
+                    *right += coupled.map(|(j, c)| c * earlier[j * states + k]).sum::<f64>();
+                }
+            }
+            for (right, slope) in right.iter_mut().zip(&jacobian.time) {
+                *right += method.slopes[i] * h * slope;
+            }
+            solve(factors, jacobian, g, p, right);
+        }
+        sum(&mut end.y, |k| start.y[k], &method.weights, u);
+        sum(&mut attempt.error, |_| 0.0, &method.error, u);
+        attempt.unseen.fill(0.0);
+        // The Jacobian counts as one.
+        STAGES as u64
+    }
+}
+
+/// Turns a stage's right side into its u.
+fn solve(factors: &Factors, jacobian: &Jacobian, g: f64, p: usize, right: &mut [f64]) {
+    let states = right.len();
+    let (of_positions, rest) = right.split_at_mut(p);
+    for (i, right) in (p..states).zip(rest.iter_mut()) {
+        let row = &jacobian.row(i)[..p];
+        let through: f64 = row.iter().zip(&*of_positions).map(|(slope, right)| slope * right).sum();
+        *right = g * (*right + g * through);
+    }
+    factors.solve(rest);
+    for (position, velocity) in of_positions.iter_mut().zip(rest) {
+        *position = g * (*position + *velocity);
+    }
+}
+
+/// y + Σ weight_j·u_j of every state.
+fn sum(sums: &mut [f64], y: impl Fn(usize) -> f64, weights: &[f64], u: &[f64]) {
+    let states = sums.len();
+    for (k, sum) in sums.iter_mut().enumerate() {
+        *sum = y(k) + weights.iter().enumerate().map(|(j, weight)| weight * u[j * states + k]).sum::<f64>();
+    }
+}

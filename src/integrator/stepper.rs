@@ -1,0 +1,169 @@
+//! The last step and what is done with it: attempted, looked at, committed, looked into.
+
+use super::dense_output::Correction;
+use super::method::{Attempt, Method, MethodKind, Properties};
+use super::state::{SolverState, StepPoint, lost_state};
+use super::step_control::Settings;
+use super::system::{EventFunctions, Extent, System};
+
+/// A method, its last step, and its attempt at the next.
+pub struct Stepper<D> {
+    pub(super) settings: Settings,
+    pub(super) method: Box<dyn Method<D>>,
+    /// Of the method, and of its present kind.
+    pub(super) properties: Properties,
+    pub(super) extent: Extent,
+    pub(super) state: SolverState<D>,
+    /// The event functions at the front.
+    pub(super) events: EventFunctions,
+    pub(super) attempt: Attempt,
+    correction: Correction,
+    /// A state within the last step.
+    inside: Vec<f64>,
+}
+
+impl<D: Copy> Stepper<D> {
+    /// Goes on from a saved state.
+    pub(super) fn new(
+        system: &dyn System<Discrete = D>,
+        method: Box<dyn Method<D>>,
+        settings: Settings,
+        state: SolverState<D>,
+    ) -> Self {
+        let n = state.front().y.len();
+        let (attempt, correction) = (Attempt::new(n), Correction::new(n));
+        let events = attempt.events;
+        let (properties, extent) = (*method.properties(), system.extent());
+        let mut stepper =
+            Self { settings, method, properties, extent, state, events, attempt, correction, inside: vec![0.0; n] };
+        stepper.find_events(system);
+        stepper
+    }
+
+    /// Goes on from another state.
+    pub(super) fn set_state(&mut self, system: &dyn System<Discrete = D>, state: SolverState<D>) {
+        self.state = state;
+        self.correction.forget();
+        self.find_events(system);
+    }
+
+    /// Does something to the method, and finds out what it is like now.
+    pub(super) fn with_method<R>(&mut self, work: impl FnOnce(&mut dyn Method<D>) -> R) -> R {
+        let done = work(&mut *self.method);
+        self.properties = *self.method.properties();
+        done
+    }
+
+    /// Makes attempts in this way, if there is a choice.
+    pub(super) fn set_kind(&mut self, kind: MethodKind) {
+        if kind != self.method.kind() {
+            self.with_method(|method| method.set_kind(kind));
+        }
+    }
+
+    fn find_events(&mut self, system: &dyn System<Discrete = D>) {
+        let StepPoint { t, y, discrete, .. } = self.state.front();
+        system.event_functions(discrete, *t, y, &mut self.events);
+    }
+
+    /// Attempts a step of `h` from the start of the last one.
+    pub(super) fn attempt(&mut self, system: &dyn System<Discrete = D>, h: f64) {
+        let (start, end) = self.state.ends();
+        let evaluations = self.method.attempt(system, start, h, end, &mut self.attempt);
+        self.state.statistics.evaluations += evaluations;
+    }
+
+    /// Attempts the last step anew, up to `t`.
+    pub(super) fn attempt_to(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+        let start = self.state.start().t;
+        let h = t - start;
+        self.attempt(system, h);
+        // Where the step is rounded, its end is not quite at `t`.
+        if self.gives_end() && start + h != t {
+            self.look_at_end(system, t);
+        }
+    }
+
+    /// An attempt has given rates and event functions at its end.
+    pub(super) fn gives_end(&self) -> bool {
+        self.properties.gives_end
+    }
+
+    /// Takes rates and event functions at the end of the attempt, at `t`.
+    pub(super) fn look_at_end(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+        let (start, StepPoint { y, rates, .. }) = self.state.ends();
+        system.rates_and_event_functions(&start.discrete, t, y, rates, &mut self.attempt.events);
+        self.state.statistics.evaluations += 1;
+    }
+
+    /// The same, if the attempt has not given them.
+    pub(super) fn look_at_end_if_due(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+        if !self.gives_end() {
+            self.look_at_end(system, t);
+        }
+    }
+
+    /// Makes the attempt, whose end has been looked at, the step that ends at `t`.
+    pub(super) fn commit(&mut self, t: f64) {
+        self.events = self.attempt.events;
+        self.state.commit(t);
+        self.correction.forget();
+        self.predict_from_attempt(t);
+    }
+
+    /// Predicts the next attempt from the last one, which ends at `t`, if the method predicts any.
+    pub(super) fn predict_from_attempt(&mut self, t: f64) {
+        if self.properties.predicts {
+            self.method.remember(self.state.start(), t);
+        }
+    }
+
+    /// To be called when the system has changed at the front: rates and event functions are computed anew.
+    pub(super) fn refresh(&mut self, system: &dyn System<Discrete = D>) {
+        self.method.forget();
+        let StepPoint { t, y, rates, discrete, .. } = self.state.front_mut();
+        system.rates(discrete, *t, y, rates);
+        system.event_functions(discrete, *t, y, &mut self.events);
+        self.state.statistics.evaluations += 1;
+    }
+
+    /// Makes what is told of `t` in the last step the end of the attempt.
+    pub(super) fn attempt_as_told(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+        if self.is_attempted_at(system, t) {
+            return;
+        }
+        self.interpolate(system, t);
+        self.state.ends().1.y.copy_from_slice(&self.inside);
+    }
+
+    /// State and discrete state at `t` in the last step.
+    pub(super) fn state_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> (&[f64], D) {
+        if t >= self.state.front().t {
+            let front = self.state.front();
+            return (&front.y, front.discrete);
+        }
+        let discrete = self.state.start().discrete;
+        if self.is_attempted_at(system, t) {
+            return (&self.state.attempt().y, discrete);
+        }
+        self.interpolate(system, t);
+        (&self.inside, discrete)
+    }
+
+    /// Attempts a step to `t` within the last one where the method asks for it, and tells whether it leads somewhere.
+    fn is_attempted_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> bool {
+        if self.properties.interpolates || t <= self.state.start().t {
+            return false;
+        }
+        let (start, end) = self.state.ends();
+        self.method.attempt(system, start, t - start.t, end, &mut self.attempt);
+        lost_state(&end.y).is_none()
+    }
+
+    /// Writes the state at `t` within the last step as it is interpolated.
+    fn interpolate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+        let step = self.state.last_step(self.extent);
+        self.correction.find(&step, system, &self.state.start().discrete, self.settings.tolerance);
+        step.state((t - step.t) / step.h, self.correction.coefficients(), &mut self.inside);
+    }
+}

@@ -1,0 +1,46 @@
+//! The last step made anew, shorter.
+
+use super::state::lost_state;
+use super::stepper::Stepper;
+use super::system::System;
+
+/// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
+/// step of its own. To be called with the system that made the step.
+pub fn truncate<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t: f64) {
+    let state = &mut stepper.state;
+    if t >= state.front().t {
+        return;
+    }
+    state.statistics = state.statistics_at(t);
+    state.statistics.steps -= 1;
+    state.cuts = 0;
+    if t <= state.start().t {
+        state.crossings = 0;
+        state.take_back();
+    } else {
+        stepper.attempt_to(system, t);
+        keep(stepper, system, t);
+        stepper.look_at_end_if_due(system, t);
+        stepper.commit(t);
+    }
+}
+
+/// A shorter step to `t` was not judged. Where it is lost, what was told of this instant takes its place, and where
+/// that is lost, too, the straight line between the longer step's ends, which are not.
+fn keep<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t: f64) {
+    if lost_state(&stepper.state.attempt().y).is_none() {
+        return;
+    }
+    stepper.attempt_as_told(system, t);
+    if lost_state(&stepper.state.attempt().y).is_some() {
+        let state = &mut stepper.state;
+        let share = (t - state.start().t) / (state.end().t - state.start().t);
+        let (start, end, attempt) = state.all_ends();
+        for ((y, start), end) in attempt.y.iter_mut().zip(&start.y).zip(&end.y) {
+            *y = (1.0 - share) * start + share * end;
+        }
+    }
+    if stepper.gives_end() {
+        stepper.look_at_end(system, t);
+    }
+}
