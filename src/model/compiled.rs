@@ -4,8 +4,8 @@
 //! derivatives. With one play in a pin, or none, that is not enough: there is little to compute, and asking what hangs on
 //! what takes as long. In contact, an evaluation at a worn slider pin takes 36 ns for one state and 14 for each of eight, and
 //! with the structure a constant, of which nothing is left to ask, 22 and 8 (AVX2, one core of a Xeon); the closed loop 37
-//! and 11, and 17 and 6. With several plays, whose contacts take most of the time, the constant would gain an eighth. So for
-//! these seven structures the same source is compiled again.
+//! and 11, and 17 and 6. With several plays, whose contacts take most of the time, runs would gain less than a tenth. So
+//! for these seven structures the same source is compiled again.
 //!
 //! What a step's stages hand on to one another must not pass through memory in other portions than it is read in; so the
 //! loop over them is compiled with the equations in it.
@@ -19,66 +19,89 @@ use crate::integrator::stages::in_registers;
 use crate::integrator::{GUARDS, Guard, STAGES, Tableau};
 use crate::math::Row;
 
+/// Writes the rates of a state.
+type Rates = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64]);
 /// Writes the rates of eight states at their times.
 type RatesOfEight = fn(&Mechanism, &Contacts, Row, &[Row], &mut [Row]);
 /// Writes the rates of a state, and the event functions.
 type Ends = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64], &mut [Guard; GUARDS]);
 /// See [`Problem::stages`](crate::integrator::Problem::stages).
-type Stages<const N: usize> = fn(&Mechanism, &Tableau, &Contacts, f64, &[f64; N], f64, &mut [[f64; N]; STAGES]);
+pub type Stages<const N: usize> = fn(&Mechanism, &Tableau, &Contacts, f64, &[f64; N], f64, &mut [[f64; N]; STAGES]);
 
-/// What steps are made of, compiled for one structure or for all.
+/// The equations of motion, compiled for one structure or for all.
 #[derive(Clone, Copy, Debug)]
-pub struct Compiled<const N: usize> {
+pub struct Compiled {
+    /// Rates of one state.
+    pub rates: Rates,
     /// Rates of eight states.
     pub rates_of_eight: RatesOfEight,
     /// Rates and event functions of one.
     pub ends: Ends,
-    /// Rates at the stages of a step.
-    pub stages: Stages<N>,
 }
 
-/// The code for a structure.
-pub fn compiled<const N: usize>(structure: &Structure) -> Compiled<N> {
-    /// That of these ideal joints (main bearing, crank pin, slider pin) beside an ideal guide, and of the prescribed speed.
-    macro_rules! own {
-        ($(($a:literal $b:literal $c:literal $speed:literal))*) => {
-            match structure.topology {
-                $(Topology { a: $a, b: $b, c: $c, t: true, speed: $speed } => {
-                    const OWN: Structure =
-                        Structure::new(Topology { a: $a, b: $b, c: $c, t: true, speed: $speed });
-                    Compiled {
-                        rates_of_eight: |mechanism, contacts, t, y, rates| {
-                            mechanism.rates(&OWN, contacts, t, y, rates);
-                        },
-                        ends: |mechanism, contacts, t, y, rates, guards| {
-                            mechanism.rates_and_guards(&OWN, contacts, t, y, rates, guards);
-                        },
-                        stages: |mechanism, tableau, contacts, t, y, h, k| {
-                            if const { N == 2 * OWN.positions } {
-                                in_registers(tableau, t, y, h, k, |t, y, rates| {
-                                    mechanism.rates(&OWN, contacts, t, y, rates);
-                                });
-                            }
-                        },
-                    }
-                })*
-                _ => Compiled {
-                    rates_of_eight: Mechanism::rates_of_eight,
-                    ends: Mechanism::ends,
-                    stages: |mechanism, tableau, contacts, t, y, h, k| {
-                        in_registers(tableau, t, y, h, k, |t, y, rates| {
-                            mechanism.rates_of_one(contacts, t, y, rates);
-                        });
+/// Chooses what `$own!` makes of the structure as a constant, or `$all` where that does not pay. A line has the ideal joints
+/// (main bearing, crank pin, slider pin, guide), and whether the crank's angle is prescribed.
+macro_rules! by_structure {
+    ($structure:expr, $own:ident, $all:expr) => {
+        by_structure!(
+            @ $structure, $own, $all,
+            (true true true true false)
+            (true true false true false) (true false true true false) (false true true true false)
+            (true true false true true)  (true false true true true)  (false true true true true)
+        )
+    };
+    (@ $structure:expr, $own:ident, $all:expr, $(($a:literal $b:literal $c:literal $t:literal $speed:literal))*) => {
+        match $structure.topology {
+            $(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed } => {
+                const OWN: Structure = Structure::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
+                $own!(OWN)
+            })*
+            _ => $all,
+        }
+    };
+}
+
+impl Compiled {
+    /// Of a structure.
+    pub fn of(structure: &Structure) -> Self {
+        macro_rules! own {
+            ($structure:ident) => {
+                Self {
+                    rates: |mechanism, contacts, t, y, rates| {
+                        mechanism.rates(&$structure, contacts, t, y, rates);
                     },
-                },
+                    rates_of_eight: |mechanism, contacts, t, y, rates| {
+                        mechanism.rates(&$structure, contacts, t, y, rates);
+                    },
+                    ends: |mechanism, contacts, t, y, rates, guards| {
+                        mechanism.rates_and_guards(&$structure, contacts, t, y, rates, guards);
+                    },
+                }
+            };
+        }
+        let all =
+            Self { rates: Mechanism::rates_of_one, rates_of_eight: Mechanism::rates_of_eight, ends: Mechanism::ends };
+        by_structure!(structure, own, all)
+    }
+}
+
+/// The loop over a step's stages of a structure, in arrays of its number of states.
+pub fn stages<const N: usize>(structure: &Structure) -> Stages<N> {
+    macro_rules! own {
+        ($structure:ident) => {
+            |mechanism, tableau, contacts, t, y, h, k| {
+                if const { N == 2 * $structure.positions } {
+                    in_registers(tableau, t, y, h, k, |t, y, rates| {
+                        mechanism.rates(&$structure, contacts, t, y, rates);
+                    });
+                }
             }
         };
     }
-    own!(
-        (true true true false)
-        (true true false true)  (true false true true)  (false true true true)
-        (true true false false) (true false true false) (false true true false)
-    )
+    let all: Stages<N> = |mechanism, tableau, contacts, t, y, h, k| {
+        in_registers(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(contacts, t, y, rates));
+    };
+    by_structure!(structure, own, all)
 }
 
 /// What is compiled once a number, for every structure.

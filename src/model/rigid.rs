@@ -1,7 +1,7 @@
 //! A mechanism with a rigid rod, as the integrator and the simulation ask for it.
 
 use super::bristles::bristled_contacts;
-use super::compiled::{Compiled, compiled};
+use super::compiled::{Compiled, Stages, stages};
 use super::contact::Account;
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
@@ -27,7 +27,8 @@ use crate::scene::Scene;
 pub struct Rigid<const N: usize> {
     /// Without regard to its arrays.
     pub mechanism: Mechanism,
-    compiled: Compiled<N>,
+    compiled: Compiled,
+    stages: Stages<N>,
     suits_blocks: bool,
     scales: [f64; N],
     longest_step: f64,
@@ -55,7 +56,8 @@ impl<const N: usize> Rigid<N> {
             *scale = deflection;
         }
         Self {
-            compiled: compiled(&structure),
+            compiled: Compiled::of(&structure),
+            stages: stages(&structure),
             suits_blocks: structure.topology.has_one_play_in_a_pin() && states == 2 * p,
             scales,
             longest_step: scale.longest_step,
@@ -74,7 +76,7 @@ impl<const N: usize> Problem<N> for Rigid<N> {
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64; N], rates: &mut [f64; N]) {
-        self.mechanism.rates_of_one(contacts, t, y, rates);
+        (self.compiled.rates)(&self.mechanism, contacts, t, y, rates);
     }
 
     fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row; N], rates: &mut [Row; N]) {
@@ -86,7 +88,7 @@ impl<const N: usize> Problem<N> for Rigid<N> {
     }
 
     fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64; N], h: f64, k: &mut [[f64; N]; STAGES]) {
-        (self.compiled.stages)(&self.mechanism, tableau, contacts, t, y, h, k);
+        (self.stages)(&self.mechanism, tableau, contacts, t, y, h, k);
     }
 
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64; N], jacobian: &mut Jacobian<N>) {
