@@ -6,12 +6,13 @@
 use super::bodies::bodies;
 use super::bristles::bristled_contacts;
 use super::contact::{Account, ContactMode, ContactParameters};
-use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, GUIDE_CONTACTS, Guide};
 use super::joint::revolute::Revolute;
+use super::joint_set::{JointSet, Pin};
+use super::loads::Loads;
 use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
-use super::structure::{CRANK, JointSet, Pin, ROD, SLIDER};
+use super::structure::{CRANK, ROD, SLIDER};
 use super::unilateral;
 use crate::integrator::{ContactLaw, Discontinuities, EventFunctions, MAX_EVENTS, Reset, Triggered};
 use crate::scene::Scene;

@@ -1,19 +1,26 @@
-//! The constant structures that get code of their own.
+//! The number types, and the constant structures, that get code of their own.
 //!
-//! The equations of motion are compiled once a number, for every structure. With one play in a pin, or none, that is not
-//! enough: there is little to compute, and asking what hangs on what takes as long. So for these seven structures the same
-//! source is compiled again, with the structure a constant, of which nothing is left to ask.
+//! The equations of motion are compiled once a number, for every structure: one state, eight states, a state with
+//! derivatives. With one play in a pin, or none, that is not enough: there is little to compute, and asking what hangs on
+//! what takes as long. In contact, an evaluation at a worn slider pin takes 36 ns for one state and 14 for each of eight, and
+//! with the structure a constant, of which nothing is left to ask, 22 and 8 (AVX2, one core of a Xeon); the closed loop 37
+//! and 11, and 17 and 6. With several plays, whose contacts take most of the time, runs would gain less than a tenth. So
+//! for these seven structures the same source is compiled again.
 //!
 //! What a step's stages hand on to one another must not pass through memory in other portions than it is read in; so the
 //! loop over them is compiled with the equations in it.
 
-use super::mechanism::Mechanism;
+use super::contact::Account;
+use super::mechanism::{Mechanism, Stance};
+use super::scalar::Tangent;
 use super::stages::in_registers;
-use super::state::Contacts;
+use super::state::{Contacts, Instant};
 use super::structure::{Structure, Topology};
 use crate::integrator::{EventFunctions, Tableau};
 use crate::math::Row;
 
+/// Writes the rates of a state.
+type Rates = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64]);
 /// Writes the rates of eight states at their times.
 type RatesOfEight = fn(&Mechanism, &Contacts, Row, &[Row], &mut [Row]);
 /// Writes the rates of a state, and the event functions.
@@ -21,9 +28,11 @@ type Ends = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64], &mut EventFunctio
 /// See [`Ode::stages`](crate::integrator::Ode::stages).
 type Stages = fn(&Mechanism, &Tableau, &Contacts, f64, &[f64], f64, &mut [f64]) -> bool;
 
-/// What steps are made of, compiled for one structure or for all.
+/// The equations of motion, compiled for one structure or for all.
 #[derive(Clone, Copy, Debug)]
 pub struct Compiled {
+    /// Rates of one state.
+    pub rates: Rates,
     /// Rates of eight states.
     pub rates_of_eight: RatesOfEight,
     /// Rates and event functions of one.
@@ -32,40 +41,124 @@ pub struct Compiled {
     pub stages: Stages,
 }
 
-/// The code for a structure.
-pub fn compiled(structure: &Structure) -> Compiled {
-    /// That of these ideal joints (main bearing, crank pin, slider pin) beside an ideal guide, and of the prescribed speed.
-    macro_rules! own {
-        ($(($a:literal $b:literal $c:literal $speed:literal))*) => {
-            match structure.topology {
-                $(Topology { a: $a, b: $b, c: $c, t: true, speed: $speed } => {
-                    const OWN: Structure =
-                        Structure::new(Topology { a: $a, b: $b, c: $c, t: true, speed: $speed });
-                    Compiled {
-                        rates_of_eight: |mechanism, contacts, t, y, rates| {
-                            mechanism.rates(&OWN, contacts, t, y, rates);
-                        },
-                        ends: |mechanism, contacts, t, y, rates, guards| {
-                            mechanism.rates_and_guards(&OWN, contacts, t, y, rates, guards);
-                        },
-                        stages: |mechanism, tableau, contacts, t, y, h, k| {
-                            in_registers::<{ 2 * OWN.positions }>(tableau, t, y, h, k, |t, y, rates| {
-                                mechanism.rates(&OWN, contacts, t, y, rates);
-                            })
-                        },
-                    }
-                })*
-                _ => Compiled {
-                    rates_of_eight: Mechanism::rates_of_eight,
-                    ends: Mechanism::ends,
-                    stages: |_, _, _, _, _, _, _| false,
-                },
+/// Chooses what `$own!` makes of the structure as a constant, or `$all` where that does not pay. A line has the ideal joints
+/// (main bearing, crank pin, slider pin, guide), and whether the crank's angle is prescribed.
+macro_rules! by_structure {
+    ($structure:expr, $own:ident, $all:expr) => {
+        by_structure!(
+            @ $structure, $own, $all,
+            (true true true true false)
+            (true true false true false) (true false true true false) (false true true true false)
+            (true true false true true)  (true false true true true)  (false true true true true)
+        )
+    };
+    (@ $structure:expr, $own:ident, $all:expr, $(($a:literal $b:literal $c:literal $t:literal $speed:literal))*) => {
+        match $structure.topology {
+            $(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed } => {
+                const OWN: Structure = Structure::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
+                $own!(OWN)
+            })*
+            _ => $all,
+        }
+    };
+}
+
+impl Compiled {
+    /// Of a structure.
+    pub fn of(structure: &Structure) -> Self {
+        macro_rules! own {
+            ($structure:ident) => {
+                Self {
+                    rates: |mechanism, contacts, t, y, rates| {
+                        mechanism.rates(&$structure, contacts, t, y, rates);
+                    },
+                    rates_of_eight: |mechanism, contacts, t, y, rates| {
+                        mechanism.rates(&$structure, contacts, t, y, rates);
+                    },
+                    ends: |mechanism, contacts, t, y, rates, guards| {
+                        mechanism.rates_and_guards(&$structure, contacts, t, y, rates, guards);
+                    },
+                    stages: |mechanism, tableau, contacts, t, y, h, k| {
+                        in_registers::<{ 2 * $structure.positions }>(tableau, t, y, h, k, |t, y, rates| {
+                            mechanism.rates(&$structure, contacts, t, y, rates);
+                        })
+                    },
+                }
+            };
+        }
+        let all = Self {
+            rates: Mechanism::rates_of_one,
+            rates_of_eight: Mechanism::rates_of_eight,
+            ends: Mechanism::ends,
+            stages: stages_of_all(2 * structure.positions),
+        };
+        by_structure!(structure, own, all)
+    }
+}
+
+/// The loop over a step's stages of any structure with so many states, which its sums know.
+fn stages_of_all(states: usize) -> Stages {
+    macro_rules! of {
+        ($($n:literal)*) => {
+            match states {
+                $($n => |mechanism, tableau, contacts, t, y, h, k| {
+                    in_registers::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(contacts, t, y, rates))
+                },)*
+                _ => |_, _, _, _, _, _, _| false,
             }
         };
     }
-    own!(
-        (true true true false)
-        (true true false true)  (true false true true)  (false true true true)
-        (true true false false) (true false true false) (false true true false)
-    )
+    of!(4 6 8 10 12 14 16 18)
+}
+
+/// What is compiled once a number, for every structure.
+impl Mechanism {
+    /// [`Mechanism::rates`] of a state.
+    #[inline(never)]
+    pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
+        self.rates(&self.structure, contacts, t, y, rates);
+    }
+
+    /// [`Mechanism::rates`] of eight states at their times.
+    #[inline(never)]
+    pub fn rates_of_eight(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
+        self.rates(&self.structure, contacts, t, y, rates);
+    }
+
+    /// [`Mechanism::rates`] with derivatives.
+    #[inline(never)]
+    pub fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+        self.rates(&self.structure, contacts, t, y, rates);
+    }
+
+    /// [`Mechanism::rates_and_guards`].
+    #[inline(never)]
+    pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut EventFunctions) {
+        self.rates_and_guards(&self.structure, contacts, t, y, rates, guards);
+    }
+
+    #[inline(never)]
+    pub(super) fn place(&self, t: f64, y: &[f64]) -> Stance<f64> {
+        self.stance(&self.structure, t, y)
+    }
+
+    /// Everything about an instant, and its rates.
+    #[inline(never)]
+    pub fn instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
+        self.rates_and_instant(&self.structure, contacts, t, y, rates)
+    }
+
+    /// Everything about an instant with derivatives, and what its contacts hold and take.
+    #[inline(never)]
+    pub fn tangent_instant(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent],
+        rates: &mut [Tangent],
+    ) -> (Instant<Tangent>, Account<Tangent>) {
+        let instant = self.rates_and_instant(&self.structure, contacts, t, y, rates);
+        let account = self.account(contacts, &instant.pose, y);
+        (instant, account)
+    }
 }

@@ -1,10 +1,11 @@
 //! What drives and loads the mechanism: inputs in time, the prescribed crank angle, viscous friction.
 
-use super::dynamics::Loads;
 use super::joint::guide;
+use super::joint_set::Pin;
+use super::loads::Loads;
 use super::plane::Vec2;
 use super::signals::Inputs;
-use super::structure::{CRANK, Pin, SLIDER};
+use super::structure::{CRANK, SLIDER};
 use crate::math::Real;
 use crate::scene::Scene;
 

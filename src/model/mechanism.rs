@@ -1,7 +1,7 @@
 //! A mechanism with a rigid rod: its parts, its inputs, and its equations of motion.
 //!
 //! The equations are written once, for every [`Structure`] and every number: [`Mechanism::rates`]. They are compiled once for
-//! each kind of number, with the structure as data (here, at the end), and again for some constant structures
+//! each kind of number, with the structure as data, and again for some constant structures
 //! ([`compiled`](super::compiled)). What else is asked about an instant is made from the same three steps: the pose,
 //! outwards; the loads; the accelerations, by forces inwards.
 
@@ -9,16 +9,17 @@ use super::bodies::{AugmentedBodies, Bodies, bodies};
 use super::clearances::Clearances;
 use super::contact::Account;
 use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
-use super::dynamics::{Accelerations, Loads, accelerate};
+use super::dynamics::{Accelerations, accelerate};
 use super::ideal::{IdealMechanism, IdealMotion};
 use super::kinematics::{Arms, Centres, Moving, Roots, Turning};
+use super::loads::Loads;
 use super::plane::Vec2;
-use super::scalar::{Scalar, Tangent};
+use super::scalar::Scalar;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning, turning_at};
 use super::structure::{CRANK, Link, ROD, Structure, Topology};
 use crate::integrator::EventFunctions;
-use crate::math::{self, Row, each};
+use crate::math::{self, each};
 use crate::scene::Scene;
 
 /// A mechanism whose rod is rigid. Nothing but its inputs changes while time runs.
@@ -100,7 +101,7 @@ impl Mechanism {
 
     /// The same, and everything else about this instant.
     #[inline(always)]
-    fn rates_and_instant<R: Scalar>(
+    pub fn rates_and_instant<R: Scalar>(
         &self,
         of: &Structure,
         contacts: &Contacts,
@@ -235,32 +236,7 @@ pub(super) fn instant<R: Scalar>(
     Instant { pose, acceleration, angle_acceleration: *angle, loads, flexible: None }
 }
 
-/// What is compiled once a number, for all structures.
 impl Mechanism {
-    /// [`Mechanism::rates`] of a state.
-    #[inline(never)]
-    pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
-        self.rates(&self.structure, contacts, t, y, rates);
-    }
-
-    /// [`Mechanism::rates`] of eight states at their times.
-    #[inline(never)]
-    pub fn rates_of_eight(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
-        self.rates(&self.structure, contacts, t, y, rates);
-    }
-
-    /// [`Mechanism::rates`] with derivatives.
-    #[inline(never)]
-    pub fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
-        self.rates(&self.structure, contacts, t, y, rates);
-    }
-
-    /// [`Mechanism::rates_and_guards`].
-    #[inline(never)]
-    pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut EventFunctions) {
-        self.rates_and_guards(&self.structure, contacts, t, y, rates, guards);
-    }
-
     /// How many event functions there are.
     pub fn guard_count(&self) -> usize {
         if self.structure.closed {
@@ -278,31 +254,6 @@ impl Mechanism {
     /// Angles, places and velocities.
     pub fn pose(&self, t: f64, y: &[f64]) -> Pose {
         self.place(t, y).pose
-    }
-
-    #[inline(never)]
-    pub(super) fn place(&self, t: f64, y: &[f64]) -> Stance<f64> {
-        self.stance(&self.structure, t, y)
-    }
-
-    /// Everything about an instant, and its rates.
-    #[inline(never)]
-    pub fn instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
-        self.rates_and_instant(&self.structure, contacts, t, y, rates)
-    }
-
-    /// Everything about an instant with derivatives, and what its contacts hold and take.
-    #[inline(never)]
-    pub fn tangent_instant(
-        &self,
-        contacts: &Contacts,
-        t: Tangent,
-        y: &[Tangent],
-        rates: &mut [Tangent],
-    ) -> (Instant<Tangent>, Account<Tangent>) {
-        let instant = self.rates_and_instant(&self.structure, contacts, t, y, rates);
-        let account = self.account(contacts, &instant.pose, y);
-        (instant, account)
     }
 
     /// Elastic energy of the closed contacts, and the powers that they take.

@@ -3,6 +3,7 @@
 use super::bodies::{Bodies, bodies};
 use super::ideal::IdealMechanism;
 use super::joint::guide::{CORNERS, contact_of_corner};
+use super::joint_set::Pin;
 use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};
 use super::rod::Elastic;
@@ -10,7 +11,7 @@ use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
 use super::state::{Contacts, Instant};
-use super::structure::{CRANK, Pin, ROD, SLIDER, Topology};
+use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::scene::{Scene, Surface};
 
 /// Makes outputs of instants.

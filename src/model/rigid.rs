@@ -1,7 +1,7 @@
 //! A mechanism with a rigid rod, as the integrator and the simulation ask for it.
 
 use super::bristles::bristled_contacts;
-use super::compiled::{Compiled, compiled};
+use super::compiled::{Compiled, Stages, stages};
 use super::contact::Account;
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
@@ -55,7 +55,8 @@ impl Rigid {
             *scale = deflection;
         }
         Self {
-            compiled: compiled(&structure),
+            compiled: Compiled::of(&structure),
+            stages: stages(&structure),
             suits_blocks: structure.topology.has_one_play_in_a_pin() && states == 2 * p,
             scales,
             longest_step: scale.longest_step,
@@ -74,7 +75,7 @@ impl Ode for Rigid {
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
-        self.mechanism.rates_of_one(contacts, t, y, rates);
+        (self.compiled.rates)(&self.mechanism, contacts, t, y, rates);
     }
 
     fn scales(&self) -> &[f64] {

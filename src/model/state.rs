@@ -2,14 +2,15 @@
 
 use super::contact::ContactMode;
 use super::drive::Rotor;
-use super::dynamics::Loads;
 use super::joint::guide::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
+use super::joint_set::Pin;
 use super::kinematics::{JointCentres, Turning};
+use super::loads::Loads;
 use super::plane::Rotation;
 use super::reactions::Demand;
 use super::rod::Elastic;
-use super::structure::{CRANK, Pin, ROD, SLIDER, Structure};
+use super::structure::{CRANK, ROD, SLIDER, Structure};
 use crate::math::Real;
 
 /// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.

@@ -4,13 +4,15 @@
 //! the response to an impulse is the acceleration under that force alone, at rest and without weight.
 
 use super::clearances::Clearances;
-use super::dynamics::{Accelerations, Loads, accelerate};
+use super::dynamics::{Accelerations, accelerate};
 use super::ideal::IdealMotion;
 use super::joint::guide::CORNERS;
+use super::joint_set::{JointSet, Pin};
 use super::kinematics::Turning;
+use super::loads::Loads;
 use super::mechanism::{Mechanism, instant, write};
 use super::state::{CONTACTS, Contacts, Instant, Pose};
-use super::structure::{JointSet, Pin, Structure};
+use super::structure::Structure;
 use crate::integrator::complementarity::{MOST_CONTACTS, Pairs};
 use crate::integrator::{ContactLaw, Relative};
 use crate::scene::{Contact, FrictionLaw, Scene};

@@ -3,7 +3,7 @@
 use super::configuration::{Centre, Configuration, Heading};
 use crate::math::Real;
 use crate::model::bodies::{Bodies, Body};
-use crate::model::dynamics::Loads;
+use crate::model::loads::Loads;
 use crate::model::plane::{Vec2, cross, perp};
 use crate::model::structure::Structure;
 use crate::model::structure::{CRANK, SLIDER, Topology};

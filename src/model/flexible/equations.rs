@@ -7,7 +7,7 @@ use super::configuration::{Centre, Configuration, Heading};
 use super::sparse::Sparse;
 use crate::math::{Fused, Real, each};
 use crate::model::bodies::{Bodies, Body};
-use crate::model::dynamics::Loads;
+use crate::model::loads::Loads;
 use crate::model::plane::{Vec2, cross, perp};
 use crate::model::reactions::Demand;
 use crate::model::rod::{FEW_MODES, Inertia, Rod, Shape};

@@ -10,7 +10,7 @@ use super::written;
 use crate::integrator::{EventFunction, EventFunctions};
 use crate::math::{Row, each};
 use crate::model::drive::{add_viscous, viscous_guide};
-use crate::model::dynamics::Loads;
+use crate::model::loads::Loads;
 use crate::model::plane::{Rotation, Vec2};
 use crate::model::rod::{Any, Counted, Counts, FEW_MODES, Inertia, Shape};
 use crate::model::scalar::{Scalar, Tangent};
