@@ -10,7 +10,7 @@ const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3, effort:
 
 #[test]
 fn rates_that_are_not_a_number_at_the_start_are_named() {
-    let problem = Free::<_, 2> {
+    let problem = Free::<_, 4> {
         accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a.copy_from_slice(&[1.0, f64::NAN]),
     };
     let start = [1.0, 2.0, 3.0, 4.0];
@@ -162,6 +162,10 @@ impl Events for Stuck {
 
     fn is_dead_end(&self, guard: usize) -> bool {
         self.ends && guard == 1
+    }
+
+    fn event_scale(&self) -> f64 {
+        if self.ends { 1e-9 } else { 1.0 }
     }
 }
 

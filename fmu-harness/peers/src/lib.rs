@@ -150,7 +150,7 @@ pub unsafe extern "C" fn equations_cross(system: *mut System, t: f64, y: *mut f6
     let count = system.size().event_functions;
     // SAFETY: `crossed` holds so many.
     let crossed = unsafe { std::slice::from_raw_parts(crossed, count) };
-    let mut flags = [false; slidercrank::integrator::GUARDS];
+    let mut flags = [false; slidercrank::integrator::MAX_EVENTS];
     for (flag, crossed) in flags.iter_mut().zip(crossed) {
         *flag = *crossed != 0;
     }
