@@ -14,7 +14,7 @@ use super::mechanism::Topology;
 use super::plant::{Plant, ROOM};
 use super::scalar::Tangent;
 use super::scales;
-use super::stages::in_registers;
+use super::stages::of_so_many;
 use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose, turning};
 use crate::integrator::{
@@ -103,7 +103,7 @@ impl<const A: bool, const B: bool, const C: bool, const T: bool, const SPEED: bo
     }
 
     fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
-        in_registers::<N>(tableau, t, y, h, k, |t, y, rates| self.rates(contacts, t, y, rates))
+        of_so_many::<N>(tableau, t, y, h, k, |t, y, rates| self.rates(contacts, t, y, rates))
     }
 
     fn scales(&self) -> &[f64] {
