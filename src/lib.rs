@@ -1,7 +1,7 @@
 //! An FMI 2.0 co-simulation unit of the slider-crank mechanism with clearance joints.
 //!
 //! Path of the data: `scene.toml → scene::read → Scene → Model::assemble → Model → Simulation
-//! (integrator on Problem) → fmi::Instance → fmi::abi → importer`.
+//! (integrator on System) → fmi::Instance → fmi::abi → importer`.
 
 pub mod fmi;
 pub mod integrator;
