@@ -231,11 +231,13 @@ pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &Row, 
     let (mut at, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
     for (node, t) in t.numbers().into_iter().enumerate() {
         for (at, y) in at.iter_mut().zip(y) {
-            *at = y.number(node);
+            *at = y.numbers()[node];
         }
         system.rates(discrete, t, &at[..n], &mut found[..n]);
         for (rates, found) in rates.iter_mut().zip(&found) {
-            rates.set_number(node, *found);
+            let mut numbers = rates.numbers();
+            numbers[node] = *found;
+            *rates = Row::of(numbers);
         }
     }
 }

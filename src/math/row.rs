@@ -40,21 +40,6 @@ impl Row {
         self.0[1].to_array()[LANES - 1]
     }
 
-    /// One of them.
-    #[inline(always)]
-    pub fn number(self, k: usize) -> f64 {
-        self.0[k / LANES].to_array()[k % LANES]
-    }
-
-    /// Puts another in its place.
-    #[inline(always)]
-    pub fn set_number(&mut self, k: usize, number: f64) {
-        let four = &mut self.0[k / LANES];
-        let mut numbers = four.to_array();
-        numbers[k % LANES] = number;
-        *four = f64x4::new(numbers);
-    }
-
     /// Of all eight.
     #[inline(always)]
     pub fn sum(self) -> f64 {

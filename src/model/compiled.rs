@@ -13,7 +13,7 @@
 use super::contact::Account;
 use super::mechanism::{Mechanism, Stance};
 use super::scalar::Tangent;
-use super::stages::in_registers;
+use super::stages::of_so_many;
 use super::state::{Contacts, Instant};
 use super::structure::{Structure, Topology};
 use crate::integrator::{EventFunctions, Tableau};
@@ -79,7 +79,7 @@ impl Compiled {
                         mechanism.rates_and_guards(&$structure, contacts, t, y, rates, guards);
                     },
                     stages: |mechanism, tableau, contacts, t, y, h, k| {
-                        in_registers::<{ 2 * $structure.positions }>(tableau, t, y, h, k, |t, y, rates| {
+                        of_so_many::<{ 2 * $structure.positions }>(tableau, t, y, h, k, |t, y, rates| {
                             mechanism.rates(&$structure, contacts, t, y, rates);
                         })
                     },
@@ -102,7 +102,7 @@ fn stages_of_all(states: usize) -> Stages {
         ($($n:literal)*) => {
             match states {
                 $($n => |mechanism, tableau, contacts, t, y, h, k| {
-                    in_registers::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(contacts, t, y, rates))
+                    of_so_many::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(contacts, t, y, rates))
                 },)*
                 _ => |_, _, _, _, _, _, _| false,
             }

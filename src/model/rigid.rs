@@ -1,7 +1,7 @@
 //! A mechanism with a rigid rod, as the integrator and the simulation ask for it.
 
 use super::bristles::bristled_contacts;
-use super::compiled::{Compiled, Stages, stages};
+use super::compiled::Compiled;
 use super::contact::Account;
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
@@ -16,8 +16,8 @@ use super::state::{Contacts, Instant, Pose};
 use super::unilateral::Acting;
 use crate::integrator::complementarity::MOST_CONTACTS;
 use crate::integrator::{
-    ContactLaw, Discontinuities, EventFunctions, Events, Extent, Impulses, Jacobian, Linearizable, Ode, Relative, Reset,
-    SeveralInstants, Tableau, Triggered, Unilateral,
+    ContactLaw, Discontinuities, EventFunctions, Events, Extent, Impulses, Jacobian, Linearizable, Ode, Relative,
+    Reset, SeveralInstants, Tableau, Triggered, Unilateral,
 };
 use crate::math::{Real, Row};
 use crate::scene::Scene;
@@ -56,7 +56,6 @@ impl Rigid {
         }
         Self {
             compiled: Compiled::of(&structure),
-            stages: stages(&structure),
             suits_blocks: structure.topology.has_one_play_in_a_pin() && states == 2 * p,
             scales,
             longest_step: scale.longest_step,

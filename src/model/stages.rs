@@ -1,5 +1,6 @@
 //! The loop over a step's stages, compiled for a mechanism whose number of states is known, with its rates inside.
 
+use super::plant::ROOM;
 use crate::integrator::Tableau;
 use crate::math::{Fused, each};
 
@@ -7,8 +8,48 @@ use crate::math::{Fused, each};
 /// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
 pub const IN_REGISTERS: usize = 14;
 
-/// [`Ode::stages`](crate::integrator::Ode::stages) of a mechanism of `N` states with these `rates`; `false` for one with
-/// more than [`IN_REGISTERS`].
+/// [`Ode::stages`](crate::integrator::Ode::stages) of a mechanism of `N` states with these `rates`, in registers or not;
+/// `false` for one that may have fewer states than that.
+#[inline(always)]
+pub fn of_so_many<const N: usize>(
+    tableau: &Tableau,
+    t: f64,
+    y: &[f64],
+    h: f64,
+    k: &mut [f64],
+    rates: impl Fn(f64, &[f64; N], &mut [f64; N]),
+) -> bool {
+    if const { N <= IN_REGISTERS } {
+        return in_registers::<N>(tableau, t, y, h, k, rates);
+    }
+    if const { N >= ROOM } {
+        return false;
+    }
+    let (Some(y), (k, _)) = (y.first_chunk::<N>(), k.as_chunks_mut::<N>()) else {
+        return false;
+    };
+    for i in 1..tableau.inner_stages().min(k.len()) {
+        let (earlier, later) = k.split_at_mut(i);
+        let (last, earlier) = (&earlier[i - 1], &earlier[..i - 1]);
+        let weights = &tableau.a[i];
+        let mut at = [0.0; N];
+        for (weight, k) in weights.iter().zip(earlier) {
+            if *weight != 0.0 {
+                for (slope, k) in at.iter_mut().zip(k) {
+                    *slope = weight.times_plus(*k, *slope);
+                }
+            }
+        }
+        let weight_of_last = h * weights[i - 1];
+        for ((at, y), last) in at.iter_mut().zip(y).zip(last) {
+            *at = y + weight_of_last.times_plus(*last, h * *at);
+        }
+        rates(t + tableau.c[i] * h, &at, &mut later[0]);
+    }
+    true
+}
+
+/// The same of a mechanism of at most [`IN_REGISTERS`] states; `false` for others.
 #[inline(always)]
 pub fn in_registers<const N: usize>(
     tableau: &Tableau,

@@ -1,5 +1,6 @@
 //! The integrator on problems with known answers.
 
+mod bathe;
 mod complementarity;
 mod conditions;
 mod dense_output;

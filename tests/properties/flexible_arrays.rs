@@ -3,14 +3,16 @@
 
 use super::chance::Chance;
 use super::scenes::{all_plays, contacts, crooked, letters, with_play};
-use slidercrank::integrator::Front;
-use slidercrank::integrator::methods::Verner7;
-use slidercrank::integrator::stages::{Attempt, IN_REGISTERS};
+use slidercrank::integrator::method::Attempt;
+use slidercrank::integrator::methods::VERNER7;
+use slidercrank::integrator::methods::explicit::Explicit;
+use slidercrank::integrator::{Method, StepPoint};
 use slidercrank::math::Real;
 use slidercrank::model::flexible::{Flexible, most_equations, state_count};
 use slidercrank::model::plant::Plant;
 use slidercrank::model::rod::{Rod, most_functions};
 use slidercrank::model::scalar::Tangent;
+use slidercrank::model::stages::IN_REGISTERS;
 use slidercrank::model::start::StartPose;
 use slidercrank::model::state::Contacts;
 use slidercrank::scene::{DriveMode, FrictionLaw, Scene};
@@ -23,10 +25,11 @@ type Many = In<8, { most_equations(8) }, { most_functions(8) }>;
 type Most = In<16, { most_equations(16) }, { most_functions(16) }>;
 
 /// A mechanism, and a state of a motion that leaves nothing out.
-fn moving<const N: usize, P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> (P, [f64; N], Contacts) {
+fn moving<P: Plant>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> (P, Vec<f64>, Contacts) {
     let plant = assemble(scene, 0.0, Rod::new(scene).expect("a flexible rod"));
     let positions = plant.extent().positions;
-    let mut y = plant.start(&StartPose::of(scene).expect("the loop closes"));
+    let mut y = vec![0.0; plant.extent().states];
+    plant.write_start(&StartPose::of(scene).expect("the loop closes"), &mut y);
     let mut chance = Chance(5);
     for (i, state) in y.iter_mut().enumerate().take(2 * positions) {
         // Some bearings touch.
@@ -37,26 +40,27 @@ fn moving<const N: usize, P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, 
 }
 
 /// Its rates, in plain numbers and in those with derivatives, which are put at 0.
-fn rates<P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Vec<f64>; 2] {
+fn rates<P: Plant>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Vec<f64>; 2] {
     let (plant, y, contacts) = moving(scene, assemble);
-    let states = plant.extent().states;
-    let (mut plain, mut tangent) = ([0.0; N], [Tangent::ZERO; N]);
+    let states = y.len();
+    let (mut plain, mut tangent) = (vec![0.0; states], vec![Tangent::ZERO; states]);
     plant.rates(&contacts, 0.0, &y, &mut plain);
-    plant.tangent_rates(&contacts, Tangent::ZERO, &y.map(Tangent::constant), &mut tangent);
-    let (mut again, mut guards) = ([0.0; N], Default::default());
-    plant.rates_and_guards(&contacts, 0.0, &y, &mut again, &mut guards);
+    let constants: Vec<_> = y.iter().map(|y| Tangent::constant(*y)).collect();
+    plant.tangent_rates(&contacts, Tangent::ZERO, &constants, &mut tangent);
+    let (mut again, mut events) = (vec![0.0; states], Default::default());
+    plant.rates_and_event_functions(&contacts, 0.0, &y, &mut again, &mut events);
     assert_eq!(plain, again, "rates with and without event functions");
-    [plain[..states].to_vec(), tangent[..states].iter().map(|rate| rate.value()).collect()]
+    [plain, tangent.iter().map(|rate| rate.value()).collect()]
 }
 
 /// The end of a step of that motion, and the step's error.
-fn step<const N: usize, P: Plant<N>>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Vec<f64>; 2] {
+fn step<P: Plant>(scene: &Scene, assemble: fn(&Scene, f64, Rod) -> P) -> [Vec<f64>; 2] {
     let (plant, y, contacts) = moving(scene, assemble);
-    let mut start = Front { t: 0.0, y, rates: [0.0; N], modes: contacts, impact_end: 0.0 };
+    let mut start = StepPoint::new(0.0, &y, contacts);
     plant.rates(&contacts, 0.0, &y, &mut start.rates);
-    let mut made = Attempt::NONE;
-    made.explicitly::<Verner7, P>(&plant, &start, 1e-6);
-    [made.y, made.error].map(|list| list[..plant.extent().states].to_vec())
+    let (mut end, mut made) = (start.clone(), Attempt::new(y.len()));
+    Explicit::new(&VERNER7, y.len()).attempt(&plant, &start, 1e-6, &mut end, &mut made);
+    [end.y, made.error]
 }
 
 /// The same in arrays that fit, where those fit into registers.

@@ -7,8 +7,8 @@ use super::scenes::{
     with_play,
 };
 use super::symmetry::{mirror, mirrored};
-use slidercrank::integrator::methods::Verner7;
-use slidercrank::integrator::{Effort, Front, Integrator, Settings};
+use slidercrank::integrator::methods::named;
+use slidercrank::integrator::{Effort, Integrator, Ode, Settings, StepPoint};
 use slidercrank::model::joint::foundation::Bed;
 use slidercrank::model::joint::guide::Guide;
 use slidercrank::model::plant::Plant;
@@ -144,17 +144,19 @@ fn jamming(play: Play) -> Scene {
 fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
     let scene = at_tolerance(faced([false, false, false, true]), 1e-8);
     let guide = Guide::new(&scene);
-    let plant = Rigid::<6>::assemble(&scene, 0.0);
-    let y = plant.start(&StartPose::of(&scene).expect("a loop that closes"));
+    let plant = Rigid::assemble(&scene, 0.0);
+    let mut y = vec![0.0; plant.extent().states];
+    plant.write_start(&StartPose::of(&scene).expect("a loop that closes"), &mut y);
     let contacts = plant.start_contacts(0.0, &y);
     let settings = Settings { tolerance: 1e-8, fixed_step: 1e-6, effort: Effort::ANY };
-    let mut integrator = Integrator::<6, _, Verner7>::start(&plant, settings, 0.0, y, contacts);
+    let mut integrator =
+        Integrator::start(&plant, named("verner7", y.len()).expect("a method"), settings, 0.0, &y, contacts);
     let (mut closings, mut passages) = (0, 0);
     let (mut before, mut before_count) = (contacts, [0; 2]);
-    while integrator.memory().front.t < 0.03 {
-        integrator.advance(&plant, integrator.memory().front.t.next_up()).expect("a motion without trouble");
-        let Front { t, y, modes, .. } = integrator.memory().front;
-        let pose = plant.instant(&modes, t, &y).pose.slider();
+    while integrator.state().front().t < 0.03 {
+        integrator.advance(&plant, integrator.state().front().t.next_up()).expect("a motion without trouble");
+        let StepPoint { t, y, discrete: modes, .. } = integrator.state().front();
+        let pose = plant.instant(modes, *t, y).pose.slider();
         let depths = guide.penetrations(&pose);
         for face in 0..2 {
             let (was, is) = (before[3 + face], modes[3 + face]);
@@ -172,7 +174,7 @@ fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
             before_count[face] = count;
         }
         assert!(!modes[5].closed && !modes[6].closed);
-        before = modes;
+        before = *modes;
     }
     println!("{closings} closings, {passages} passages between corner and face");
     assert!(closings > 10 && passages > 5, "{closings} closings, {passages} passages");
@@ -183,8 +185,9 @@ fn a_face_closed_at_the_start_has_the_least_approach_speed() {
     for (offset, upper) in [(1.2e-4, true), (-1.2e-4, false)] {
         let mut scene = faced([false, false, false, true]);
         scene.joint.t.offset_start = offset;
-        let plant = Rigid::<6>::assemble(&scene, 0.0);
-        let y = plant.start(&StartPose::of(&scene).expect("a loop that closes"));
+        let plant = Rigid::assemble(&scene, 0.0);
+        let mut y = vec![0.0; plant.extent().states];
+        plant.write_start(&StartPose::of(&scene).expect("a loop that closes"), &mut y);
         let contacts = plant.start_contacts(0.0, &y);
         assert_eq!((contacts[3].closed, contacts[4].closed), (upper, !upper));
         assert_eq!(contacts[3].approach.max(contacts[4].approach), scene.joint.t.contact.speed_floor);

@@ -4,7 +4,7 @@
 //! Its rod has two sine modes in bending and one quadratic element along its axis. The printed model's
 //! axial mass block lacks the element's factor 1/15; both are run here. It knows no foreshortening.
 
-use slidercrank::integrator::methods::Verner7;
+use slidercrank::integrator::methods::named;
 use slidercrank::integrator::{Effort, Integrator, Settings};
 use slidercrank::model::flexible::{Flexible, most_equations};
 use slidercrank::model::plant::Plant;
@@ -121,15 +121,14 @@ fn at_the_end(factor: f64) -> (Instant, [f64; 4]) {
     // Positions and rates of the set's initial state.
     let [a, b] = amplitudes(nodes, [0.103339863e-4, 0.169327969e-4]);
     let [c, d] = amplitudes(nodes, [-0.178591076e-5, -0.268938672e-5]);
-    let mut y = [0.0; 32];
-    y[..8].copy_from_slice(&[0.0, 0.0, a, b, 0.444896105, 0.463434311e-2, c, d]);
+    let y = [0.0, 0.0, a, b, 0.444896105, 0.463434311e-2, c, d];
     let contacts = plant.start_contacts(0.0, &y);
     let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: Effort::ANY };
-    let mut integrator = Integrator::<32, _, Verner7>::start(&plant, settings, 0.0, y, contacts);
+    let mut integrator = Integrator::start(&plant, named("verner7", 8).expect("a method"), settings, 0.0, &y, contacts);
     integrator.advance(&plant, 0.1).expect("no trouble");
     let (y, contacts) = integrator.state_at(&plant, 0.1);
     let node = |k: usize| y[2] * nodes[0][k] + y[3] * nodes[1][k];
-    (plant.instant(&contacts, 0.1, &y), [y[0], y[1], node(0), node(1)])
+    (plant.instant(&contacts, 0.1, y), [y[0], y[1], node(0), node(1)])
 }
 
 fn relative(found: f64, wanted: f64) -> f64 {

@@ -4,7 +4,7 @@
 use super::chance::Chance;
 use super::scenes::{at, contacts, crooked, elastic, inputs, revolutes, start, with_play};
 use nalgebra::{DMatrix, DVector};
-use slidercrank::integrator::{Jacobian, Problem};
+use slidercrank::integrator::{Jacobian, Linearizable, Ode};
 use slidercrank::math::Real;
 use slidercrank::model::contact::ContactMode;
 use slidercrank::model::plant::Plant;
@@ -20,7 +20,7 @@ const N: usize = 18;
 const P: usize = N / 2;
 
 /// Everything has clearance.
-type Loose = Rigid<N>;
+type Loose = Rigid;
 
 /// Three bodies that touch each other at crank pin and slider pin alone: state and contacts.
 fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) {
@@ -33,7 +33,8 @@ fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) 
         contact.friction.law = law;
     }
     let plant = Loose::assemble(&scene, 0.0);
-    let mut y = plant.start(&StartPose::of(&scene).expect("the loop closes"));
+    let mut y = [0.0; N];
+    plant.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut y);
     // Rod and slider each a play and a penetration off, in any direction.
     for root in [2, 4] {
         let (angle, way) = (chance.between(0.0, 6.3), 1e-4 + chance.between(1e-6, 8e-6));
@@ -51,8 +52,8 @@ fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) 
 }
 
 /// ∂ẏ along `direction`.
-fn along(jacobian: &Jacobian<N>, direction: &[f64; N]) -> [f64; N] {
-    std::array::from_fn(|i| jacobian.state[i].iter().zip(direction).map(|(slope, by)| slope * by).sum())
+fn along(jacobian: &Jacobian, direction: &[f64; N]) -> [f64; N] {
+    std::array::from_fn(|i| jacobian.row(i).iter().zip(direction).map(|(slope, by)| slope * by).sum())
 }
 
 fn near(name: &str, found: &[f64], wanted: &[f64], size: f64) {
@@ -67,11 +68,11 @@ fn moving_turning_and_boosting_the_whole_changes_no_force() {
     for law in [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Stribeck] {
         for _ in 0..50 {
             let (plant, y, contacts) = afloat(&mut chance, law);
-            let (mut jacobian, mut rates) = (Jacobian::ZERO, [0.0; N]);
+            let (mut jacobian, mut rates) = (Jacobian::new(N), [0.0; N]);
             plant.jacobian(&contacts, 0.0, &y, &mut jacobian);
             plant.rates(&contacts, 0.0, &y, &mut rates);
             // Rounding: of sums of the rows' terms.
-            let row = |i: usize| jacobian.state[i].iter().map(|slope| slope.abs()).sum::<f64>();
+            let row = |i: usize| jacobian.row(i).iter().map(|slope| slope.abs()).sum::<f64>();
             let size = 1e-14 * (0..N).map(row).fold(0.0, f64::max);
             for axis in 0..2 {
                 let shift = |offset: usize| {
@@ -119,14 +120,17 @@ fn it_is_finite_where_journals_are_centred_and_contacts_just_touch() {
         for contact in contacts(&mut scene) {
             contact.friction.law = law;
         }
-        let plant = Rigid::<32>::assemble(&scene, 0.0);
-        let centred = plant.start(&StartPose::of(&scene).expect("the loop closes"));
-        let mut touching = centred;
+        let plant = Rigid::assemble(&scene, 0.0);
+        let n = plant.extent().states;
+        let mut centred = vec![0.0; n];
+        plant.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut centred);
+        let mut touching = centred.clone();
         touching[1] = scene.joint.a.clearance; // exactly, in the main bearing: roots are centres of mass
         for y in [centred, touching] {
-            let mut jacobian = Jacobian::ZERO;
+            let mut jacobian = Jacobian::new(n);
             plant.jacobian(&[ContactMode::closing(0.1, 1e-3); 7], 0.0, &y, &mut jacobian);
-            assert!(jacobian.state.iter().flatten().chain(&jacobian.time).all(|slope| slope.is_finite()), "{law:?}");
+            let rows = (0..n).flat_map(|i| jacobian.row(i));
+            assert!(rows.chain(&jacobian.time).all(|slope| slope.is_finite()), "{law:?}");
         }
     }
 }

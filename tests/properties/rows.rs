@@ -3,7 +3,8 @@
 
 use super::chance::Chance;
 use super::scenes::{Play, all_plays, contacts, crooked, letters, revolutes, with_play};
-use slidercrank::integrator::{Problem, ROOM};
+use slidercrank::integrator::SeveralInstants;
+use slidercrank::integrator::system::one_by_one;
 use slidercrank::math::{ROW, Real, Row};
 use slidercrank::model::flexible::{Flexible, most_equations};
 use slidercrank::model::plant::Plant;
@@ -13,12 +14,14 @@ use slidercrank::model::start::StartPose;
 use slidercrank::scene::{DampingLaw, DriveMode, Elasticity, FrictionLaw, Scene, Surface};
 
 /// States that the plant may be in, with the contacts of one of them, and its rates together and one by one.
-fn agree<const N: usize, P: Plant<N>>(name: &str, scene: &Scene, plant: P, chance: &mut Chance) {
+fn agree<P: Plant>(name: &str, scene: &Scene, plant: P, chance: &mut Chance) {
     let extent = plant.extent();
-    let start = plant.start(&StartPose::of(scene).expect("the loop closes"));
-    let states: [[f64; N]; ROW] = std::array::from_fn(|_| {
-        let mut y = start;
-        for (i, state) in y.iter_mut().enumerate().take(extent.states) {
+    let n = extent.states;
+    let mut start = vec![0.0; n];
+    plant.write_start(&StartPose::of(scene).expect("the loop closes"), &mut start);
+    let states: [Vec<f64>; ROW] = std::array::from_fn(|_| {
+        let mut y = start.clone();
+        for (i, state) in y.iter_mut().enumerate() {
             *state += match i {
                 _ if i < extent.positions => chance.between(-8e-4, 8e-4),
                 _ if i < 2 * extent.positions => chance.between(-2.0, 2.0),
@@ -29,12 +32,13 @@ fn agree<const N: usize, P: Plant<N>>(name: &str, scene: &Scene, plant: P, chanc
     });
     let modes = plant.start_contacts(0.0, &states[0]);
     let times: [f64; ROW] = std::array::from_fn(|k| 1e-4 * k as f64);
-    let (y, mut together) = (std::array::from_fn(|i| Row::of(states.map(|y| y[i]))), [Row::ZERO; N]);
+    let y: Vec<Row> = (0..n).map(|i| Row::of(std::array::from_fn(|k| states[k][i]))).collect();
+    let mut together = vec![Row::<2>::ZERO; n];
     plant.rates_in_row(&modes, &Row::of(times), &y, &mut together);
     for k in 0..ROW {
-        let mut alone = [0.0; N];
+        let mut alone = vec![0.0; n];
         plant.rates(&modes, times[k], &states[k], &mut alone);
-        for i in 0..extent.states {
+        for i in 0..n {
             let together = together[i].numbers()[k];
             assert_eq!(
                 together.to_bits(),
@@ -81,7 +85,7 @@ fn a_rigid_mechanism_moves_alike() {
         for drive in [DriveMode::Torque, DriveMode::Speed] {
             for (name, scene) in laws(play, drive) {
                 for _ in 0..4 {
-                    agree(&name, &scene, Rigid::<ROOM>::assemble(&scene, 0.0), &mut chance);
+                    agree(&name, &scene, Rigid::assemble(&scene, 0.0), &mut chance);
                 }
             }
         }
@@ -113,11 +117,11 @@ fn a_mechanism_with_a_flexible_rod_moves_alike() {
 #[test]
 fn a_problem_that_knows_no_rows_is_asked_for_each_state() {
     let scene = crooked();
-    let plant = Rigid::<2>::assemble(&scene, 0.0);
+    let plant = Rigid::assemble(&scene, 0.0);
     let rows = [Row::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
-    let mut one_by_one = [Row::ZERO; 2];
-    slidercrank::integrator::one_by_one(&plant, &Default::default(), &Row::ZERO, &rows, &mut one_by_one);
+    let mut alone = [Row::ZERO; 2];
+    one_by_one(&plant, &Default::default(), &Row::ZERO, &rows, &mut alone);
     let mut together = [Row::ZERO; 2];
     plant.rates_in_row(&Default::default(), &Row::ZERO, &rows, &mut together);
-    assert_eq!(one_by_one, together);
+    assert_eq!(alone, together);
 }

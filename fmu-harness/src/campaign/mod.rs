@@ -89,6 +89,13 @@ pub const HANGS: Duration = Duration::from_secs(600);
 const EVALUATIONS: f64 = 1.2e6;
 const EVALUATIONS_PER_TURN: f64 = 1e5;
 
+impl Cost {
+    /// Evaluations for each turn.
+    pub fn per_turn(&self) -> f64 {
+        f64::from(self.evaluations) / self.turns
+    }
+}
+
 impl Kind {
     /// How many scenes there are of this kind, if they are not drawn.
     pub fn count(self) -> Option<u64> {

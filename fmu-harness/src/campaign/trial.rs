@@ -70,13 +70,6 @@ pub struct Cost {
     pub turns: f64,
 }
 
-impl Cost {
-    /// Evaluations for each turn.
-    pub fn per_turn(&self) -> f64 {
-        f64::from(self.evaluations) / self.turns
-    }
-}
-
 /// Runs the scene of a file with its inputs.
 pub fn trial(file: &SceneFile, terms: Terms) -> (Verdict, Cost) {
     let mut cost = Cost::default();

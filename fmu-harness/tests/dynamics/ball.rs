@@ -8,7 +8,9 @@ use super::system::System;
 use fmu_harness::dynamics::lyapunov::{Exponent, Probe};
 use fmu_harness::dynamics::verdict::{Verdict, judge};
 use fmu_harness::dynamics::{Flow, Point};
-use slidercrank::integrator::{Triggered, MAX_EVENTS, EventFunction, Jacobian, Problem, Reset};
+use slidercrank::integrator::{
+    EventFunction, EventFunctions, Events, Extent, Linearizable, Ode, Reset, SeveralInstants, Triggered,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Restitution.
@@ -34,42 +36,44 @@ impl Ball {
     }
 }
 
-impl Problem<2> for Ball {
-    type Modes = ();
+impl Ode for Ball {
+    type Discrete = ();
 
-    fn rates(&self, _: &(), _: f64, y: &[f64; 2], rates: &mut [f64; 2]) {
-        *rates = [y[1], -G];
+    fn extent(&self) -> Extent {
+        Extent::second_order(2)
     }
 
-    fn jacobian(&self, _: &(), _: f64, _: &[f64; 2], _: &mut Jacobian<2>) {
-        unreachable!("an explicit method asks for none");
+    fn rates(&self, _: &(), _: f64, y: &[f64], rates: &mut [f64]) {
+        rates.copy_from_slice(&[y[1], -G]);
     }
 
-    fn scales(&self) -> &[f64; 2] {
+    fn scales(&self) -> &[f64] {
         &SCALES
     }
 
     fn longest_step(&self) -> f64 {
         0.05
     }
+}
 
-    fn guard_count(&self) -> usize {
+impl Linearizable for Ball {}
+
+impl SeveralInstants for Ball {}
+
+impl Events for Ball {
+    fn event_count(&self) -> usize {
         1
     }
 
-    fn guards(&self, _: &(), t: f64, y: &[f64; 2], guards: &mut EventFunctions) {
+    fn event_functions(&self, _: &(), t: f64, y: &[f64], functions: &mut EventFunctions) {
         let [height, speed] = self.table(t);
-        guards[0] = EventFunction { value: y[0] - height, rate: y[1] - speed };
+        functions[0] = EventFunction { value: y[0] - height, rate: y[1] - speed };
     }
 
-    fn guard_scale(&self) -> f64 {
-        1.0
-    }
-
-    fn cross(&self, _: &(), t: f64, y: &mut [f64; 2], _: &Triggered) -> Reset<()> {
+    fn reset(&self, _: &(), t: f64, y: &mut [f64], _: &Triggered) -> Reset<()> {
         let [height, speed] = self.table(t);
-        *y = [height, (1.0 + E) * speed - E * y[1]];
-        Reset { modes: (), impact: None }
+        y.copy_from_slice(&[height, (1.0 + E) * speed - E * y[1]]);
+        Reset { discrete: (), impact: None }
     }
 }
 

@@ -4,49 +4,38 @@
 use super::system::System;
 use fmu_harness::dynamics::Flow;
 use fmu_harness::dynamics::lyapunov::Probe;
-use slidercrank::integrator::{Triggered, Extent, MAX_EVENTS, EventFunction, Jacobian, Problem, Reset};
+use slidercrank::integrator::{Events, Extent, Linearizable, Ode, SeveralInstants};
 
 struct Lorenz;
 
 static SCALES: [f64; 3] = [1.0; 3];
 
-impl Problem<3> for Lorenz {
-    type Modes = ();
+impl Ode for Lorenz {
+    type Discrete = ();
 
     fn extent(&self) -> Extent {
         Extent { positions: 0, weighed: 3, states: 3 }
     }
 
-    fn rates(&self, _: &(), _: f64, [x, y, z]: &[f64; 3], rates: &mut [f64; 3]) {
-        *rates = [10.0 * (y - x), x * (28.0 - z) - y, x * y - 8.0 / 3.0 * z];
+    fn rates(&self, _: &(), _: f64, y: &[f64], rates: &mut [f64]) {
+        let [x, y, z] = [y[0], y[1], y[2]];
+        rates.copy_from_slice(&[10.0 * (y - x), x * (28.0 - z) - y, x * y - 8.0 / 3.0 * z]);
     }
 
-    fn jacobian(&self, _: &(), _: f64, _: &[f64; 3], _: &mut Jacobian<3>) {
-        unreachable!("an explicit method asks for none");
-    }
-
-    fn scales(&self) -> &[f64; 3] {
+    fn scales(&self) -> &[f64] {
         &SCALES
     }
 
     fn longest_step(&self) -> f64 {
         1.0
     }
-
-    fn guard_count(&self) -> usize {
-        0
-    }
-
-    fn guards(&self, _: &(), _: f64, _: &[f64; 3], _: &mut EventFunctions) {}
-
-    fn guard_scale(&self) -> f64 {
-        1.0
-    }
-
-    fn cross(&self, _: &(), _: f64, _: &mut [f64; 3], _: &Triggered) -> Reset<()> {
-        unreachable!("there are no guards");
-    }
 }
+
+impl Linearizable for Lorenz {}
+
+impl SeveralInstants for Lorenz {}
+
+impl Events for Lorenz {}
 
 #[test]
 fn the_exponent_of_lorenz_is_found_within_its_own_error() {

@@ -4,7 +4,7 @@
 
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, Properties};
 use crate::integrator::state::StepPoint;
-use crate::integrator::system::{Extent, System};
+use crate::integrator::system::{Extent, MAX_STATES, System};
 use crate::integrator::tableau::{MAX_STAGES, Tableau};
 use crate::math::Fused;
 use wide::f64x4;
@@ -12,6 +12,8 @@ use wide::f64x4;
 /// How many states are summed together, at least and at most: less of the loop over stages for each.
 const FOUR: usize = 4;
 const EIGHT: usize = 2 * FOUR;
+/// What errors are added to.
+static ZEROS: [f64; MAX_STATES] = [0.0; MAX_STATES];
 
 /// An explicit Runge-Kutta method.
 #[derive(Clone, Debug)]
@@ -90,20 +92,20 @@ impl<D: Copy> Method<D> for Explicit {
         k[..n].copy_from_slice(&start.rates);
         if !system.stages(tableau, &start.discrete, start.t, &start.y, h, &mut k[..tableau.stages * n]) {
             for i in 1..inner {
-                write_sums(&mut end.y, |i| start.y[i], h, &tableau.a[i][..i], k);
+                write_sums(&mut end.y, &start.y, h, &tableau.a[i][..i], k);
                 system.rates(&start.discrete, start.t + tableau.c[i] * h, &end.y, &mut k[i * n..][..n]);
             }
         }
-        write_sums(&mut end.y, |i| start.y[i], h, &tableau.b[..inner], k);
+        write_sums(&mut end.y, &start.y, h, &tableau.b[..inner], k);
         if tableau.first_same_as_last {
             let StepPoint { y, rates, .. } = end;
             system.rates_and_event_functions(&start.discrete, start.t + h, y, rates, &mut attempt.events);
             k[inner * n..][..n].copy_from_slice(rates);
         }
         if properties.adaptive {
-            write_sums(&mut attempt.error, |_| 0.0, h, &tableau.error[..tableau.stages], k);
+            write_sums(&mut attempt.error, &ZEROS, h, &tableau.error[..tableau.stages], k);
             if let Some(weights) = &tableau.coarse_error {
-                write_sums(&mut attempt.coarse_error, |_| 0.0, h, &weights[..tableau.stages], k);
+                write_sums(&mut attempt.coarse_error, &ZEROS, h, &weights[..tableau.stages], k);
             }
             write_unseen(&mut attempt.unseen, h, &shares[..*weighed], k);
         }
@@ -126,24 +128,31 @@ fn times_plus(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
 /// y + h·Σ weight_j·k_j of every state; a weight of zero costs nothing. The last rates are added last, and one by one as
 /// they were written: what they wait for is theirs alone, and they need not have left the processor's store buffer.
 #[inline(always)]
-fn write_sums(sums: &mut [f64], y: impl Fn(usize) -> f64, h: f64, weights: &[f64], k: &[f64]) {
+fn write_sums(sums: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[f64]) {
     let (n, last) = (sums.len(), weights.len() - 1);
-    let (weights, weight_of_last) = (&weights[..last], weights[last]);
-    let mut add = |at: usize, changes: &[f64]| {
-        for (i, (sum, change)) in sums[at..].iter_mut().zip(changes).enumerate() {
-            let i = at + i;
-            let change =
-                if weight_of_last == 0.0 { *change } else { (h * weight_of_last).times_plus(k[last * n + i], *change) };
-            *sum = y(i) + change;
-        }
-    };
+    let (weights, weight_of_last) = (&weights[..last], h * weights[last]);
+    let (y, last) = (&y[..n], &k[last * n..][..n]);
     let mut at = 0;
     while at + FOUR < n {
-        add(at, slopes::<2>(weights, &k[at..], n).map(|slope| (f64x4::splat(h) * slope).to_array()).as_flattened());
+        let slopes = slopes::<2>(weights, &k[at..], n).map(|slope| (f64x4::splat(h) * slope).to_array());
+        add(&mut sums[at..], &y[at..], slopes.as_flattened(), weight_of_last, &last[at..]);
         at += EIGHT;
     }
     if at < n {
-        add(at, slopes::<1>(weights, &k[at..], n).map(|slope| (f64x4::splat(h) * slope).to_array()).as_flattened());
+        let [slope] = slopes::<1>(weights, &k[at..], n);
+        let changes = (f64x4::splat(h) * slope).to_array();
+        add(&mut sums[at..], &y[at..], &changes, weight_of_last, &last[at..]);
+    }
+}
+
+/// y + change + weight·rate of each.
+#[inline(always)]
+fn add(sums: &mut [f64], y: &[f64], changes: &[f64], weight: f64, rates: &[f64]) {
+    let all = sums.iter_mut().zip(y).zip(changes).zip(rates);
+    if weight == 0.0 {
+        all.for_each(|(((sum, y), change), _)| *sum = y + change);
+    } else {
+        all.for_each(|(((sum, y), change), rate)| *sum = y + weight.times_plus(*rate, *change));
     }
 }
 

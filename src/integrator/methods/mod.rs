@@ -2,6 +2,7 @@
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
 pub mod automatic;
+pub mod bathe;
 pub mod block;
 mod bs3;
 mod dop853;
@@ -25,6 +26,7 @@ pub use verner7::VERNER7;
 use super::method::Method;
 use super::tableau::Tableau;
 use automatic::Automatic;
+use bathe::Bathe;
 use block::Cong8;
 use explicit::Explicit;
 use rosenbrock::Rosenbrock;
@@ -39,6 +41,7 @@ pub fn named<D: Copy + 'static>(name: &str, states: usize) -> Option<Box<dyn Met
     }
     match name {
         "automatic" => Some(Box::new(Automatic::new(states))),
+        "bathe" => Some(Box::new(Bathe::new(states))),
         "cong8" => Some(Box::new(Cong8::new(states))),
         "rodas4" => Some(Box::new(Rosenbrock::new(&RODAS4, states))),
         _ => None,

@@ -145,7 +145,8 @@ impl Surface for Faces {
     fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
         let mut guards = [EventFunction { value: 1.0, rate: 0.0 }; CORNERS];
         for (face, pair) in guards.chunks_exact_mut(2).enumerate() {
-            let [front, rear] = Self::ends(guide, face, pose).map(|end| EventFunction { value: end.depth, rate: end.rate });
+            let [front, rear] =
+                Self::ends(guide, face, pose).map(|end| EventFunction { value: end.depth, rate: end.rate });
             if modes[face].closed {
                 let front_is_deeper = (front.value, front.rate) > (rear.value, rear.rate);
                 pair[0] = if front_is_deeper { front } else { rear };

@@ -7,7 +7,7 @@
 
 use super::corners::{Corners, Mark, Touch};
 use super::foundation::{self, Faces};
-use crate::integrator::{Triggered, EventFunction, Discontinuities};
+use crate::integrator::{Discontinuities, EventFunction, Triggered};
 use crate::math::Real;
 use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces, Hertz, Linear};
 use crate::model::plane::{Rotation, Vec2, cross};

@@ -4,7 +4,7 @@
 //! contact force at the one point P + R_b·n. The journal's material speed there against the bearing's
 //! is v_t = ė·t + (R_b − ε)·ω_journal − R_b·ω_bearing: force times this speed is the power lost.
 
-use crate::integrator::{EventFunction, Discontinuities};
+use crate::integrator::{Discontinuities, EventFunction};
 use crate::math::Real;
 use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces};
 use crate::model::friction::Friction;

@@ -1,6 +1,6 @@
 //! The contacts that are closed in a step.
 
-use super::attempt::{Middle, State};
+use super::middle::{Middle, State};
 use crate::integrator::complementarity::{MOST_CONTACTS, NORMAL, Pairs, TANGENTIAL, Touching};
 use crate::integrator::unilateral::{ContactLaw, MOST_STATES, Unilateral};
 

@@ -29,6 +29,7 @@
 
 mod attempt;
 mod closed;
+mod middle;
 
 use crate::integrator::error::IntegrationError;
 use crate::integrator::state::{SolverState, StepPoint};

@@ -1,0 +1,123 @@
+//! Bathe's composite method at a fixed step: the trapezoidal rule over half the step, then the three-point backward
+//! difference over all of it (K. J. Bathe, Computers and Structures 85 (2007) 437); of second order, and L-stable, so that
+//! oscillations that are too fast for the step die within a few steps.
+//!
+//! y₁ = y₀ + h/4·(f₀ + f₁), 3·y₂ = 4·y₁ − y₀ + h·f₂. Both are y = c + g·f(t, y), which Newton's method solves with the
+//! exact Jacobian. Where it does not converge there is no state at the end of the attempt, and a step of a tenth is
+//! attempted, down to one that does not move time.
+
+use super::linear::Factors;
+use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
+use crate::integrator::state::StepPoint;
+use crate::integrator::system::{Jacobian, System};
+
+/// Newton's method has converged after a correction of this many scales in no state.
+const CONVERGED: f64 = 1e-9;
+/// Or of a few roundings.
+const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
+/// Most corrections.
+const MOST_CORRECTIONS: usize = 20;
+
+const PROPERTIES: Properties = Properties {
+    name: "bathe",
+    order: 2,
+    adaptive: false,
+    coarse: false,
+    locates: true,
+    error_power: 2.0,
+    interpolates: true,
+    gives_end: false,
+    predicts: false,
+    error_share: ERROR_SHARE,
+    others: &[],
+};
+
+/// The composite method.
+#[derive(Clone, Debug)]
+pub struct Bathe {
+    jacobian: Jacobian,
+    factors: Factors,
+    /// c of the equation to be solved.
+    known: Vec<f64>,
+    /// Rates, and then a correction.
+    correction: Vec<f64>,
+}
+
+impl Bathe {
+    /// For so many states.
+    pub fn new(states: usize) -> Self {
+        let zeros = || vec![0.0; states];
+        let (jacobian, factors) = (Jacobian::new(states), Factors::with_capacity(states));
+        Self { jacobian, factors, known: zeros(), correction: zeros() }
+    }
+
+    /// Solves y = c + g·f(`t`, y) from an estimate `y`, which is not a number afterwards if there is no solution near it.
+    /// Returns how many evaluations of the rates it took.
+    fn solve<D: Copy>(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        discrete: &D,
+        t: f64,
+        g: f64,
+        y: &mut [f64],
+    ) -> u64 {
+        let Self { jacobian, factors, known, correction, .. } = self;
+        let scales = &system.scales()[..system.extent().weighed];
+        for corrections in 1..=MOST_CORRECTIONS {
+            system.rates(discrete, t, y, correction);
+            system.jacobian(discrete, t, y, jacobian);
+            factors.of(y.len(), |i, j| f64::from(u8::from(i == j)) - g * jacobian.row(i)[j]);
+            for (i, correction) in correction.iter_mut().enumerate() {
+                *correction = known[i] + g * *correction - y[i];
+            }
+            factors.solve(correction);
+            for (y, correction) in y.iter_mut().zip(&*correction) {
+                *y += correction;
+            }
+            let small = |((correction, scale), y): ((&f64, &f64), &f64)| {
+                correction.abs() <= CONVERGED * scale + ROUNDINGS * y.abs()
+            };
+            if correction.iter().zip(scales).zip(&*y).all(small) {
+                // The Jacobian counts as one.
+                return 2 * corrections as u64;
+            }
+        }
+        y.fill(f64::NAN);
+        2 * MOST_CORRECTIONS as u64
+    }
+}
+
+impl<D: Copy> Method<D> for Bathe {
+    fn properties(&self) -> &Properties {
+        &PROPERTIES
+    }
+
+    fn kind(&self) -> MethodKind {
+        MethodKind::Implicit
+    }
+
+    fn attempt(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        h: f64,
+        end: &mut StepPoint<D>,
+        _attempt: &mut Attempt,
+    ) -> u64 {
+        let StepPoint { t, y, rates, discrete, .. } = start;
+        // y₁ = y₀ + h/4·f₀ + h/4·f₁
+        for (known, (y, rate)) in self.known.iter_mut().zip(y.iter().zip(rates)) {
+            *known = y + 0.25 * h * rate;
+        }
+        end.y.copy_from_slice(y);
+        let evaluations = self.solve(system, discrete, t + 0.5 * h, 0.25 * h, &mut end.y);
+        if end.y.iter().any(|y| y.is_nan()) {
+            return evaluations;
+        }
+        // y₂ = (4·y₁ − y₀)/3 + h/3·f₂
+        for (known, (middle, y)) in self.known.iter_mut().zip(end.y.iter().zip(y)) {
+            *known = (4.0 * middle - y) / 3.0;
+        }
+        evaluations + self.solve(system, discrete, t + h, h / 3.0, &mut end.y)
+    }
+}
