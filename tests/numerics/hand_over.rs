@@ -93,7 +93,9 @@ fn a_pull_that_sets_in_at_once_is_met_however_strong_it_is() {
                 let found = pulled_at_once(method, pull, bend);
                 let apart = found.iter().zip(&wanted).map(|(found, wanted)| (found - wanted).abs());
                 let apart = apart.fold(0.0, f64::max);
-                assert!(apart < 1e-5, "{method}: {found:?}, not {wanted:?}, at {pull:e}, {bend:e}");
+                // Velocities reach 480 at the strongest pull.
+                let size = wanted.iter().fold(1.0_f64, |size, wanted| size.max(wanted.abs()));
+                assert!(apart < 1e-5 * size, "{method}: {found:?}, not {wanted:?}, at {pull:e}, {bend:e}");
             }
         }
     }
