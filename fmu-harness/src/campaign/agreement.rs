@@ -17,7 +17,8 @@ const PEER: Method = Method::Verner7;
 const TURNS: f64 = 1.0;
 /// A peer that is so many clearances off has left the reference.
 const LEFT: f64 = 1e-2;
-/// A run may be so many times as far off as its peer has been, and its tolerance, in clearances, off in any case.
+/// A run may be so many times as far off as its peer has been, and so many times its tolerance, in clearances, in any case:
+/// errors of blows and of what is interpolated between steps are larger than those of steps.
 const FACTOR: f64 = 100.0;
 
 /// By how much the run of a scene is off, in clearances, and when [s], if it leaves the reference before its peer does.
@@ -48,7 +49,7 @@ pub fn parts(file: &SceneFile) -> Option<String> {
         if worst_of_peer > LEFT {
             return None;
         }
-        if own > FACTOR * worst_of_peer + scene.solver.tolerance {
+        if own > FACTOR * worst_of_peer.max(scene.solver.tolerance) {
             let time = file.run.step * point as f64;
             return Some(format!(
                 "{own:.1e} clearances from the reference, where {} has been {worst_of_peer:.1e}, at {time:e} s",
