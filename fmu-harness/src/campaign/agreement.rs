@@ -16,10 +16,10 @@ const PEER: Method = Method::Verner7;
 /// Turns that are compared at most.
 const TURNS: f64 = 1.0;
 /// A peer that is so many clearances off has left the reference.
-const LEFT: f64 = 1e-2;
+const LEFT: f64 = 1e-4;
 /// A run may be so many times as far off as its peer has been, and so many times its tolerance, in clearances, in any case:
 /// errors of blows and of what is interpolated between steps are larger than those of steps.
-const FACTOR: f64 = 100.0;
+const FACTOR: f64 = 1e3;
 
 /// By how much the run of a scene is off, in clearances, and when [s], if it leaves the reference before its peer does.
 pub fn parts(file: &SceneFile) -> Option<String> {
