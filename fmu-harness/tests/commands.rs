@@ -9,6 +9,8 @@ use std::process::Command;
 
 /// The one shipped scene whose crank stands: it has no turns.
 const STANDING: &str = "hold";
+/// The one whose prescribed crank leaves nothing free: its motion has no neighbours.
+const PRESCRIBED: &str = "ideal";
 /// Under each table stands a sentence for every row without numbers.
 const GAP: &str = "has no numbers";
 
@@ -45,7 +47,7 @@ fn accuracy_has_a_number_in_every_row_of_every_scene() {
 #[test]
 fn dynamics_comes_to_a_verdict_on_every_scene() {
     let scenes = shipped();
-    let moving = scenes.iter().filter(|scene| *scene != STANDING);
+    let moving = scenes.iter().filter(|scene| ![STANDING, PRESCRIBED].contains(&scene.as_str()));
     let mut commands: Vec<Vec<&str>> =
         moving.map(|scene| vec!["dynamics", "--scene", scene, "--transient", "1", "--turns", "6"]).collect();
     let range = ["--parameter", "joint.C.clearance", "--from", "1e-4", "--to", "5e-4", "--values", "3"];

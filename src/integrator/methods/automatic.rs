@@ -1,5 +1,5 @@
 //! `verner7`, and `rodas4` where the motion is stiff; `cong8`, which makes its steps as blocks, where it is not at all, if
-//! the system suits it; see [`StiffnessSwitch`].
+//! the system suits it; see `StiffnessSwitch`.
 
 use super::block::Cong8;
 use super::explicit::Explicit;
