@@ -60,12 +60,13 @@ fn what_was_not_reached_is_said_and_never_extrapolated() {
 fn the_table_has_a_row_for_each_method_and_names_what_is_missing() {
     let text = table(&contest()).markdown();
     let rows: Vec<&str> = text.lines().skip(2).collect();
-    assert_eq!(rows.len(), 3, "{text}");
+    assert_eq!(rows.len(), 5, "{text}");
     // 1e-2 is halfway between 1e-1 and 1e-3: 0.01·√2; 1e-4 a quarter of the way from 1e-3 to 1e-7: 0.02·√2.
     assert_eq!(rows[0], "| ours method | 0.0141 | 1.00 | 0.0283 | 1.00 | 0.0566 | 1.00 |  |");
     // 16 times in four decades: 2 at 1e-2, 8 at 1e-4.
     assert_eq!(rows[1], "| slow method | 2.00 | 141 | 8.00 | 283 | 1e-5 at best | – | a remark |");
     assert_eq!(rows[2], "| absent method | – | – | – | – | – | – | not installed: apt-get install absent |");
+    assert_eq!(rows[3..], ["", "absent method has no numbers: not installed: apt-get install absent."]);
 }
 
 #[test]
