@@ -13,7 +13,7 @@ from typing import Any
 import pandas
 
 from .recipe import Recipe
-from .source import call, output_directory
+from .source import SourceError, call, output_directory
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,15 @@ def study(file: str | Path, workers: int | None = None, output: str | Path | Non
 
     into = output_directory(output)
     threads = [] if workers is None else ["--workers", str(workers)]
-    call("sweep", Path(file).absolute(), *threads, "--output", into)
-    return load(into / f"sweep-{read(file)['name']}.parquet")
+    results = into / f"sweep-{read(file)['name']}.parquet"
+    before = results.stat().st_mtime_ns if results.exists() else None
+    try:
+        call("sweep", Path(file).absolute(), *threads, "--output", into)
+    except SourceError:
+        # A study none of whose runs came to its end has results, too: each row says why.
+        if not results.exists() or results.stat().st_mtime_ns == before:
+            raise
+    return load(results)
 
 
 def plan(file: str | Path) -> Plan:
