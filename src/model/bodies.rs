@@ -26,10 +26,15 @@
 //! nothing is left of the last line. What leads from the centre of mass to the chain's first joint is the sum of
 //! rot(θ_k)·(−h_k/m) (`anchor`).
 //! (J. Wittenburg, Dynamics of Systems of Rigid Bodies, 1977, 5.2.)
+//!
+//! A flexible rod's length L, first moment D and moment of inertia J about its big end change as it deforms. Its chain's
+//! augmented bodies are then not constants, but follow from them with few products ([`RodInChain`]); the chain's root is a
+//! joint, and no h_k is taken off.
 
 use super::plane::{Vec2, perp};
 use super::rod::Rod;
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure, Topology};
+use crate::math::Real;
 use crate::scene::{Point, Scene};
 
 /// A rigid body: its mass properties and its joint on the x axis.
@@ -63,18 +68,18 @@ pub fn bodies(scene: &Scene) -> Bodies {
     ]
 }
 
-/// Constants of the augmented bodies; lists are by body, or by the pairs crank and rod, rod and slider, crank and slider.
+/// Constants of the augmented bodies, or what they are at one instant; lists are by body, or by the pairs crank and rod, rod and slider, crank and slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AugmentedBodies {
+pub struct AugmentedBodies<C = f64> {
     /// [kg·m²] M_kk.
-    pub diagonal: [f64; 3],
+    pub diagonal: [C; 3],
     /// [kg·m²] α of the pairs.
-    pub cos: [f64; 3],
+    pub cos: [C; 3],
     /// [kg·m²] β of the pairs.
-    pub sin: [f64; 3],
-    /// [kg·m] h_k; zero in a chain that floats.
-    pub moment: [Vec2; 3],
-    /// [m] −h_k/m in a chain that floats; zero in the others.
+    pub sin: [C; 3],
+    /// [kg·m] h_k; zero in a chain whose root is its centre of mass.
+    pub moment: [Vec2<C>; 3],
+    /// [m] −h_k/m in a chain whose root is its centre of mass; zero in the others.
     pub anchor: [Vec2; 3],
     /// [1/kg] Inverse mass of the chain that holds each body.
     pub per_mass: [f64; 3],
@@ -116,6 +121,69 @@ impl AugmentedBodies {
             }
         }
         sum
+    }
+}
+
+/// How a flexible rod hangs in its chain: by its big end, or by its small end where the slider is on its rail.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RodInChain {
+    /// The far joint, by which others hang on the rod, lies so many chords along its x axis from the joint by which it
+    /// hangs itself: 1 or −1.
+    pub far: f64,
+    /// Where its big end lies, likewise: 0 or −1.
+    pub big_end: f64,
+    /// [kg] κ of its first moment about the joint by which it hangs, with what hangs on it: h = D + κ·L along x.
+    pub first: f64,
+    /// [kg] |κ|, that of its moment of inertia: J + 2·big_end·L·D_x + |κ|·L².
+    pub second: f64,
+}
+
+impl RodInChain {
+    /// In a mechanism.
+    pub fn new(bodies: &Bodies, structure: &Structure) -> Self {
+        let Topology { b, c, .. } = structure.topology;
+        if structure.rod == Link::After {
+            let second = bodies[ROD].mass + if b { bodies[CRANK].mass } else { 0.0 };
+            Self { far: -1.0, big_end: -1.0, first: -second, second }
+        } else {
+            let second = if c { bodies[SLIDER].mass } else { 0.0 };
+            Self { far: 1.0, big_end: 0.0, first: second, second }
+        }
+    }
+
+    /// The augmented bodies while the rod's chord is `length` [m] long, its first moment about its big end `first` [kg·m] in
+    /// its own axes and its moment of inertia `inertia` [kg·m²]; from those with the rod as it is undeformed.
+    #[inline(always)]
+    pub fn augmented<R: Real>(
+        &self,
+        of: &Structure,
+        constant: &AugmentedBodies,
+        throw: f64,
+        length: R,
+        first: Vec2<R>,
+        inertia: R,
+    ) -> AugmentedBodies<R> {
+        let mut all = AugmentedBodies {
+            diagonal: constant.diagonal.map(R::constant),
+            cos: constant.cos.map(R::constant),
+            sin: constant.sin.map(R::constant),
+            moment: constant.moment.map(Vec2::constant),
+            anchor: constant.anchor,
+            per_mass: constant.per_mass,
+        };
+        let own = Vec2::new(length.times_plus(self.first, first.x), first.y);
+        all.moment[ROD] = own;
+        let by_length = (length * self.second).times_plus(length, inertia);
+        all.diagonal[ROD] = (first.x * (2.0 * self.big_end)).times_plus(length, by_length);
+        if of.rod == Link::After {
+            let crank = constant.moment[CRANK];
+            (all.cos[0], all.sin[0]) = (length * -crank.x, length * -crank.y);
+        } else {
+            let slider = constant.moment[SLIDER];
+            (all.cos[0], all.sin[0]) = (own.x * throw, own.y * -throw);
+            (all.cos[1], all.sin[1]) = (length * slider.x, length * -slider.y);
+        }
+        all
     }
 }
 

@@ -11,10 +11,11 @@
 //! loop over them is compiled with the equations in it.
 
 use super::contact::Account;
-use super::mechanism::{Mechanism, Stance};
-use super::scalar::Tangent;
+use super::mechanism::{FlexibleMotion, FlexibleRod, Mechanism, Stance};
+use super::rod::{Any, Chord, Room};
+use super::scalar::{Scalar, Tangent};
 use super::stages::of_so_many;
-use super::state::{Contacts, Instant};
+use super::state::{Contacts, Instant, Pose};
 use super::structure::{Structure, Topology};
 use crate::integrator::{EventFunctions, Tableau};
 use crate::math::Row;
@@ -64,8 +65,9 @@ macro_rules! by_structure {
 }
 
 impl Compiled {
-    /// Of a structure.
-    pub fn of(structure: &Structure) -> Self {
+    /// Of a mechanism.
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let structure = &mechanism.structure;
         macro_rules! own {
             ($structure:ident) => {
                 Self {
@@ -90,8 +92,11 @@ impl Compiled {
             rates: Mechanism::rates_of_one,
             rates_of_eight: Mechanism::rates_of_eight,
             ends: Mechanism::ends,
-            stages: stages_of_all(2 * structure.positions),
+            stages: stages_of_all(2 * mechanism.positions()),
         };
+        if structure.flexible {
+            return all;
+        }
         by_structure!(structure, own, all)
     }
 }
@@ -108,33 +113,60 @@ fn stages_of_all(states: usize) -> Stages {
             }
         };
     }
-    of!(4 6 8 10 12 14 16 18)
+    of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// What is compiled once a number, for every structure.
+/// `in_room!(rod, name(arguments))` calls `name::<K, F, S>(arguments)` with the arrays that the rod has room in: of `K` modes, `F`
+/// functions along the rod and `S` equations.
+macro_rules! in_room {
+    ($rod:expr, $own:ident . $name:ident $(:: <$number:ty>)? ($($argument:expr),*)) => {
+        match $rod.modes.room {
+            Room::Few => $own.$name::<$($number,)? 4, 12, 7>($($argument),*),
+            Room::Many => $own.$name::<$($number,)? 8, 40, 11>($($argument),*),
+            Room::All => $own.$name::<$($number,)? 16, 48, 19>($($argument),*),
+        }
+    };
+}
+
+/// What is compiled once a number, for every structure; with a flexible rod, once for each size of arrays.
 impl Mechanism {
-    /// [`Mechanism::rates`] of a state.
+    /// Rates of a state.
     #[inline(never)]
     pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
-        self.rates(&self.structure, contacts, t, y, rates);
+        match &self.rod {
+            None => self.rates(&self.structure, contacts, t, y, rates),
+            Some(rod) => in_room!(rod, self.write_flexible_rates::<f64>(rod, contacts, t, y, rates)),
+        }
     }
 
-    /// [`Mechanism::rates`] of eight states at their times.
+    /// Rates of eight states at their times.
     #[inline(never)]
     pub fn rates_of_eight(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
-        self.rates(&self.structure, contacts, t, y, rates);
+        match &self.rod {
+            None => self.rates(&self.structure, contacts, t, y, rates),
+            Some(rod) => in_room!(rod, self.write_flexible_rates::<Row>(rod, contacts, t, y, rates)),
+        }
     }
 
-    /// [`Mechanism::rates`] with derivatives.
+    /// Rates with derivatives.
     #[inline(never)]
     pub fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
-        self.rates(&self.structure, contacts, t, y, rates);
+        match &self.rod {
+            None => self.rates(&self.structure, contacts, t, y, rates),
+            Some(rod) => in_room!(rod, self.drop_flexible_motion(rod, contacts, t, y, rates)),
+        }
     }
 
-    /// [`Mechanism::rates_and_guards`].
+    /// Rates and event functions.
     #[inline(never)]
     pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut EventFunctions) {
-        self.rates_and_guards(&self.structure, contacts, t, y, rates, guards);
+        match &self.rod {
+            None => self.rates_and_guards(&self.structure, contacts, t, y, rates, guards),
+            Some(_) => {
+                self.rates_of_one(contacts, t, y, rates);
+                self.guards(contacts, t, y, guards);
+            }
+        }
     }
 
     #[inline(never)]
@@ -142,10 +174,19 @@ impl Mechanism {
         self.stance(&self.structure, t, y)
     }
 
+    /// Angles, places and velocities with a flexible rod, and its chord.
+    #[inline(never)]
+    pub(super) fn bent_pose(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
+        in_room!(rod, self.flexible_pose(rod, t, y))
+    }
+
     /// Everything about an instant, and its rates.
     #[inline(never)]
     pub fn instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
-        self.rates_and_instant(&self.structure, contacts, t, y, rates)
+        match &self.rod {
+            None => self.rates_and_instant(&self.structure, contacts, t, y, rates),
+            Some(rod) => in_room!(rod, self.flexible_instant::<f64>(rod, contacts, t, y, rates)),
+        }
     }
 
     /// Everything about an instant with derivatives, and what its contacts hold and take.
@@ -157,8 +198,59 @@ impl Mechanism {
         y: &[Tangent],
         rates: &mut [Tangent],
     ) -> (Instant<Tangent>, Account<Tangent>) {
-        let instant = self.rates_and_instant(&self.structure, contacts, t, y, rates);
+        let instant = match &self.rod {
+            None => self.rates_and_instant(&self.structure, contacts, t, y, rates),
+            Some(rod) => in_room!(rod, self.flexible_instant::<Tangent>(rod, contacts, t, y, rates)),
+        };
         let account = self.account(contacts, &instant.pose, y);
         (instant, account)
+    }
+
+    #[inline(never)]
+    fn write_flexible_rates<R: Scalar, const K: usize, const F: usize, const S: usize>(
+        &self,
+        rod: &FlexibleRod,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
+    ) {
+        self.flexible_rates::<R, Any, K, F, S>(&self.structure, rod, contacts, t, y, rates);
+    }
+
+    #[inline(never)]
+    fn flexible_motion<R: Scalar, const K: usize, const F: usize, const S: usize>(
+        &self,
+        rod: &FlexibleRod,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
+    ) -> FlexibleMotion<R, K, F> {
+        self.flexible_rates::<R, Any, K, F, S>(&self.structure, rod, contacts, t, y, rates)
+    }
+
+    #[inline(never)]
+    fn drop_flexible_motion<const K: usize, const F: usize, const S: usize>(
+        &self,
+        rod: &FlexibleRod,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent],
+        rates: &mut [Tangent],
+    ) {
+        self.flexible_motion::<Tangent, K, F, S>(rod, contacts, t, y, rates);
+    }
+
+    #[inline(never)]
+    fn flexible_instant<R: Scalar, const K: usize, const F: usize, const S: usize>(
+        &self,
+        rod: &FlexibleRod,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
+    ) -> Instant<R> {
+        self.flexible_motion::<R, K, F, S>(rod, contacts, t, y, rates).instant(self, rod, y, rates)
     }
 }

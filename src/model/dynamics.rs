@@ -24,7 +24,8 @@ use super::kinematics::{Arms, Roots, Turning};
 use super::loads::Loads;
 use super::plane::{Rotation, Vec2, cross};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
-use crate::math::Real;
+use crate::math::{Fused, Real};
+use std::ops::Mul;
 
 /// Accelerations of the roots and of the three angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,19 +38,157 @@ pub struct Accelerations<R = f64> {
 
 /// The mass matrix of the angles.
 #[derive(Clone, Copy)]
-struct MassMatrix<R> {
-    d1: R,
-    d2: R,
-    d3: R,
-    m12: R,
-    m23: R,
-    m13: R,
+pub(super) struct MassMatrix<R> {
+    /// [kg·m²] Of the crank's angle,
+    pub d1: R,
+    /// of the rod's,
+    pub d2: R,
+    /// of the slider's;
+    pub d3: R,
+    /// of crank and rod,
+    pub m12: R,
+    /// rod and slider,
+    pub m23: R,
+    /// crank and slider.
+    pub m13: R,
 }
 
-/// Solves the equations of motion. `closing` says how the rod of a closed loop follows its crank.
+/// M and Q of the angles of crank, rod and slider, each about the root of its chain.
 ///
 /// Every number has a name of its own: lists that some structures fill in part stay in memory, which takes 1.4 times as
 /// long.
+pub(super) struct Equations<R> {
+    /// M.
+    pub m: MassMatrix<R>,
+    /// [N·m] Q of the crank's angle,
+    pub q1: R,
+    /// of the rod's,
+    pub q2: R,
+    /// and of the slider's.
+    pub q3: R,
+    /// [kg·m] First moments of chains that do not float, about the joints by which the crank
+    pub h1: Vec2<R>,
+    /// and the rod hang, in inertial axes.
+    pub h2: Vec2<R>,
+}
+
+/// Forces [N], gathered inwards.
+pub(super) struct Gathered<R> {
+    /// On the chain that floats with the crank.
+    pub crank: Vec2<R>,
+    /// On the chain that floats and begins with the rod.
+    pub rod: Vec2<R>,
+    /// On the slider that floats alone.
+    pub slider: Vec2<R>,
+    /// On the pin that an ideal guide holds.
+    pub rail: Vec2<R>,
+    /// On the rod at the end by which it does not hang, from what hangs there, too.
+    pub far_end: Vec2<R>,
+}
+
+impl<R: Real> Equations<R> {
+    /// Inertia, couples, centrifugal terms and weight.
+    #[inline(always)]
+    pub fn new<C: Copy>(
+        of: &Structure,
+        bodies: &AugmentedBodies<C>,
+        gravity: f64,
+        turning: &Turning<R>,
+        loads: &Loads<R>,
+        number: impl Fn(C) -> R,
+    ) -> Self
+    where
+        R: Mul<C, Output = R> + Fused<C>,
+    {
+        let [r1, r2, r3] = turning.rotation;
+        let [w1, w2, w3] = turning.speed;
+        let (s1, s2, s3) = (w1 * w1, w2 * w2, w3 * w3);
+        let [mut q1, mut q2, mut q3] = loads.couples();
+
+        // M, and its centrifugal terms in Q.
+        let [d1, d2, d3] = bodies.diagonal.map(number);
+        let mut m = MassMatrix { d1, d2, d3, m12: R::ZERO, m23: R::ZERO, m13: R::ZERO };
+        if of.coupled[0] {
+            m.m12 = couple(bodies, 0, [r1, r2], [s1, s2], &mut q1, &mut q2);
+        }
+        if of.coupled[1] {
+            m.m23 = couple(bodies, 1, [r2, r3], [s2, s3], &mut q2, &mut q3);
+        }
+        if of.coupled[2] {
+            m.m13 = couple(bodies, 2, [r1, r3], [s1, s3], &mut q1, &mut q3);
+        }
+
+        // Weight of the chains that do not float.
+        let (mut h1, mut h2) = (Vec2::<R>::ZERO, Vec2::<R>::ZERO);
+        if of.weighs[CRANK] {
+            h1 = r1.apply(bodies.moment[CRANK]);
+            q1 = h1.x.times_plus(-gravity, q1);
+        }
+        if of.weighs[ROD] {
+            h2 = r2.apply(bodies.moment[ROD]);
+            q2 = h2.x.times_plus(-gravity, q2);
+        }
+        if of.weighs[SLIDER] {
+            let h3: Vec2<R> = r3.apply(bodies.moment[SLIDER]);
+            q3 = h3.x.times_plus(-gravity, q3);
+        }
+        Self { m, q1, q2, q3, h1, h2 }
+    }
+
+    /// Forces, inwards to the roots: their moments go into Q.
+    #[inline(always)]
+    pub fn gather(&mut self, of: &Structure, arms: &Arms<Vec2<R>>, loads: &Loads<R>) -> Gathered<R> {
+        let Self { q1, q2, q3, .. } = self;
+        let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
+        let (none, slider) = (Vec2::ZERO, loads.pin);
+        let mut all = Gathered { crank: none, rod: none, slider, rail: loads.pin, far_end: loads.small_end };
+        let mut on_crank_pin = loads.crank_pin;
+        match of.slider {
+            Link::Before => all.far_end = loads.pin,
+            Link::Free(_) => *q3 += cross(arms.slider, loads.pin),
+            _ => {}
+        }
+        if of.rod == Link::After {
+            all.far_end = loads.big_end;
+            if of.crank == Link::After {
+                *q1 -= cross(arms.throw, loads.crank);
+                all.far_end = loads.crank;
+            }
+            *q2 -= cross(arms.reach, all.far_end);
+            all.rail += all.far_end;
+        } else {
+            *q2 += cross(arms.reach, all.far_end);
+            let total = loads.big_end + all.far_end;
+            if let Link::Free(_) = of.rod {
+                *q2 += cross(arms.rod, total);
+                if c {
+                    *q3 += cross(arms.slider, total);
+                }
+                all.rod = total;
+            } else {
+                on_crank_pin = total;
+            }
+        }
+        match of.crank {
+            Link::After => {}
+            Link::Free(_) => {
+                let total = on_crank_pin + loads.crank;
+                *q1 += cross(arms.throw, on_crank_pin) + cross(arms.crank, total);
+                if b {
+                    *q2 += cross(arms.rod, total);
+                    if c {
+                        *q3 += cross(arms.slider, total);
+                    }
+                }
+                all.crank = total;
+            }
+            _ => *q1 += cross(arms.throw, on_crank_pin),
+        }
+        all
+    }
+}
+
+/// Solves the equations of motion with a rigid rod. `closing` says how the rod of a closed loop follows its crank.
 #[inline(always)]
 pub fn accelerate<R: Real>(
     of: &Structure,
@@ -60,98 +199,19 @@ pub fn accelerate<R: Real>(
     closing: &IdealMotion<R>,
     loads: &Loads<R>,
 ) -> Accelerations<R> {
-    let [r1, r2, r3] = turning.rotation;
-    let [w1, w2, w3] = turning.speed;
-    let (s1, s2, s3) = (w1 * w1, w2 * w2, w3 * w3);
-    let [mut q1, mut q2, mut q3] = loads.couples();
-    let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
-
-    // M, and its centrifugal terms in Q.
-    let [d1, d2, d3] = bodies.diagonal.map(R::constant);
-    let mut m = MassMatrix { d1, d2, d3, m12: R::ZERO, m23: R::ZERO, m13: R::ZERO };
-    if of.coupled[0] {
-        m.m12 = couple(bodies, 0, [r1, r2], [s1, s2], &mut q1, &mut q2);
-    }
-    if of.coupled[1] {
-        m.m23 = couple(bodies, 1, [r2, r3], [s2, s3], &mut q2, &mut q3);
-    }
-    if of.coupled[2] {
-        m.m13 = couple(bodies, 2, [r1, r3], [s1, s3], &mut q1, &mut q3);
-    }
-
-    // Weight of the chains that do not float.
-    let (mut h1, mut h2) = (Vec2::<R>::ZERO, Vec2::<R>::ZERO);
-    if of.weighs[CRANK] {
-        h1 = r1.apply(bodies.moment[CRANK]);
-        q1 = h1.x.times_plus(-gravity, q1);
-    }
-    if of.weighs[ROD] {
-        h2 = r2.apply(bodies.moment[ROD]);
-        q2 = h2.x.times_plus(-gravity, q2);
-    }
-    if of.weighs[SLIDER] {
-        let h3: Vec2<R> = r3.apply(bodies.moment[SLIDER]);
-        q3 = h3.x.times_plus(-gravity, q3);
-    }
-
-    // Forces, inwards to the roots, which they accelerate.
-    let mut roots = Roots::<Vec2<R>>::default();
-    let fall = Vec2::constant(Vec2::new(0.0, -gravity));
-    let (mut on_crank_pin, mut on_small_end, mut on_rail) = (loads.crank_pin, loads.small_end, loads.pin);
-    match of.slider {
-        Link::Before => on_small_end = loads.pin,
-        Link::Free(_) => {
-            q3 += cross(arms.slider, loads.pin);
-            roots.slider = loads.pin.times_plus(bodies.per_mass[SLIDER], fall);
-        }
-        _ => {}
-    }
-    if of.rod == Link::After {
-        let mut on_big_end = loads.big_end;
-        if of.crank == Link::After {
-            q1 -= cross(arms.throw, loads.crank);
-            on_big_end = loads.crank;
-        }
-        q2 -= cross(arms.reach, on_big_end);
-        on_rail += on_big_end;
-    } else {
-        q2 += cross(arms.reach, on_small_end);
-        let total = loads.big_end + on_small_end;
-        if let Link::Free(_) = of.rod {
-            q2 += cross(arms.rod, total);
-            if c {
-                q3 += cross(arms.slider, total);
-            }
-            roots.rod = total.times_plus(bodies.per_mass[ROD], fall);
-        } else {
-            on_crank_pin = total;
-        }
-    }
-    match of.crank {
-        Link::After => {}
-        Link::Free(_) => {
-            let total = on_crank_pin + loads.crank;
-            q1 += cross(arms.throw, on_crank_pin) + cross(arms.crank, total);
-            if b {
-                q2 += cross(arms.rod, total);
-                if c {
-                    q3 += cross(arms.slider, total);
-                }
-            }
-            roots.crank = total.times_plus(bodies.per_mass[CRANK], fall);
-        }
-        _ => q1 += cross(arms.throw, on_crank_pin),
-    }
-
-    // M·θ̈ = Q.
+    let mut equations = Equations::new(of, bodies, gravity, turning, loads, R::constant);
+    let forces = equations.gather(of, arms, loads);
+    let Equations { mut m, mut q1, mut q2, q3, h1, h2 } = equations;
+    let mut roots = forces.fall(of, bodies, gravity);
     if let Link::Rail(_) = of.slider {
+        let [w1, w2, _] = turning.speed;
         let per_mass = bodies.per_mass[SLIDER];
-        let mut along = on_rail.x;
+        let mut along = forces.rail.x;
         if of.rod == Link::After {
-            along = s2.times_plus(h2.x, along);
+            along = (w2 * w2).times_plus(h2.x, along);
             let share2 = h2.y * per_mass;
             if of.crank == Link::After {
-                along = s1.times_plus(h1.x, along);
+                along = (w1 * w1).times_plus(h1.x, along);
                 let share1 = h1.y * per_mass;
                 q1 = share1.times_plus(along, q1);
                 m.d1 = (-share1).times_plus(h1.y, m.d1);
@@ -177,10 +237,29 @@ pub fn accelerate<R: Real>(
     }
 }
 
+impl<R: Real> Gathered<R> {
+    /// Accelerations of the chains' centres of mass that float.
+    #[inline(always)]
+    pub fn fall(&self, of: &Structure, bodies: &AugmentedBodies, gravity: f64) -> Roots<Vec2<R>> {
+        let fall = Vec2::constant(Vec2::new(0.0, -gravity));
+        let mut roots = Roots::<Vec2<R>>::default();
+        if let Link::Free(_) = of.crank {
+            roots.crank = self.crank.times_plus(bodies.per_mass[CRANK], fall);
+        }
+        if let Link::Free(_) = of.rod {
+            roots.rod = self.rod.times_plus(bodies.per_mass[ROD], fall);
+        }
+        if let Link::Free(_) = of.slider {
+            roots.slider = self.slider.times_plus(bodies.per_mass[SLIDER], fall);
+        }
+        roots
+    }
+}
+
 /// m_kl of a pair of bodies that turn by `k` and `l` at speeds of these squares; adds its centrifugal terms to Q.
 #[inline(always)]
-fn couple<R: Real>(
-    bodies: &AugmentedBodies,
+fn couple<R: Real + Mul<C, Output = R> + Fused<C>, C: Copy>(
+    bodies: &AugmentedBodies<C>,
     pair: usize,
     [k, l]: [Rotation<R>; 2],
     [square_k, square_l]: [R; 2],

@@ -1,6 +1,7 @@
 //! The ideal slider-crank: rod and slider as functions of the crank's angle.
 
 use super::plane::Rotation;
+use super::rod::Chord;
 use crate::integrator::EventFunction;
 use crate::math::Real;
 use crate::scene::Scene;
@@ -35,6 +36,8 @@ pub struct IdealMotion<R = f64> {
     pub x_ratio: R,
     /// [m/s²] d²x/dt² at a steady crank speed.
     pub x_bias: R,
+    /// [rad/m] dφ/dL, with the length L of a flexible rod's chord.
+    pub rod_per_length: R,
 }
 
 impl IdealMechanism {
@@ -77,6 +80,24 @@ impl IdealMechanism {
             x: crank.cos * r + cos * l,
             x_ratio: crank.sin * -r - sin * l * rod_ratio,
             x_bias: crank.cos * -r * speed * speed - (cos * rod_speed * rod_speed + sin * rod_bias) * l,
+            rod_per_length: R::ZERO,
         }
+    }
+
+    /// The rod at the crank's rotation and speed [rad/s], whose chord changes its length; nothing of the slider. Its speed
+    /// is `rod_ratio` times the crank's and `rod_per_length` times the chord's rate.
+    #[inline(always)]
+    pub fn flexible_motion<R: Real>(&self, crank: Rotation<R>, speed: R, chord: &Chord<R>) -> IdealMotion<R> {
+        let Self { crank: r, height, .. } = *self;
+        let Chord { length, rate, bias, .. } = *chord;
+        let sin = (-(crank.sin * r) + height) / length;
+        let cos = ((-sin + 1.0) * (sin + 1.0)).sqrt();
+        // r·sin θ + L·sin φ = height, once and twice differentiated.
+        let per_reach = (cos * length).recip();
+        let (rod_ratio, rod_per_length) = (crank.cos * -r * per_reach, -(sin * per_reach));
+        let rod_speed = rod_ratio * speed + rod_per_length * rate;
+        let centrifugal = crank.sin * r * speed * speed + sin * length * rod_speed * rod_speed;
+        let rod_bias = (centrifugal - cos * rod_speed * rate * 2.0 - sin * bias) * per_reach;
+        IdealMotion { rod: Rotation { cos, sin }, rod_ratio, rod_per_length, rod_bias, ..IdealMotion::default() }
     }
 }

@@ -11,11 +11,11 @@
 //! of an arm a differs: rot(θ)·a, ω·perp(rot(θ)·a), α·perp(rot(θ)·a) − ω²·rot(θ)·a. So the way through the mechanism is
 //! written once, in [`JointCentres::outwards`].
 
-use super::bodies::{AugmentedBodies, Bodies};
+use super::bodies::AugmentedBodies;
 use super::plane::{Rotation, Vec2, perp};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
 use crate::math::Real;
-use std::ops::{Add, Sub};
+use std::ops::{Add, Mul, Sub};
 
 /// Something for every joint centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -199,12 +199,14 @@ impl<V: Copy + Add<Output = V> + Sub<Output = V>> Roots<V> {
 }
 
 impl<R: Real> Arms<Vec2<R>> {
-    /// As the bodies stand.
+    /// As the bodies stand, with a crank of length `throw` [m] and a rod, or the chord of one, of length `reach` [m].
     #[inline(always)]
-    pub fn at(of: &Structure, bodies: &Bodies, augmented: &AugmentedBodies, turning: &Turning<R>) -> Self {
+    pub fn at<L: Copy>(of: &Structure, throw: f64, reach: L, augmented: &AugmentedBodies, turning: &Turning<R>) -> Self
+    where
+        R: Mul<L, Output = R>,
+    {
         let [crank, rod, slider] = &turning.rotation;
-        let mut arms =
-            Self { throw: crank.axis(bodies[CRANK].length), reach: rod.axis(bodies[ROD].length), ..Self::default() };
+        let mut arms = Self { throw: crank.axis(throw), reach: rod.axis(reach), ..Self::default() };
         if of.floats[CRANK] {
             arms.crank = crank.apply(augmented.anchor[CRANK]);
         }

@@ -1,11 +1,12 @@
-//! A mechanism with a rigid rod: its parts, its inputs, and its equations of motion.
+//! A mechanism: its parts, its inputs, and its equations of motion.
 //!
-//! The equations are written once, for every [`Structure`] and every number: [`Mechanism::rates`]. They are compiled once for
-//! each kind of number, with the structure as data, and again for some constant structures
+//! The equations are written once, for every [`Structure`] and every number: [`Mechanism::rates`] with a rigid rod and
+//! [`Mechanism::flexible_rates`] with a flexible one, which differ in the rod's inertia and in what is solved. They are
+//! compiled once for each kind of number, with the structure as data, and again for some constant structures
 //! ([`compiled`](super::compiled)). What else is asked about an instant is made from the same three steps: the pose,
 //! outwards; the loads; the accelerations, by forces inwards.
 
-use super::bodies::{AugmentedBodies, Bodies, bodies};
+use super::bodies::{AugmentedBodies, RodInChain, bodies};
 use super::clearances::Clearances;
 use super::contact::Account;
 use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
@@ -13,33 +14,48 @@ use super::dynamics::{Accelerations, accelerate};
 use super::ideal::{IdealMechanism, IdealMotion};
 use super::kinematics::{Arms, Centres, Moving, Roots, Turning};
 use super::loads::Loads;
-use super::plane::Vec2;
+use super::modal::Bent;
+use super::plane::{Vec2, cross, perp};
+use super::reactions::Demand;
+use super::rod::{Arrays, Chord, Counted, Inertia, Modes, Rod, Shape};
 use super::scalar::Scalar;
 use super::start::StartPose;
-use super::state::{Contacts, Instant, Pose, turning, turning_at};
+use super::state::{Contacts, FlexibleInstant, Instant, Pose, turning, turning_at};
 use super::structure::{CRANK, Link, ROD, Structure, Topology};
 use crate::integrator::EventFunctions;
 use crate::math::{self, each};
 use crate::scene::Scene;
 
-/// A mechanism whose rod is rigid. Nothing but its inputs changes while time runs.
+/// A mechanism. Nothing but its inputs changes while time runs.
 #[derive(Clone, Debug)]
 pub struct Mechanism {
     /// What hangs on what.
     pub structure: Structure,
-    pub(super) bodies: Bodies,
     pub(super) augmented: AugmentedBodies,
     pub(super) gravity: f64,
     /// Its lengths, and the height of an ideal guide.
     pub ideal: IdealMechanism,
     /// The prescribed rotation.
     pub rotor: Rotor,
+    /// The flexible rod, if it has one.
+    pub rod: Option<FlexibleRod>,
     /// The joints with clearance.
     pub clearances: Clearances,
     rotary_dampers: Vec<RotaryDamper>,
     guide_damping: Option<f64>,
     /// Inputs in time.
     pub signal: InputSignal,
+}
+
+/// A flexible rod in its mechanism.
+#[derive(Clone, Debug)]
+pub struct FlexibleRod {
+    /// Its modes, as the scene has them.
+    pub rod: Rod,
+    /// The same as the equations read them.
+    pub modes: Modes,
+    /// How it hangs in its chain.
+    pub chain: RodInChain,
 }
 
 /// Where the mechanism is at one instant, as its loads and accelerations need it.
@@ -52,18 +68,32 @@ pub(super) struct Stance<R> {
     pub closing: IdealMotion<R>,
 }
 
+/// A mechanism with a flexible rod at one instant, in arrays of `K` modes and `F` functions along the rod.
+pub(super) struct FlexibleMotion<R, const K: usize, const F: usize> {
+    stance: Stance<R>,
+    shape: Shape<R, K, F>,
+    inertia: Inertia<R, K>,
+    loads: Loads<R>,
+    accelerations: Accelerations<R>,
+}
+
 impl Mechanism {
     /// Assembles the mechanism of a scene that starts at `time` [s].
     pub fn assemble(scene: &Scene, time: f64) -> Self {
-        let structure = Structure::new(Topology::of(scene));
+        let (topology, rod) = (Topology::of(scene), Rod::new(scene));
+        let structure = Structure::with_rod(topology, rod.is_some());
         let bodies = bodies(scene);
         Self {
             structure,
-            bodies,
             augmented: AugmentedBodies::new(&bodies, &structure),
             gravity: scene.gravity,
             ideal: IdealMechanism::new(scene),
             rotor: Rotor::new(scene, time),
+            rod: rod.map(|rod| FlexibleRod {
+                modes: Modes::new(&rod),
+                chain: RodInChain::new(&bodies, &structure),
+                rod,
+            }),
             clearances: Clearances::new(scene),
             rotary_dampers: rotary_dampers(scene),
             guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
@@ -71,14 +101,11 @@ impl Mechanism {
         }
     }
 
-    /// Writes the rates of the state `y` at `t`: velocities, accelerations, and those of bristles. `of` is the mechanism's
-    /// structure, or the same as a constant.
+    /// Writes the rates of the state `y` at `t`, of a mechanism with a rigid rod: velocities, accelerations, and those of
+    /// bristles. `of` is the mechanism's structure, or the same as a constant.
     #[inline(always)]
     pub fn rates<R: Scalar>(&self, of: &Structure, contacts: &Contacts, t: R, y: &[R], rates: &mut [R]) {
-        let stance = self.stance(of, t, y);
-        let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let loads = self.loads(of, contacts, t, y, &stance.pose, bristle_rates);
-        write(of, &self.accelerations(of, &stance, &loads), y, moving);
+        self.motion(of, contacts, t, y, rates);
     }
 
     /// The same, and the event functions at this instant.
@@ -92,10 +119,7 @@ impl Mechanism {
         rates: &mut [f64],
         guards: &mut EventFunctions,
     ) {
-        let stance = self.stance(of, t, y);
-        let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let loads = self.loads(of, contacts, t, y, &stance.pose, bristle_rates);
-        write(of, &self.accelerations(of, &stance, &loads), y, moving);
+        let (stance, ..) = self.motion(of, contacts, t, y, rates);
         self.guards_at(of, contacts, &stance.pose, guards);
     }
 
@@ -109,15 +133,72 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
     ) -> Instant<R> {
-        let stance = self.stance(of, t, y);
-        let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let loads = self.loads(of, contacts, t, y, &stance.pose, bristle_rates);
-        let accelerations = self.accelerations(of, &stance, &loads);
-        write(of, &accelerations, y, moving);
+        let (stance, loads, accelerations) = self.motion(of, contacts, t, y, rates);
         instant(of, stance, loads, &accelerations)
     }
 
-    /// Poses, outwards.
+    /// Writes the rates, and returns what they were made of.
+    #[inline(always)]
+    fn motion<R: Scalar>(
+        &self,
+        of: &Structure,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
+    ) -> (Stance<R>, Loads<R>, Accelerations<R>) {
+        let stance = self.stance(of, t, y);
+        let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
+        let loads = self.loads(of, contacts, t, &y[2 * of.positions..], &stance.pose, bristle_rates);
+        let accelerations = self.accelerations(of, &stance, &loads);
+        write(of, &accelerations, y, moving);
+        (stance, loads, accelerations)
+    }
+
+    /// Writes the rates of the state `y` at `t`, of a mechanism with a flexible rod in arrays of `K` modes, `F` functions
+    /// and `S` equations, with counts that are known or not; and returns what they were made of.
+    #[inline(always)]
+    pub(super) fn flexible_rates<R: Scalar, C: Counted, const K: usize, const F: usize, const S: usize>(
+        &self,
+        of: &Structure,
+        rod: &FlexibleRod,
+        contacts: &Contacts,
+        t: R,
+        y: &[R],
+        rates: &mut [R],
+    ) -> FlexibleMotion<R, K, F> {
+        let modes: Arrays<'_, K, F> = rod.modes.arrays();
+        let rigid = of.positions;
+        let p = rigid + C::COUNTS.unwrap_or(modes.counts).modes();
+        let (positions, speeds) = (&y[..p], &y[p..2 * p]);
+        let (eta, rate) = (&positions[rigid..], &speeds[rigid..]);
+        let shape = modes.shape::<R, C>(eta, rate);
+        let stance = self.flexible_stance(of, t, positions, speeds, &shape);
+        let (moving, bristle_rates) = rates.split_at_mut(2 * p);
+        let (velocities, forced) = moving.split_at_mut(p);
+        let loads = self.loads(of, contacts, t, &y[2 * p..], &stance.pose, bristle_rates);
+        let Stance { pose, arms, closing } = &stance;
+        let inertia = modes.inertia::<R, C>(&shape, eta, rate, pose.turning.speed[ROD]);
+        let bent = Bent { modes, chain: rod.chain, shape: &shape, inertia: &inertia, eta, rate };
+        let bodies = bent.augmented(of, &self.augmented, self.ideal.crank);
+        let accelerations = bent.accelerate::<C, S>(
+            of,
+            &bodies,
+            &self.augmented,
+            self.gravity,
+            &pose.turning,
+            arms,
+            closing,
+            &loads,
+            &mut forced[rigid..],
+        );
+        velocities.copy_from_slice(speeds);
+        of.set_roots(&accelerations.roots, forced);
+        of.set_angles(accelerations.angle, forced);
+        FlexibleMotion { stance, shape, inertia, loads, accelerations }
+    }
+
+    /// Poses, outwards, with a rigid rod.
     #[inline(always)]
     pub(super) fn stance<R: Scalar>(&self, of: &Structure, t: R, y: &[R]) -> Stance<R> {
         let (positions, rates) = y[..2 * of.positions].split_at(of.positions);
@@ -128,17 +209,8 @@ impl Mechanism {
             turning.rotation[ROD] = closing.rod;
             turning.speed[ROD] = closing.rod_ratio * turning.speed[CRANK];
         }
-        let arms = Arms::at(of, &self.bodies, &self.augmented, &turning);
-        let (mut roots, root_rates) = (of.roots(positions), of.roots(rates));
-        if let Link::Rail(_) = of.slider {
-            roots.slider.y = R::constant(self.ideal.height);
-        }
-        let roots = Roots {
-            crank: Moving { place: roots.crank, velocity: root_rates.crank },
-            rod: Moving { place: roots.rod, velocity: root_rates.rod },
-            slider: Moving { place: roots.slider, velocity: root_rates.slider },
-        };
-        let mut centres = Centres::outwards(of, &roots, &arms.moving(turning.speed));
+        let arms = Arms::at(of, self.ideal.crank, self.ideal.rod, &self.augmented, &turning);
+        let mut centres = self.centres(of, positions, rates, &arms.moving(turning.speed));
         if of.closed {
             let pin = Moving {
                 place: Vec2::new(closing.x, R::constant(self.ideal.height)),
@@ -151,14 +223,62 @@ impl Mechanism {
         Stance { pose, arms, closing }
     }
 
-    /// Loads from inputs, viscous friction and contacts; writes the rates of the contacts' bristles.
+    /// The same with a flexible rod, at `positions` and their `rates`.
+    #[inline(always)]
+    fn flexible_stance<R: Scalar, const K: usize, const F: usize>(
+        &self,
+        of: &Structure,
+        t: R,
+        positions: &[R],
+        rates: &[R],
+        shape: &Shape<R, K, F>,
+    ) -> Stance<R> {
+        let chord = &shape.chord;
+        let mut turning = turning_at(of, &self.rotor, t, positions, rates);
+        let mut closing = IdealMotion::default();
+        if of.closed {
+            closing = self.ideal.flexible_motion(turning.rotation[CRANK], turning.speed[CRANK], chord);
+            turning.rotation[ROD] = closing.rod;
+            turning.speed[ROD] = closing.rod_ratio * turning.speed[CRANK] + closing.rod_per_length * chord.rate;
+        }
+        let arms = Arms::at(of, self.ideal.crank, chord.length, &self.augmented, &turning);
+        let mut moving = arms.moving(turning.speed);
+        moving.reach.velocity += turning.rotation[ROD].axis(chord.rate);
+        let centres = self.centres(of, positions, rates, &moving);
+        let section_speed = shape.slope_rate.map(|rate| turning.speed[ROD] + rate);
+        let pose = Pose { turning, place: centres.places(), velocity: centres.velocities(), section_speed };
+        Stance { pose, arms, closing }
+    }
+
+    /// Places and velocities of the joint centres.
+    #[inline(always)]
+    fn centres<R: Scalar>(
+        &self,
+        of: &Structure,
+        positions: &[R],
+        rates: &[R],
+        arms: &Arms<Moving<R>>,
+    ) -> Centres<Moving<R>> {
+        let (mut roots, root_rates) = (of.roots(positions), of.roots(rates));
+        if let Link::Rail(_) = of.slider {
+            roots.slider.y = R::constant(self.ideal.height);
+        }
+        let roots = Roots {
+            crank: Moving { place: roots.crank, velocity: root_rates.crank },
+            rod: Moving { place: roots.rod, velocity: root_rates.rod },
+            slider: Moving { place: roots.slider, velocity: root_rates.slider },
+        };
+        Centres::outwards(of, &roots, arms)
+    }
+
+    /// Loads from inputs, viscous friction and contacts; writes the rates of the contacts' `bristles`.
     #[inline(always)]
     pub(super) fn loads<R: Scalar>(
         &self,
         of: &Structure,
         contacts: &Contacts,
         t: R,
-        y: &[R],
+        bristles: &[R],
         pose: &Pose<R>,
         bristle_rates: &mut [R],
     ) -> Loads<R> {
@@ -173,7 +293,6 @@ impl Mechanism {
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
         }
-        let bristles = &y[2 * of.positions..];
         self.clearances.add_loads(of.play, contacts, pose, bristles, bristle_rates, &mut loads);
         loads
     }
@@ -201,6 +320,97 @@ impl Mechanism {
         } else {
             self.clearances.guards(of.play, contacts, pose, guards);
         }
+    }
+
+    /// The same with a flexible rod: it may stretch until it passes the change point.
+    #[inline(always)]
+    fn flexible_guards_at(
+        &self,
+        of: &Structure,
+        contacts: &Contacts,
+        pose: &Pose,
+        chord: &Chord<f64>,
+        guards: &mut EventFunctions,
+    ) {
+        if of.closed {
+            let Turning { rotation, speed, .. } = &pose.turning;
+            guards[0] = self.ideal.change_point(rotation[CRANK], speed[CRANK], chord.length, chord.rate);
+        } else {
+            self.clearances.guards(of.play, contacts, pose, guards);
+        }
+    }
+
+    /// Poses, outwards, with a flexible rod, and its chord.
+    #[inline(always)]
+    pub(super) fn flexible_pose<const K: usize, const F: usize, const S: usize>(
+        &self,
+        rod: &FlexibleRod,
+        t: f64,
+        y: &[f64],
+    ) -> (Pose, Chord<f64>) {
+        let (of, p) = (&self.structure, self.positions());
+        let (positions, rates) = y[..2 * p].split_at(p);
+        let modes: Arrays<'_, K, F> = rod.modes.arrays();
+        let shape = modes.shape::<f64, super::rod::Any>(&positions[of.positions..], &rates[of.positions..]);
+        (self.flexible_stance(of, t, positions, rates, &shape).pose, shape.chord)
+    }
+}
+
+impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
+    /// Everything about the instant of the motion through `y` whose accelerations are in `rates`.
+    pub fn instant(self, mechanism: &Mechanism, rod: &FlexibleRod, y: &[R], rates: &[R]) -> Instant<R> {
+        let Self { stance: Stance { pose, arms, .. }, shape, inertia, loads, accelerations } = self;
+        let (of, p) = (&mechanism.structure, mechanism.positions());
+        let modal = of.positions..p;
+        let (eta, rate) = (&y[modal.clone()], &y[p + modal.start..2 * p]);
+        let forced = &rates[p + modal.start..2 * p];
+        let Accelerations { roots, angle } = accelerations;
+        let turning = &pose.turning;
+        let (rotation, speed) = (turning.rotation[ROD], turning.speed[ROD]);
+        let mut arms = arms.accelerated(turning.speed, angle);
+        let mut stretching = shape.chord.bias;
+        for (slope, forced) in shape.chord_slope.iter().zip(forced) {
+            stretching += *slope * *forced;
+        }
+        let axis = rotation.axis(R::ONE);
+        arms.reach += stretching * axis + shape.chord.rate * 2.0 * speed * perp(axis);
+        let acceleration = Centres::outwards(of, &roots, &arms);
+
+        // What the rod's motion needs of forces and of moments about its big end.
+        let (mass, turn) = (rod.rod.mass(), angle[ROD]);
+        let origin = acceleration.big_end + Vec2::new(0.0, mechanism.gravity);
+        let first = rotation.apply(inertia.first);
+        let mut force = origin * mass + turn * perp(first) + rotation.apply(inertia.force);
+        let mut moment = cross(first, origin) + inertia.about_origin * turn + inertia.couple;
+        let mut opening = Vec2::<R>::ZERO;
+        let (mut with_turning, mut modal_energy) = (R::ZERO, R::ZERO);
+        for (a, (&forced, &rate_a)) in forced.iter().zip(rate).enumerate() {
+            force += forced * rotation.apply(inertia.first_slope[a]);
+            moment += forced * inertia.turning[a];
+            opening += rate_a * inertia.first_slope[a];
+            with_turning += rate_a * inertia.turning[a];
+            let with = inertia.modal[a].iter().zip(rate).take(a);
+            let row = with.fold(R::ZERO, |sum, (m, rate)| sum + *m * *rate);
+            modal_energy += rate_a * (row * 2.0 + inertia.modal[a][a] * rate_a);
+        }
+        let velocity = pose.velocity.big_end;
+        let first_rate = speed * perp(first) + rotation.apply(opening);
+        let kinetic = velocity.norm_squared() * (0.5 * mass)
+            + velocity.dot(first_rate)
+            + inertia.about_origin * 0.5 * speed * speed
+            + speed * with_turning
+            + modal_energy * 0.5;
+        let flexible = FlexibleInstant {
+            demand: Demand { force, moment },
+            elastic: rod.rod.elastic(&shape, eta, rate),
+            kinetic,
+            mass_height: pose.place.big_end.y * mass + first.y,
+        };
+        let mut pose = pose;
+        if of.closed {
+            pose.turning.angle[ROD] = math::atan2(rotation.sin, rotation.cos);
+        }
+        Instant { pose, acceleration, angle_acceleration: angle, loads, flexible: Some(flexible) }
     }
 }
 
@@ -240,7 +450,7 @@ impl Mechanism {
     /// How many event functions there are.
     pub fn guard_count(&self) -> usize {
         if self.structure.closed {
-            usize::from(self.ideal.has_change_point())
+            usize::from(self.structure.flexible || self.ideal.has_change_point())
         } else {
             self.clearances.guard_count(self.structure.play)
         }
@@ -248,30 +458,43 @@ impl Mechanism {
 
     /// Writes the event functions.
     pub fn guards(&self, contacts: &Contacts, t: f64, y: &[f64], guards: &mut EventFunctions) {
-        self.guards_at(&self.structure, contacts, &self.pose(t, y), guards);
+        match &self.rod {
+            Some(rod) => {
+                let (pose, chord) = self.bent_pose(rod, t, y);
+                self.flexible_guards_at(&self.structure, contacts, &pose, &chord, guards);
+            }
+            None => self.guards_at(&self.structure, contacts, &self.place(t, y).pose, guards),
+        }
     }
 
     /// Angles, places and velocities.
     pub fn pose(&self, t: f64, y: &[f64]) -> Pose {
-        self.place(t, y).pose
+        match &self.rod {
+            Some(rod) => self.bent_pose(rod, t, y).0,
+            None => self.place(t, y).pose,
+        }
     }
 
     /// Elastic energy of the closed contacts, and the powers that they take.
     pub fn account<R: Scalar>(&self, contacts: &Contacts, pose: &Pose<R>, y: &[R]) -> Account<R> {
-        let Structure { play, positions, .. } = self.structure;
-        self.clearances.account(play, contacts, pose, &y[2 * positions..])
+        self.clearances.account(self.structure.play, contacts, pose, &y[2 * self.positions()..])
+    }
+
+    /// Number of positions, modal ones among them: that of degrees of freedom.
+    pub fn positions(&self) -> usize {
+        self.structure.positions + self.rod.as_ref().map_or(0, |rod| rod.modes.counts.modes())
     }
 
     /// Number of states: positions, their rates, bristles.
     pub fn states(&self) -> usize {
-        2 * self.structure.positions + self.clearances.bristles.len()
+        2 * self.positions() + self.clearances.bristles.len()
     }
 
-    /// Writes the state of a start pose, whose bristles are straight.
+    /// Writes the state of a start pose, whose rod and bristles are straight.
     pub fn start(&self, pose: &StartPose, y: &mut [f64]) {
         let of = &self.structure;
         let turning = turning(pose.angle, pose.speed, of.slider_angle.is_some());
-        let arms = Arms::at(of, &self.bodies, &self.augmented, &turning);
+        let arms = Arms::at(of, self.ideal.crank, self.ideal.rod, &self.augmented, &turning);
         let still = arms.moving(turning.speed);
         let velocities = Arms {
             throw: still.throw.velocity,
@@ -280,7 +503,8 @@ impl Mechanism {
             rod: still.rod.velocity,
             slider: still.slider.velocity,
         };
-        let (positions, rates) = y[..2 * of.positions].split_at_mut(of.positions);
+        let p = self.positions();
+        let (positions, rates) = y[..2 * p].split_at_mut(p);
         of.set_roots(&Roots::of(of, &pose.place, &arms), positions);
         of.set_angles(pose.angle, positions);
         of.set_roots(&Roots::of(of, &pose.velocity, &velocities), rates);

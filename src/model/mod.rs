@@ -3,8 +3,8 @@
 //! [`scene`](crate::scene) says which joints are ideal and which have clearance; here that becomes a
 //! set of minimal coordinates and a right-hand side that holds the effects called for and no others.
 //! Reading order: `structure` (what hangs on what), `bodies`, `kinematics` (outwards), `dynamics` (inwards, M·q̈ = Q),
-//! `mechanism` (with a rigid rod), `compiled` and `rigid` (as the integrator asks for it), `rod` and `flexible` (with a
-//! flexible one), `joint` and `contact` (forces), `reactions` and `outputs`.
+//! `rod` and `modal` (what a flexible rod adds), `mechanism` (all together), `compiled` and `rigid` (as the integrator asks
+//! for it), `joint` and `contact` (forces), `reactions` and `outputs`.
 
 pub mod audit;
 pub mod bodies;
@@ -14,7 +14,6 @@ pub mod compiled;
 pub mod contact;
 pub mod drive;
 pub mod dynamics;
-pub mod flexible;
 pub mod friction;
 pub mod ideal;
 pub mod jacobian;
@@ -23,6 +22,7 @@ pub mod joint_set;
 pub mod kinematics;
 pub mod loads;
 pub mod mechanism;
+mod modal;
 pub mod outputs;
 pub mod plane;
 pub mod plant;

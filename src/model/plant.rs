@@ -9,10 +9,6 @@ use super::start::StartPose;
 use super::state::{Contacts, Instant, Pose};
 use crate::integrator::{Impulses, Unilateral};
 
-/// From this `N` on, the arrays of a mechanism are room for states and its extent tells how many there are; a smaller `N`
-/// is their exact number, known to the compiler.
-pub const ROOM: usize = 32;
-
 /// A mechanism in minimal coordinates.
 pub trait Plant: Unilateral<Discrete = Contacts> + Send {
     /// Writes the state of a start pose in place of zeros.

@@ -7,8 +7,8 @@ use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
 use super::joint::guide::CORNERS;
-use super::mechanism::Mechanism;
-use super::plant::{Plant, ROOM};
+use super::mechanism::{FlexibleRod, Mechanism};
+use super::plant::Plant;
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
@@ -16,8 +16,8 @@ use super::state::{Contacts, Instant, Pose};
 use super::unilateral::Acting;
 use crate::integrator::complementarity::MOST_CONTACTS;
 use crate::integrator::{
-    ContactLaw, Discontinuities, EventFunctions, Events, Extent, Impulses, Jacobian, Linearizable, Ode, Relative,
-    Reset, SeveralInstants, Tableau, Triggered, Unilateral,
+    ContactLaw, Discontinuities, EventFunctions, Events, Extent, Impulses, Jacobian, Linearizable, MAX_STATES, Ode,
+    Relative, Reset, SeveralInstants, Tableau, Triggered, Unilateral,
 };
 use crate::math::{Real, Row};
 use crate::scene::Scene;
@@ -39,9 +39,9 @@ impl Rigid {
     pub fn assemble(scene: &Scene, time: f64) -> Self {
         let mechanism = Mechanism::assemble(scene, time);
         let (structure, states) = (mechanism.structure, mechanism.states());
-        assert!(states <= ROOM, "room for every state");
+        assert!(states <= MAX_STATES, "room for every state");
         let scale = Scale::of(scene);
-        let p = structure.positions;
+        let p = mechanism.positions();
         let mut scales = vec![0.0; states];
         let (positions, rates) = scales[..2 * p].split_at_mut(p);
         positions.fill(scale.length);
@@ -51,11 +51,17 @@ impl Rigid {
         for (rate, position) in rates.iter_mut().zip(positions.iter()) {
             *rate = position * scale.frequency;
         }
+        if let Some(FlexibleRod { rod, .. }) = &mechanism.rod {
+            for (k, &frequency) in (structure.positions..).zip(&rod.frequency) {
+                positions[k] = scale.deflection;
+                rates[k] = scale.deflection * frequency.max(scale.frequency);
+            }
+        }
         for (scale, (_, deflection)) in scales[2 * p..].iter_mut().zip(bristled_contacts(scene)) {
             *scale = deflection;
         }
         Self {
-            compiled: Compiled::of(&structure),
+            compiled: Compiled::of(&mechanism),
             suits_blocks: structure.topology.has_one_play_in_a_pin() && states == 2 * p,
             scales,
             longest_step: scale.longest_step,
@@ -70,7 +76,7 @@ impl Ode for Rigid {
 
     fn extent(&self) -> Extent {
         let states = self.scales.len();
-        Extent { positions: self.mechanism.structure.positions, weighed: states, states }
+        Extent { positions: self.mechanism.positions(), weighed: states, states }
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
@@ -87,7 +93,7 @@ impl Ode for Rigid {
 
     fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
         // With bristles, there are more states than the compiled loops have places for.
-        let second_order = self.scales.len() == 2 * self.mechanism.structure.positions;
+        let second_order = self.scales.len() == 2 * self.mechanism.positions();
         second_order && (self.compiled.stages)(&self.mechanism, tableau, contacts, t, y, h, k)
     }
 }
@@ -105,7 +111,9 @@ impl SeveralInstants for Rigid {
 impl Linearizable for Rigid {
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let states = self.scales.len();
-        differentiate::<ROOM>(states, states, t, y, jacobian, &|t, y, rates| self.tangent_rates(contacts, t, y, rates));
+        differentiate::<MAX_STATES>(states, states, t, y, jacobian, &|t, y, rates| {
+            self.tangent_rates(contacts, t, y, rates)
+        });
     }
 }
 
@@ -148,7 +156,7 @@ impl Events for Rigid {
             return Reset { discrete: *contacts, impact: None };
         }
         let pose = self.mechanism.pose(t, y);
-        clearances.cross(structure.play, contacts, &pose, triggered, &mut y[2 * structure.positions..])
+        clearances.cross(structure.play, contacts, &pose, triggered, &mut y[2 * self.mechanism.positions()..])
     }
 }
 
@@ -199,7 +207,7 @@ impl Plant for Rigid {
     }
 
     fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant {
-        self.mechanism.instant(contacts, t, y, &mut [0.0; ROOM][..y.len()])
+        self.mechanism.instant(contacts, t, y, &mut [0.0; MAX_STATES][..y.len()])
     }
 
     fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
@@ -207,7 +215,7 @@ impl Plant for Rigid {
     }
 
     fn instant_under(&self, impulses: &Impulses, t: f64, y: &[f64]) -> Instant {
-        self.mechanism.instant_under(&acting(impulses, y.len()), t, y, &mut [0.0; ROOM][..y.len()])
+        self.mechanism.instant_under(&acting(impulses, y.len()), t, y, &mut [0.0; MAX_STATES][..y.len()])
     }
 
     fn rates_under(&self, impulses: &Impulses, t: f64, y: &[f64], rates: &mut [f64]) {
@@ -227,6 +235,6 @@ impl Plant for Rigid {
     }
 
     fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
-        self.mechanism.tangent_instant(contacts, t, y, &mut [Tangent::ZERO; ROOM][..y.len()])
+        self.mechanism.tangent_instant(contacts, t, y, &mut [Tangent::ZERO; MAX_STATES][..y.len()])
     }
 }

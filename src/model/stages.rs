@@ -1,6 +1,5 @@
 //! The loop over a step's stages, compiled for a mechanism whose number of states is known, with its rates inside.
 
-use super::plant::ROOM;
 use crate::integrator::Tableau;
 use crate::math::{Fused, each};
 
@@ -21,9 +20,6 @@ pub fn of_so_many<const N: usize>(
 ) -> bool {
     if const { N <= IN_REGISTERS } {
         return in_registers::<N>(tableau, t, y, h, k, rates);
-    }
-    if const { N >= ROOM } {
-        return false;
     }
     let (Some(y), (k, _)) = (y.first_chunk::<N>(), k.as_chunks_mut::<N>()) else {
         return false;

@@ -23,6 +23,9 @@
 //! then the angles of crank (unless the drive prescribes it), rod and slider (unless its guide is ideal). Their rates
 //! follow in the same order. Where all joints are ideal the loop is closed: the chain hangs on the ground, the guide makes
 //! the rod's angle a function of the crank's, and that is the only coordinate.
+//!
+//! A flexible rod has modal coordinates besides, after all of these. The centre of mass of a chain with such a rod moves in
+//! the bodies as the rod bends; where that chain floats, its root is its first joint.
 
 use super::joint_set::JointSet;
 use super::kinematics::Roots;
@@ -138,6 +141,8 @@ pub struct Structure {
     pub play: JointSet,
     /// All joints are ideal.
     pub closed: bool,
+    /// The rod is flexible.
+    pub flexible: bool,
     /// What the crank hangs on.
     pub crank: Link,
     /// What the rod hangs on.
@@ -150,9 +155,9 @@ pub struct Structure {
     pub rod_angle: Option<usize>,
     /// Place of the slider's angle, where it may tilt.
     pub slider_angle: Option<usize>,
-    /// Number of positions, which is that of degrees of freedom.
+    /// Number of positions but for modal ones.
     pub positions: usize,
-    /// The bodies, crank, rod and slider, whose chain floats.
+    /// The bodies, crank, rod and slider, whose chain floats and has its centre of mass as its root.
     pub floats: [bool; 3],
     /// The bodies whose angle moves centres of mass against their chain's root, and does not float.
     pub weighs: [bool; 3],
@@ -161,8 +166,13 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Of a topology.
+    /// Of a topology, with a rigid rod.
     pub const fn new(topology: Topology) -> Self {
+        Self::with_rod(topology, false)
+    }
+
+    /// Of a topology, with a flexible rod or a rigid one.
+    pub const fn with_rod(topology: Topology, flexible: bool) -> Self {
         let Topology { a, b, c, t, speed } = topology;
         let closed = topology.is_closed();
         // In a closed loop the guide holds no body up: it takes a coordinate away.
@@ -194,6 +204,7 @@ impl Structure {
             topology,
             play: JointSet { main_bearing: !a, crank_pin: !b, slider_pin: !c, guide: !topology.t },
             closed,
+            flexible,
             crank,
             rod,
             slider,
@@ -201,7 +212,7 @@ impl Structure {
             rod_angle,
             slider_angle,
             positions: next.next,
-            floats: [crank_floats, rod_floats, slider_floats],
+            floats: [crank_floats && !(flexible && b), rod_floats && !flexible, slider_floats && !(flexible && c)],
             weighs: [a || rail_crank, (a && b) || rail_rod, a && b && c && !topology.t],
             coupled: [b, c && !topology.t, b && c && !topology.t],
         }

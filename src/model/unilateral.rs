@@ -100,7 +100,7 @@ impl Mechanism {
         let of = &self.structure;
         let stance = self.place(t, y);
         let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let mut loads = self.loads(of, &Contacts::default(), t, y, &stance.pose, bristle_rates);
+        let mut loads = self.loads(of, &Contacts::default(), t, &y[2 * of.positions..], &stance.pose, bristle_rates);
         if acting.acts.contains(&true) {
             let there = self.pose(acting.t, acting.y);
             for contact in (0..CONTACTS).filter(|&contact| acting.acts[contact]) {

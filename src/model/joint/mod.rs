@@ -5,5 +5,3 @@ pub mod foundation;
 pub mod guide;
 pub mod revolute;
 mod rigid;
-
-pub use super::scalar::{Kernel, Kernels};

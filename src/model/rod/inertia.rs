@@ -4,9 +4,9 @@
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
 use super::Shape;
-use super::modes::{Counted, Counts, Modes};
+use super::modes::{Arrays, Counted, Counts};
 use super::sums::{FunctionsToFunctions, FunctionsToModes, ModesToModes, add_rows};
-use super::tables::Tables;
+use super::tables::Viewed;
 use crate::math::{LANES, Real, each};
 use crate::model::plane::{Vec2, perp};
 
@@ -32,11 +32,11 @@ pub struct Inertia<R, const K: usize> {
     pub modal_force: [R; K],
 }
 
-impl<const K: usize, const F: usize> Modes<K, F> {
+impl<const K: usize, const F: usize> Arrays<'_, K, F> {
     /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
     /// [rad/s].
     #[inline(always)]
-    pub(super) fn inertia<R: Real, C: Counted>(
+    pub fn inertia<R: Real, C: Counted>(
         &self,
         shape: &Shape<R, K, F>,
         eta: &[R],
@@ -62,7 +62,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
                 twist[first + j] = q[j].times_plus(dq[i], -(q[i] * dq[j]));
             });
         });
-        let Tables { second, with_modes, placing, moving, twisting, products, shifting, stretching, .. } = &self.tables;
+        let Viewed { second, with_modes, placing, moving, twisting, products, shifting, .. } = self.tables;
         let columns = n + 1;
         let (mut place, mut bias, mut moved, mut first_slope) = (none, none, none, none);
         add_rows::<R, FunctionsToModes<C>, _, _>([&mut place], placing, 0..functions, [xi], columns);
@@ -124,7 +124,13 @@ impl<const K: usize, const F: usize> Modes<K, F> {
                 inertia.turning[a] = (-q[i]).times_plus(number, inertia.turning[a]);
                 inertia.modal_force[a] = (-(twice * number)).times_plus(dq[i], inertia.modal_force[a]);
             }
-            add_rows::<R, ModesToModes<C>, _, _>([&mut inertia.modal[a]], &stretching[j], 0..shortening, [q], n);
+            add_rows::<R, ModesToModes<C>, _, _>(
+                [&mut inertia.modal[a]],
+                self.tables.stretching(j),
+                0..shortening,
+                [q],
+                n,
+            );
             for i in 0..=j {
                 inertia.modal[a][n + i] = R::constant(second[function][1 + i]);
             }

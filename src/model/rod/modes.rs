@@ -1,11 +1,8 @@
-//! The rod's modes in arrays for the inner loop, and functions compiled for how many there are.
+//! The rod's modes as the inner loop reads them.
 
-use super::inertia::Inertia;
-use super::tables::Tables;
-use super::{FEW_MODES, Rod, Shape};
+use super::Rod;
+use super::tables::{Tables, Viewed};
 use crate::math::Real;
-use crate::model::joint::{Kernel, Kernels};
-use crate::model::scalar::Scalar;
 
 /// How many modes there are, in the order of the modal coordinates, and which of them foreshorten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +34,7 @@ impl Counts {
         self.shortening * (self.shortening + 1) / 2
     }
 
-    /// Them, i ≤ j.
+    /// These pairs, i ≤ j.
     pub(super) fn all_pairs(self) -> impl Iterator<Item = (usize, usize)> {
         (0..self.shortening).flat_map(move |i| (i..self.shortening).map(move |j| (i, j)))
     }
@@ -58,7 +55,7 @@ impl Counts {
 
 /// What is known of a rod's counts where code is compiled.
 pub trait Counted {
-    /// They themselves, or nothing.
+    /// The counts, where they are known.
     const COUNTS: Option<Counts>;
     /// They are known: loops over modes and functions are written out.
     const KNOWN: bool = Self::COUNTS.is_some();
@@ -90,151 +87,140 @@ impl Counted for Any {
     const COUNTS: Option<Counts> = None;
 }
 
-/// The modes in arrays with room for `K` modes and `F` functions.
+/// A rod's modes in lists with [`Room`] for more of them.
 #[derive(Clone, Debug)]
-pub struct Modes<const K: usize, const F: usize> {
+pub struct Modes {
     /// How many there are.
     pub counts: Counts,
+    /// What the lists have room for.
+    pub room: Room,
     /// [m] Undeformed length.
-    pub(super) length: f64,
+    length: f64,
     /// B(l), of functions.
-    pub(super) end: [f64; F],
+    end: Vec<f64>,
     /// [1/m] φ'(0) and φ'(l).
-    pub(super) slope: [[f64; K]; 2],
+    slope: [Vec<f64>; 2],
     /// [N/m] Modal mass times ω².
-    stiffness: [f64; K],
+    stiffness: Vec<f64>,
     /// [N·s/m] 2·ζ·ω times the modal mass.
-    damping: [f64; K],
-    /// Tables of moments; see [`Tables`].
-    pub(super) tables: Tables<K, F>,
+    damping: Vec<f64>,
+    tables: Tables,
     /// [kg] ∫φ dm.
-    pub(super) moment: [f64; K],
+    moment: Vec<f64>,
     /// [kg] ∫φ² dm.
-    pub(super) modal_mass: [f64; K],
-    kernels: Kernels<Family<K, F>>,
+    modal_mass: Vec<f64>,
 }
 
-impl<const K: usize, const F: usize> Modes<K, F> {
-    /// Of a rod that has room here.
+/// How many modes and functions along x the code of a rod has room for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Room {
+    /// For up to 4 modes and 12 functions.
+    Few,
+    /// For up to 8 modes and 40 functions.
+    Many,
+    /// For all 16 modes and 48 functions.
+    All,
+}
+
+impl Room {
+    /// Numbers of modes and functions.
+    pub const fn size(self) -> [usize; 2] {
+        match self {
+            Self::Few => [4, 12],
+            Self::Many => [8, 40],
+            Self::All => [16, 48],
+        }
+    }
+
+    /// The smallest one for such counts.
+    pub fn of(counts: Counts) -> Self {
+        let suits = |room: &Self| {
+            let [modes, functions] = room.size();
+            counts.modes() <= modes && counts.functions() <= functions
+        };
+        [Self::Few, Self::Many].into_iter().find(suits).unwrap_or(Self::All)
+    }
+}
+
+/// The same modes in arrays of `K` modes and `F` functions.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::model) struct Arrays<'a, const K: usize, const F: usize> {
+    /// How many there are.
+    pub counts: Counts,
+    pub(super) length: f64,
+    pub(super) end: &'a [f64; F],
+    pub(super) slope: [&'a [f64; K]; 2],
+    stiffness: &'a [f64; K],
+    damping: &'a [f64; K],
+    pub(super) tables: Viewed<'a, K, F>,
+    pub(super) moment: &'a [f64; K],
+    pub(super) modal_mass: &'a [f64; K],
+}
+
+impl Modes {
+    /// Of a rod.
     pub fn new(rod: &Rod) -> Self {
+        Self::in_room(rod, Room::of(rod.counts))
+    }
+
+    /// The same in a room that is given.
+    pub fn in_room(rod: &Rod, room: Room) -> Self {
         let counts = rod.counts;
-        let (n, count) = (counts.bending, counts.functions());
-        let mut modes = Self {
-            counts,
-            length: rod.length,
-            end: [0.0; F],
-            slope: [[0.0; K]; 2],
-            stiffness: [0.0; K],
-            damping: [0.0; K],
-            tables: Tables::new(rod),
-            moment: [0.0; K],
-            modal_mass: [0.0; K],
-            kernels: Kernels {
-                value: by_counts(counts),
-                row: Functions::ANY,
-                half: Functions::ANY,
-                tangent: Functions::ANY,
-            },
+        let [modes, functions] = room.size();
+        let padded = |numbers: &[f64], width: usize| {
+            let mut list = vec![0.0; width];
+            list[..numbers.len()].copy_from_slice(numbers);
+            list
         };
-        modes.end[..count].copy_from_slice(&rod.end);
-        modes.moment[..n].copy_from_slice(&rod.moment);
-        for (slope, of_rod) in modes.slope.iter_mut().zip(&rod.slope) {
-            slope[..n].copy_from_slice(of_rod);
-        }
-        for k in 0..counts.modes() {
-            let (mass, omega) = (rod.modal_mass[k], rod.frequency[k]);
-            modes.modal_mass[k] = mass;
-            modes.stiffness[k] = mass * omega * omega;
-            modes.damping[k] = 2.0 * rod.damping_ratio * mass * omega;
-        }
-        modes
-    }
-
-    /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s]: compiled in place for counts that are known,
-    /// the rod's own.
-    #[inline(always)]
-    pub fn shape_of<R: Scalar, C: Counted>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
-        if const { C::KNOWN } {
-            self.shape::<R, C>(eta, rate)
-        } else {
-            (R::kernel(&self.kernels).shape)(self, eta, rate)
-        }
-    }
-
-    /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed` [rad/s]; compiled
-    /// as [`Modes::shape_of`].
-    #[inline(always)]
-    pub fn inertia_of<R: Scalar, C: Counted>(
-        &self,
-        shape: &Shape<R, K, F>,
-        eta: &[R],
-        rate: &[R],
-        speed: R,
-    ) -> Inertia<R, K> {
-        if const { C::KNOWN } {
-            self.inertia::<R, C>(shape, eta, rate, speed)
-        } else {
-            (R::kernel(&self.kernels).inertia)(self, shape, eta, rate, speed)
-        }
-    }
-
-    /// [N] What elasticity, modal damping and the couples [N·m] on the end sections do to η.
-    #[inline(always)]
-    pub fn forces<R: Real>(&self, eta: &[R], rate: &[R], couple: &[R; 2]) -> [R; K] {
-        let mut force = [R::ZERO; K];
-        for k in 0..K.min(eta.len()).min(rate.len()) {
-            let bent = couple[0] * self.slope[0][k] + couple[1] * self.slope[1][k];
-            force[k] = bent - (eta[k] * self.stiffness[k] + rate[k] * self.damping[k]);
-        }
-        force
-    }
-}
-
-type ShapeOf<R, const K: usize, const F: usize> = fn(&Modes<K, F>, &[R], &[R]) -> Shape<R, K, F>;
-type InertiaOf<R, const K: usize, const F: usize> = fn(&Modes<K, F>, &Shape<R, K, F>, &[R], &[R], R) -> Inertia<R, K>;
-
-/// Shape and inertia of a rod, compiled for its counts or for any.
-#[derive(Clone, Copy, Debug)]
-struct Functions<R, const K: usize, const F: usize> {
-    shape: ShapeOf<R, K, F>,
-    inertia: InertiaOf<R, K, F>,
-}
-
-impl<R: Real, const K: usize, const F: usize> Functions<R, K, F> {
-    const ANY: Self = Self::of::<Any>();
-
-    /// For these counts.
-    const fn of<C: Counted>() -> Self {
+        let of_modes = |of: &dyn Fn(f64, f64) -> f64| {
+            let found: Vec<f64> = rod.modal_mass.iter().zip(&rod.frequency).map(|(m, omega)| of(*m, *omega)).collect();
+            padded(&found, modes)
+        };
         Self {
-            shape: |modes, eta, rate| modes.shape::<R, C>(eta, rate),
-            inertia: |modes, shape, eta, rate, speed| modes.inertia::<R, C>(shape, eta, rate, speed),
+            counts,
+            room,
+            length: rod.length,
+            end: padded(&rod.end, functions),
+            slope: [padded(&rod.slope[0], modes), padded(&rod.slope[1], modes)],
+            stiffness: of_modes(&|mass, omega| mass * omega * omega),
+            damping: of_modes(&|mass, omega| 2.0 * rod.damping_ratio * mass * omega),
+            tables: Tables::new(rod, room),
+            moment: padded(&rod.moment, modes),
+            modal_mass: padded(&rod.modal_mass, modes),
+        }
+    }
+
+    /// In the arrays of its room.
+    #[inline(always)]
+    pub(in crate::model) fn arrays<const K: usize, const F: usize>(&self) -> Arrays<'_, K, F> {
+        Arrays {
+            counts: self.counts,
+            length: self.length,
+            end: array(&self.end),
+            slope: [array(&self.slope[0]), array(&self.slope[1])],
+            stiffness: array(&self.stiffness),
+            damping: array(&self.damping),
+            tables: self.tables.viewed(),
+            moment: array(&self.moment),
+            modal_mass: array(&self.modal_mass),
         }
     }
 }
 
-/// The functions for `counts`: compiled for them where they are small and usual, and so are the arrays.
-fn by_counts<const K: usize, const F: usize>(counts: Counts) -> Functions<f64, K, F> {
-    const { assert!(K >= FEW_MODES, "room for every counts below") };
-    if const { K > FEW_MODES } {
-        return Functions::ANY;
+/// A list as an array of its own length.
+#[inline(always)]
+fn array<const N: usize>(list: &[f64]) -> &[f64; N] {
+    match list.first_chunk() {
+        Some(array) => array,
+        None => unreachable!("a rod's lists are read in the arrays of their room"),
     }
-    /// Chooses among the listed numbers of bending and axial modes.
-    macro_rules! compiled {
-        ($(($bending:literal, $axial:literal))*) => {
-            match counts {
-                $(_ if Exactly::<$bending, $axial>::COUNTS == Some(counts) =>
-                    Functions::of::<Exactly<$bending, $axial>>(),)*
-                _ => Functions::ANY,
-            }
-        };
-    }
-    compiled!((1, 0)(2, 0)(3, 0)(4, 0)(1, 1)(2, 1)(3, 1)(2, 2)(0, 1))
 }
 
-/// The functions as a kernel.
-#[derive(Clone, Copy, Debug)]
-struct Family<const K: usize, const F: usize>;
-
-impl<const K: usize, const F: usize> Kernel for Family<K, F> {
-    type Of<R: Real> = Functions<R, K, F>;
+impl<const K: usize, const F: usize> Arrays<'_, K, F> {
+    /// [N] What elasticity, modal damping and the couples [N·m] on the end sections do to the modal coordinate `k`.
+    #[inline(always)]
+    pub fn force<R: Real>(&self, k: usize, eta: R, rate: R, couple: &[R; 2]) -> R {
+        let bent = couple[0] * self.slope[0][k] + couple[1] * self.slope[1][k];
+        bent - (eta * self.stiffness[k] + rate * self.damping[k])
+    }
 }

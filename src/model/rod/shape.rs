@@ -2,7 +2,7 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
-use super::modes::{Counted, Counts, Modes};
+use super::modes::{Arrays, Counted, Counts};
 use super::sums::{ModesToModes, add_rows};
 use crate::math::{Real, each};
 
@@ -34,10 +34,10 @@ pub struct Chord<R> {
     pub bias: R,
 }
 
-impl<const K: usize, const F: usize> Modes<K, F> {
+impl<const K: usize, const F: usize> Arrays<'_, K, F> {
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
     #[inline(always)]
-    pub(super) fn shape<R: Real, C: Counted>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+    pub fn shape<R: Real, C: Counted>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
         let counts = C::COUNTS.unwrap_or(self.counts);
         let Counts { bending, axial, shortening } = counts;
         let mut shape = Shape {
@@ -53,7 +53,7 @@ impl<const K: usize, const F: usize> Modes<K, F> {
         // Foreshortening is quadratic in the bending modes, and so is half of what its slope has with them.
         let mut with_rate = [R::ZERO; K];
         let lists = [&mut *chord_slope, &mut with_rate];
-        add_rows::<R, ModesToModes<C>, _, _>(lists, &self.tables.shortening, 0..shortening, [eta, rate], bending);
+        add_rows::<R, ModesToModes<C>, _, _>(lists, self.tables.shortening, 0..shortening, [eta, rate], bending);
         each!(C::KNOWN, i < shortening, C::MODES => {
             chord.stretch = (eta[i] * 0.5).times_plus(chord_slope[i], chord.stretch);
             chord.rate = rate[i].times_plus(chord_slope[i], chord.rate);

@@ -5,82 +5,143 @@
 //! every integral over the rod that its motion asks for is a sum over few products of modal coordinates and rates.
 
 use super::Rod;
+use super::modes::Room;
 
-/// The tables, each with a row for a factor and a column for a result; with room for `K` modes and `F` functions. Their
-/// units are such that a factor [1, m, m² and their rates] makes of a row what stands with it.
+/// Rows of numbers, each with room for so many.
 #[derive(Clone, Debug)]
-#[repr(align(32))] // so are its rows: four numbers of one come out of one line of the cache
-pub struct Tables<const K: usize, const F: usize> {
-    /// ∫B·Bᵀ dm; of a product of two factors [kg·m²].
-    pub second: [[f64; F]; F],
-    /// ∫B·φ_i dm for every bending mode and, after them, ∫B dm [kg·m].
-    pub with_modes: [[f64; F]; F],
-    /// From ξ: ∫(x·φ_i − w·∂x/∂q_i) dm, and ∫x dm [kg·m].
-    pub placing: [[f64; F]; F],
-    /// From ξ̇, with `twisting`: ∫(ẋ·φ_i − ẇ·∂x/∂q_i) dm, and ∫ẋ dm [kg·m/s].
-    pub moving: [[f64; F]; F],
-    /// From q_j·q̇_k − q_k·q̇_j for j < k, ordered by k.
-    pub twisting: [[f64; F]; F],
-    /// From ξ: ∫(∂x/∂q_i)·(∂x/∂q_j) dm [kg], for pairs i ≤ j.
-    pub products: [[f64; F]; F],
-    /// From q: ∫∂x/∂q_i dm [kg].
-    pub shifting: [[f64; F]; K],
-    /// From q, for every axial mode j: ∫B_j·∂x/∂q_i dm [kg].
-    pub stretching: [[[f64; K]; K]; K],
-    /// From q: ∂x/∂q_i at the small end.
-    pub shortening: [[f64; K]; K],
+struct Table {
+    width: usize,
+    numbers: Vec<f64>,
 }
 
-impl<const K: usize, const F: usize> Tables<K, F> {
-    /// Of a rod that has room here.
-    pub fn new(rod: &Rod) -> Self {
+impl Table {
+    fn new(rows: usize, width: usize) -> Self {
+        Self { width, numbers: vec![0.0; rows * width] }
+    }
+
+    fn row(&mut self, row: usize) -> &mut [f64] {
+        &mut self.numbers[row * self.width..][..self.width]
+    }
+
+    #[inline(always)]
+    fn rows<const WIDTH: usize>(&self) -> &[[f64; WIDTH]] {
+        self.numbers.as_chunks().0
+    }
+}
+
+/// The tables, each with a row for a factor and a column for a result. Their units are such that a factor [1, m, m² and
+/// their rates] makes of a row what stands with it.
+#[derive(Clone, Debug)]
+pub struct Tables {
+    second: Table,
+    with_modes: Table,
+    placing: Table,
+    moving: Table,
+    twisting: Table,
+    products: Table,
+    shifting: Table,
+    stretching: Vec<Table>,
+    shortening: Table,
+}
+
+/// The tables as rows of arrays with room for `K` modes and `F` functions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Viewed<'a, const K: usize, const F: usize> {
+    tables: &'a Tables,
+    /// ∫B·Bᵀ dm; of a product of two factors [kg·m²].
+    pub second: &'a [[f64; F]],
+    /// ∫B·φ_i dm for every bending mode and, after them, ∫B dm [kg·m].
+    pub with_modes: &'a [[f64; F]],
+    /// From ξ: ∫(x·φ_i − w·∂x/∂q_i) dm, and ∫x dm [kg·m].
+    pub placing: &'a [[f64; F]],
+    /// From ξ̇, with `twisting`: ∫(ẋ·φ_i − ẇ·∂x/∂q_i) dm, and ∫ẋ dm [kg·m/s].
+    pub moving: &'a [[f64; F]],
+    /// From q_j·q̇_k − q_k·q̇_j for j < k, ordered by k.
+    pub twisting: &'a [[f64; F]],
+    /// From ξ: ∫(∂x/∂q_i)·(∂x/∂q_j) dm [kg], for pairs i ≤ j.
+    pub products: &'a [[f64; F]],
+    /// From q: ∫∂x/∂q_i dm [kg].
+    pub shifting: &'a [[f64; F]],
+    /// From q: ∂x/∂q_i at the small end.
+    pub shortening: &'a [[f64; K]],
+}
+
+impl<'a, const K: usize, const F: usize> Viewed<'a, K, F> {
+    /// From q, for the axial mode `j`: ∫B_j·∂x/∂q_i dm [kg].
+    #[inline(always)]
+    pub fn stretching(&self, j: usize) -> &'a [[f64; K]] {
+        self.tables.stretching[j].rows()
+    }
+}
+
+impl Tables {
+    /// Of a rod.
+    pub fn new(rod: &Rod, room: Room) -> Self {
         let counts = rod.counts;
         let (n, axial, count) = (counts.bending, counts.axial, counts.functions());
-        let none = [[0.0; F]; F];
+        let [modes, functions] = room.size();
+        let of_functions = |rows: usize| Table::new(rows, functions);
         let mut tables = Self {
-            second: none,
-            with_modes: none,
-            placing: none,
-            moving: none,
-            twisting: none,
-            products: none,
-            shifting: [[0.0; F]; K],
-            stretching: [[[0.0; K]; K]; K],
-            shortening: [[0.0; K]; K],
+            second: of_functions(count),
+            with_modes: of_functions(count),
+            placing: of_functions(count),
+            moving: of_functions(count),
+            twisting: of_functions(counts.twists(counts.shortening)),
+            products: of_functions(count),
+            shifting: of_functions(counts.shortening),
+            stretching: vec![Table::new(counts.shortening, modes); axial],
+            shortening: Table::new(counts.shortening, modes),
         };
         let Self { second, with_modes, placing, moving, twisting, products, shifting, stretching, shortening } =
             &mut tables;
         for p in 0..count {
-            second[p][..count].copy_from_slice(&rod.second[p * count..][..count]);
-            with_modes[p][..n].copy_from_slice(&rod.coupling[p * n..][..n]);
-            with_modes[p][n] = rod.first[p];
+            second.row(p)[..count].copy_from_slice(&rod.second[p * count..][..count]);
+            for table in [&mut *with_modes, placing, moving] {
+                table.row(p)[..n].copy_from_slice(&rod.coupling[p * n..][..n]);
+                table.row(p)[n] = rod.first[p];
+            }
         }
-        (*placing, *moving) = (*with_modes, *with_modes);
         let pair = |i, j| counts.pair(i, j);
         for (k, l) in counts.all_pairs() {
             let row = pair(k, l);
             for i in 0..n {
-                let (with, crossed) = (with_modes[pair(i, l)][k], with_modes[pair(i, k)][l]);
-                placing[row][i] -= with + crossed;
-                moving[row][i] -= 0.5 * (with + crossed);
+                let (with, crossed) = (with_modes.row(pair(i, l))[k], with_modes.row(pair(i, k))[l]);
+                placing.row(row)[i] -= with + crossed;
+                moving.row(row)[i] -= 0.5 * (with + crossed);
                 if k < l {
-                    twisting[l * (l - 1) / 2 + k][i] = crossed - with;
+                    twisting.row(l * (l - 1) / 2 + k)[i] = crossed - with;
                 }
             }
             for (i, j) in counts.all_pairs() {
-                let product = second[pair(i, k)][pair(j, l)] + second[pair(i, l)][pair(j, k)];
-                products[row][pair(i, j) - 1 - axial] = -2.0 * product;
+                let product = second.row(pair(i, k))[pair(j, l)] + second.row(pair(i, l))[pair(j, k)];
+                products.row(row)[pair(i, j) - 1 - axial] = -2.0 * product;
             }
         }
         for k in 0..counts.shortening {
             for i in 0..n {
-                shifting[k][i] = -2.0 * with_modes[pair(i, k)][n];
-                shortening[k][i] = -2.0 * rod.end[pair(i, k)];
-                for j in 0..axial {
-                    stretching[j][k][i] = -2.0 * second[pair(i, k)][1 + j];
+                shifting.row(k)[i] = -2.0 * with_modes.row(pair(i, k))[n];
+                shortening.row(k)[i] = -2.0 * rod.end[pair(i, k)];
+                for (j, stretching) in stretching.iter_mut().enumerate() {
+                    stretching.row(k)[i] = -2.0 * second.row(pair(i, k))[1 + j];
                 }
             }
         }
         tables
+    }
+
+    /// As rows of arrays of their own width.
+    #[inline(always)]
+    pub(super) fn viewed<const K: usize, const F: usize>(&self) -> Viewed<'_, K, F> {
+        Viewed {
+            tables: self,
+            second: self.second.rows(),
+            with_modes: self.with_modes.rows(),
+            placing: self.placing.rows(),
+            moving: self.moving.rows(),
+            twisting: self.twisting.rows(),
+            products: self.products.rows(),
+            shifting: self.shifting.rows(),
+            shortening: self.shortening.rows(),
+        }
     }
 }

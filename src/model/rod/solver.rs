@@ -1,12 +1,20 @@
-//! Solves the equations of a mechanism with a flexible rod.
+//! Solves M·q̈ = Q of a chain with a flexible rod, by L·D·Lᵀ.
 
 #![allow(clippy::needless_range_loop)] // triangles are read by their indices
 
-use super::equations::Equations;
+use super::Counted;
 use crate::math::{Real, each};
-use crate::model::joint::{Kernel, Kernels};
-use crate::model::rod::Counted;
 use std::marker::PhantomData;
+
+/// Mass matrix (upper triangle) and right side over the angles of the rod's chain and the modal coordinates.
+pub struct ModalEquations<R, const S: usize> {
+    /// How many there are.
+    pub size: usize,
+    /// M: kg·m², kg·m and kg.
+    pub matrix: [[R; S]; S],
+    /// Q: N·m and N.
+    pub right: [R; S],
+}
 
 /// What is known of the number of coordinates where code is compiled.
 trait Size {
@@ -23,38 +31,26 @@ impl Size for Unknown {
     const MOST: usize = usize::MAX;
 }
 
-/// Of a rod's modes and `P` places, of which L is no coordinate.
-struct Known<C, const P: usize>(PhantomData<C>);
+/// Of a rod's modes and at most three angles.
+struct Known<C>(PhantomData<C>);
 
-impl<C: Counted, const P: usize> Size for Known<C, P> {
+impl<C: Counted> Size for Known<C> {
     const KNOWN: bool = true;
-    const MOST: usize = (P - 1).saturating_add(C::MODES);
+    const MOST: usize = C::MODES.saturating_add(3);
 }
 
-impl<R: Real, const S: usize> Equations<R, S> {
+impl<R: Real, const S: usize> ModalEquations<R, S> {
     /// Accelerations of the coordinates, by L·D·Lᵀ: the matrix is positive definite. D is of blocks of two, since
-    /// pivots wait for one another, each with a division: there are half as many.
-    ///
-    /// Where the rod's counts are known, the equations of up to `P` places are solved by code for their number alone;
-    /// others `solver` solves.
+    /// pivots wait for one another, each with a division: there are half as many. Where the rod's counts are known, the
+    /// loops are written out.
     #[inline(always)]
-    pub fn solve<C: Counted, const P: usize>(mut self, solver: Solver<R, S>) -> [R; S] {
+    pub fn solve<C: Counted>(mut self) -> [R; S] {
         if const { C::KNOWN } {
-            self.reduce::<true, Known<C, P>>(self.size)
+            self.reduce::<true, Known<C>>(self.size);
         } else {
-            solver(&mut self)
+            self.reduce::<false, Unknown>(self.size);
         }
         self.right
-    }
-
-    /// For any number of coordinates.
-    fn solve_any(&mut self) {
-        self.reduce::<false, Unknown>(self.size);
-    }
-
-    /// For `SIZE` of them.
-    fn solve_sized<const SIZE: usize>(&mut self) {
-        self.reduce::<true, Unknown>(SIZE);
     }
 
     /// Puts the solution in place of the right side. With `BLOCKS` the loop over blocks, with a known size every loop is
@@ -116,38 +112,6 @@ impl<R: Real, const S: usize> Equations<R, S> {
     }
 }
 
-/// Puts the solution in place of the right side.
-pub type Solver<R, const S: usize> = fn(&mut Equations<R, S>);
-
-/// Solvers as a kernel.
-#[derive(Clone, Copy, Debug)]
-pub struct Solvers<const S: usize>;
-
-impl<const S: usize> Kernel for Solvers<S> {
-    type Of<R: Real> = Solver<R, S>;
-}
-
-impl<const S: usize> Solvers<S> {
-    /// Those for `size` coordinates, compiled for that many where they are few.
-    pub fn of(size: usize) -> Kernels<Self> {
-        /// Chooses among the listed sizes.
-        macro_rules! compiled {
-            ($($size:literal)*) => {
-                match size {
-                    $($size if $size <= S => Equations::solve_sized::<$size>,)*
-                    _ => Equations::solve_any,
-                }
-            };
-        }
-        Kernels {
-            value: compiled!(1 2 3 4 5 6 7 8 9 10 11 12 13 14),
-            row: Equations::solve_any,
-            half: Equations::solve_any,
-            tangent: Equations::solve_any,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,13 +120,13 @@ mod tests {
     const ROOM: usize = 15;
 
     /// Equations whose solution is 1, −2, 3, …: a chain of springs between masses, and a corner that fills up.
-    fn equations(size: usize) -> Equations<f64, ROOM> {
+    fn equations(size: usize) -> ModalEquations<f64, ROOM> {
         let element = |i: usize, j: usize| match i.abs_diff(j) {
             0 => 3.0 + i as f64,
             1 => -1.0,
             distance => 0.1 / distance as f64,
         };
-        let mut all = Equations { size, matrix: [[0.0; ROOM]; ROOM], right: [0.0; ROOM] };
+        let mut all = ModalEquations { size, matrix: [[0.0; ROOM]; ROOM], right: [0.0; ROOM] };
         for i in 0..size {
             for j in 0..size {
                 all.right[i] += element(i, j) * solution(j);
@@ -179,12 +143,10 @@ mod tests {
     }
 
     #[test]
-    fn every_size_finds_the_solution_that_any_size_finds() {
+    fn loops_that_are_written_out_find_the_solution_that_others_find() {
         for size in 1..=ROOM {
-            let (sized, any) = (Solvers::of(size).value, Equations::solve_any);
-            let found = equations(size).solve::<Any, 1>(sized);
-            assert_eq!(found, equations(size).solve::<Any, 1>(any), "{size}");
-            assert_eq!(found, equations(size).solve::<Exactly<ROOM, 0>, 1>(any), "{size}");
+            let found = equations(size).solve::<Any>();
+            assert_eq!(found, equations(size).solve::<Exactly<12, 0>>(), "{size}");
             for (k, found) in found.iter().enumerate().take(size) {
                 assert!((found - solution(k)).abs() < 1e-12, "{size}: {found} for {}", solution(k));
             }

@@ -1,0 +1,340 @@
+//! M(q)·q̈ = Q of a chain with a flexible rod: what modal coordinates add to the equations of
+//! [`dynamics`](super::dynamics).
+//!
+//! ```text
+//!      far = 1, the rod hangs by its big end                 far = −1, by its small end
+//!
+//!                 chord, length L ─> e                        e <─ chord, length L
+//!      o───────────────────────────o          o───────────────────────────o
+//!    hangs here    ρ, first      others      others                     hangs here,
+//!    (big end)   moment D        hang here   hang here                  on the rail
+//! ```
+//!
+//! The rod's frame has its origin at the big end and its x axis e on the chord (A. A. Shabana, Dynamics of Multibody Systems,
+//! 5.3). A mode η_a moves each point of the rod in that frame by ∂ρ/∂η_a, and the far joint, with all that hangs there, by
+//! far·L_a·e, L_a = ∂L/∂η_a. Places count from the joint by which the rod hangs: ρ' = ρ + big_end·L·e. With κ of
+//! [`RodInChain`], h = D + κ·L·e, and per unit of η_a:
+//!
+//! - P_a = ∂D/∂η_a + κ·L_a·e is the momentum of the chain in the frame's axes;
+//! - M_θa = T_a + big_end·(L·∂D_y/∂η_a − D_y·L_a), T_a the rod's own moment of momentum (`turning`), with the rod's angle;
+//! - M_ka = far·L_a·e·perp(h_k) with the angle of a body k beyond the far joint, and perp(throw)·P_a with that of a crank
+//!   on which the rod hangs;
+//! - M_ab = m_ab + big_end·(L_b·∂D_x/∂η_a + L_a·∂D_x/∂η_b) + |κ|·L_a·L_b.
+//!
+//! Modes in motion ask for forces besides, at accelerations of zero: the far joint for
+//! far·((L̈ − θ̇²·L)·e + 2·θ̇·L̇·perp(e)), the rod's points for what [`Inertia`] sums up.
+//!
+//! A root that is no ground shares momentum p_k with each coordinate. It is eliminated: p_k·p_l/m is taken from M_kl, and
+//! p_k·(F − B)/m from Q_k, with the force F on the chain and B what its motion asks for; of a root on a rail in x alone. In a closed
+//! loop the rod's angle follows, θ̈2 = ρ·θ̈1 + λ·Σ L_a·η̈_a + σ: its equation is summed into the others, times ρ and
+//! λ·L_a.
+
+#![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
+
+use super::bodies::{AugmentedBodies, RodInChain};
+use super::dynamics::{Accelerations, Equations};
+use super::ideal::IdealMotion;
+use super::kinematics::{Arms, Turning};
+use super::loads::Loads;
+use super::plane::{Vec2, cross, perp};
+use super::rod::{Arrays, Counted, FEW_MODES, Inertia, ModalEquations, Shape};
+use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
+use crate::math::{Real, each};
+
+/// A flexible rod at one instant.
+pub(super) struct Bent<'a, R, const K: usize, const F: usize> {
+    /// Its modes.
+    pub modes: Arrays<'a, K, F>,
+    /// How it hangs in its chain.
+    pub chain: RodInChain,
+    /// How it is deformed.
+    pub shape: &'a Shape<R, K, F>,
+    /// Its inertia.
+    pub inertia: &'a Inertia<R, K>,
+    /// [m] Modal coordinates.
+    pub eta: &'a [R],
+    /// [m/s] Their rates.
+    pub rate: &'a [R],
+}
+
+/// What a chain's root is to the other coordinates.
+#[derive(Clone, Copy)]
+enum Root {
+    Ground,
+    Rail,
+    Free,
+}
+
+impl Root {
+    /// Of the chain with the rod.
+    const fn of(of: &Structure) -> Self {
+        match (of.rod, of.crank) {
+            (Link::After, _) => Self::Rail,
+            (Link::Free(_), _) | (Link::Before, Link::Free(_)) => Self::Free,
+            _ => Self::Ground,
+        }
+    }
+
+    /// u·v as far as the root moves.
+    #[inline(always)]
+    fn product<R: Real>(self, u: Vec2<R>, v: Vec2<R>) -> R {
+        match self {
+            Self::Ground => R::ZERO,
+            Self::Rail => u.x * v.x,
+            Self::Free => u.dot(v),
+        }
+    }
+}
+
+impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
+    /// The augmented bodies of its chain as it is.
+    #[inline(always)]
+    pub fn augmented(&self, of: &Structure, constant: &AugmentedBodies, throw: f64) -> AugmentedBodies<R> {
+        let Inertia { first, about_origin, .. } = *self.inertia;
+        self.chain.augmented(of, constant, throw, self.shape.chord.length, first, about_origin)
+    }
+
+    /// Solves the equations of motion: accelerations of roots and angles, and of the modal coordinates, which are written
+    /// into `modal` [m/s²]. `bodies` are those of [`Bent::augmented`], `S` is room for three angles and `K` modes.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "inlined")]
+    pub fn accelerate<C: Counted, const S: usize>(
+        &self,
+        of: &Structure,
+        bodies: &AugmentedBodies<R>,
+        constant: &AugmentedBodies,
+        gravity: f64,
+        turning: &Turning<R>,
+        arms: &Arms<Vec2<R>>,
+        closing: &IdealMotion<R>,
+        loads: &Loads<R>,
+        modal: &mut [R],
+    ) -> Accelerations<R> {
+        const { assert!(S == K + 3) };
+        let Self { modes, chain, shape, inertia, eta, rate } = self;
+        let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
+        let RodInChain { far, big_end, first: kappa, second } = *chain;
+        let mut equations = Equations::new(of, bodies, gravity, turning, loads, |number| number);
+        let forces = equations.gather(of, arms, loads);
+        let mut roots = forces.fall(of, constant, gravity);
+        let Equations { mut m, mut q1, mut q2, mut q3, .. } = equations;
+
+        let [r1, r2, r3] = turning.rotation;
+        let [w1, w2, w3] = turning.speed;
+        let (s1, s2, s3) = (w1 * w1, w2 * w2, w3 * w3);
+        let [with_crank, with_slider] = [of.coupled[0], of.coupled[1]];
+        let inwards = of.rod == Link::After;
+        let (h2, axis): (Vec2<R>, _) = (r2.apply(bodies.moment[ROD]), r2.axis(R::ONE));
+        let (mut h1, mut h3) = (Vec2::<R>::ZERO, Vec2::<R>::ZERO);
+        if with_crank {
+            h1 = r1.apply(bodies.moment[CRANK]);
+        }
+        if with_slider {
+            h3 = r3.apply(bodies.moment[SLIDER]);
+        }
+
+        // What the modes' motion asks of the chain.
+        let (length, stretching) = (shape.chord.length, shape.chord.bias);
+        let sliding = w2 * shape.chord.rate * 2.0; // Coriolis
+        let first = inertia.first;
+        let own = inertia.force + first * s2;
+        let extra: Vec2<R> = r2.apply(Vec2::new(stretching.times_plus(kappa, own.x), sliding.times_plus(kappa, own.y)));
+        let own_moment = first.x * sliding - first.y * stretching + length * own.y;
+        q2 -= (sliding * second).times_plus(length, own_moment.times_plus(big_end, inertia.couple));
+        let far_extra: Vec2<R> = r2.apply(Vec2::new(stretching * far, sliding * far));
+        let mut hanging = Vec2::<R>::ZERO; // acceleration of the joint by which the rod hangs, against the root
+        let mut beyond = Vec2::<R>::ZERO; // centrifugal force of bodies beyond the far joint
+        let mut asked = extra - h2 * s2;
+        if with_crank {
+            asked = h1.times_plus(-s1, asked);
+            if inwards {
+                q1 -= cross(h1, far_extra);
+                beyond = h1 * -s1;
+            } else {
+                q1 -= cross(arms.throw, extra);
+                hanging = arms.throw * -s1;
+            }
+        }
+        if with_slider {
+            q3 -= cross(h3, far_extra);
+            beyond = h3 * -s3;
+            asked = h3.times_plus(-s3, asked);
+        }
+
+        // The root's own acceleration, and what it takes off the angles.
+        let (root, per_mass) = (Root::of(of), constant.per_mass[ROD]);
+        let on_root = match (root, of.rod) {
+            (Root::Rail, _) => forces.rail,
+            (_, Link::Free(_)) => forces.rod,
+            _ => forces.crank,
+        };
+        let free = (on_root - asked) * per_mass;
+        let (p1, p2, p3) = (perp(h1), perp(h2), perp(h3));
+        let (per1, per2, per3) = (p1 * per_mass, p2 * per_mass, p3 * per_mass);
+        if !matches!(root, Root::Ground) {
+            q2 -= root.product(p2, free);
+            m.d2 -= root.product(p2, per2);
+            if with_crank {
+                q1 -= root.product(p1, free);
+                m.d1 -= root.product(p1, per1);
+                m.m12 -= root.product(p1, per2);
+            }
+            if with_slider {
+                q3 -= root.product(p3, free);
+                m.d3 -= root.product(p3, per3);
+                m.m23 -= root.product(p3, per2);
+            }
+            if with_crank && with_slider {
+                m.m13 -= root.product(p1, per3);
+            }
+        }
+
+        // Places of the angles in the equations of the chain; the modes come after them.
+        let turns_crank = with_crank && !of.topology.speed;
+        let rod_angle = usize::from(turns_crank);
+        let slider_angle = rod_angle + usize::from(!of.closed);
+        let angles = slider_angle + usize::from(with_slider);
+        let mut all = ModalEquations { size: angles + n, matrix: [[R::ZERO; S]; S], right: [R::ZERO; S] };
+        let with_rod = closing.rod_ratio.times_plus(m.d2, m.m12); // of a closed loop
+        if of.closed {
+            if turns_crank {
+                all.matrix[0][0] = closing.rod_ratio.times_plus(m.m12 + with_rod, m.d1);
+                all.right[0] = (-with_rod).times_plus(closing.rod_bias, closing.rod_ratio.times_plus(q2, q1));
+            }
+        } else {
+            all.matrix[rod_angle][rod_angle] = m.d2;
+            all.right[rod_angle] = q2;
+            if turns_crank {
+                (all.matrix[0][0], all.matrix[0][rod_angle]) = (m.d1, m.m12);
+                all.right[0] = q1;
+            }
+            if with_slider {
+                (all.matrix[rod_angle][slider_angle], all.matrix[slider_angle][slider_angle]) = (m.m23, m.d3);
+                all.right[slider_angle] = q3;
+                if turns_crank {
+                    all.matrix[0][slider_angle] = m.m13;
+                }
+            }
+        }
+
+        // Modes.
+        let along = (-s2).times_plus(length, stretching); // of the far joint's acceleration, along the chord
+        let by_length = axis.dot(forces.far_end - beyond) * far - along.times_plus(second, inertia.force.x * big_end);
+        let crank_by_length = if inwards { axis.dot(p1) * far } else { R::ZERO };
+        let slider_by_length = axis.dot(p3) * far;
+        let (across, weight) = (perp(arms.throw), if of.weighs[ROD] { gravity } else { 0.0 });
+        let resting = hanging + free_part(root, free);
+        let mut momentum = [Vec2::<R>::ZERO; K];
+        let mut with_angle = [R::ZERO; K]; // M_θa
+        each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+            let (slope, own) = (shape.chord_slope[a], inertia.first_slope[a]);
+            let p: Vec2<R> = r2.apply(Vec2::new(slope.times_plus(kappa, own.x), own.y));
+            momentum[a] = p;
+            with_angle[a] = (length * own.y - first.y * slope).times_plus(big_end, inertia.turning[a]);
+            let mut force = modes.force(a, eta[a], rate[a], &loads.end_couple) - inertia.modal_force[a];
+            force = slope.times_plus(by_length, force);
+            force -= own.x.times_plus(along, own.y * sliding) * big_end;
+            force -= p.dot(resting) + p.y * weight;
+            let shared = match root {
+                Root::Ground => Vec2::ZERO,
+                _ => p * per_mass,
+            };
+            // With the angles.
+            let rod = with_angle[a] - root.product(p2, shared);
+            if of.closed {
+                let follows = closing.rod_per_length * slope;
+                if turns_crank {
+                    let crank = across.dot(p);
+                    all.matrix[0][angles + a] = with_rod.times_plus(follows, closing.rod_ratio.times_plus(rod, crank));
+                }
+                let inertia = m.d2.times_plus(follows, rod);
+                force = (-inertia).times_plus(closing.rod_bias, follows.times_plus(q2, force));
+            } else {
+                all.matrix[rod_angle][angles + a] = rod;
+                if turns_crank {
+                    let crank = if inwards { slope * crank_by_length } else { across.dot(p) };
+                    all.matrix[0][angles + a] = crank - root.product(p1, shared);
+                }
+                if with_slider {
+                    all.matrix[slider_angle][angles + a] = slope * slider_by_length - root.product(p3, shared);
+                }
+            }
+            all.right[angles + a] = force;
+            // With one another.
+            each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
+                let (other, other_own) = (shape.chord_slope[b], inertia.first_slope[b]);
+                let mut both = inertia.modal[a][b] + slope * other * second
+                    + own.x.times_plus(other, other_own.x * slope) * big_end;
+                if !matches!(root, Root::Ground) {
+                    both -= root.product(momentum[b], shared);
+                }
+                if of.closed {
+                    let (follows, other_follows) = (closing.rod_per_length * slope, closing.rod_per_length * other);
+                    let shared = follows.times_plus(with_angle[b], other_follows * with_angle[a]);
+                    both += (follows * other_follows).times_plus(m.d2, shared);
+                }
+                all.matrix[angles + b][angles + a] = both;
+            });
+        });
+        let found = all.solve::<C>();
+
+        // Back to all coordinates.
+        let mut angle = [R::ZERO; 3];
+        each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+            modal[a] = found[angles + a];
+        });
+        if turns_crank {
+            angle[CRANK] = found[0];
+        } else if !of.topology.speed {
+            angle[CRANK] = q1 * m.d1.recip();
+        }
+        if of.closed {
+            let mut lengthening = R::ZERO;
+            each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+                lengthening = found[angles + a].times_plus(shape.chord_slope[a], lengthening);
+            });
+            let turning = closing.rod_ratio.times_plus(angle[CRANK], closing.rod_bias);
+            angle[ROD] = closing.rod_per_length.times_plus(lengthening, turning);
+        } else {
+            angle[ROD] = found[rod_angle];
+        }
+        if with_slider {
+            angle[SLIDER] = found[slider_angle];
+        } else if of.slider_angle.is_some() {
+            angle[SLIDER] = q3 * m.d3.recip();
+        }
+        match of.slider {
+            Link::Rail(_) if !inwards => roots.slider.x = forces.rail.x * constant.per_mass[SLIDER],
+            _ => {}
+        }
+        if !matches!(root, Root::Ground) {
+            let mut own = free - per2 * angle[ROD];
+            if with_crank {
+                own = per1.times_plus(-angle[CRANK], own);
+            }
+            if with_slider {
+                own = per3.times_plus(-angle[SLIDER], own);
+            }
+            each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+                own = momentum[a].times_plus(-(found[angles + a] * per_mass), own);
+            });
+            let falling = own - Vec2::new(0.0, gravity);
+            match (root, of.rod) {
+                (Root::Rail, _) => roots.slider.x = own.x,
+                (_, Link::Free(_)) => roots.rod = falling,
+                _ => roots.crank = falling,
+            }
+        }
+        Accelerations { roots, angle }
+    }
+}
+
+/// What of the root's acceleration there is.
+#[inline(always)]
+fn free_part<R: Real>(root: Root, free: Vec2<R>) -> Vec2<R> {
+    match root {
+        Root::Ground => Vec2::ZERO,
+        Root::Rail => Vec2::new(free.x, R::ZERO),
+        Root::Free => free,
+    }
+}
