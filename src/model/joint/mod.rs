@@ -3,6 +3,7 @@
 mod corners;
 pub mod foundation;
 pub mod guide;
+pub mod rectangle;
 pub mod revolute;
 mod rigid;
 
