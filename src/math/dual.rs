@@ -1,7 +1,10 @@
 //! Forward differentiation: numbers that carry their derivatives along (A. Griewank, A. Walther,
 //! Evaluating Derivatives, 2nd ed. 2008, 3.1: tangents, several at a time).
 
-use super::{Fused, LANES, Real, Vec2};
+use super::fused::Fused;
+use super::lanes::LANES;
+use super::real::Real;
+use super::vec2::Vec2;
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

@@ -1,6 +1,6 @@
 //! Four numbers side by side.
 
-use super::Fused;
+use super::fused::Fused;
 use std::array;
 
 /// How many there are.

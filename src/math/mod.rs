@@ -6,6 +6,7 @@
 
 mod dual;
 mod each;
+mod fused;
 mod lanes;
 mod real;
 mod row;
@@ -14,8 +15,9 @@ mod vec2;
 
 pub use dual::Dual;
 pub(crate) use each::each;
+pub use fused::Fused;
 pub use lanes::{LANES, Lanes};
-pub use real::{Fused, Real};
+pub use real::Real;
 pub use row::{ROW, Row};
 pub use vec2::Vec2;
 

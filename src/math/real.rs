@@ -1,25 +1,11 @@
 //! The numbers that the equations of motion are computed with.
 
-use super::{Lanes, Vec2, sin_cos};
+use super::fused::Fused;
+use super::lanes::Lanes;
+use super::sin_cos;
+use super::vec2::Vec2;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
-
-/// a·b + c.
-///
-/// Compiled for processors that do it in one instruction it rounds once, and otherwise the product, too: then it has the
-/// bits of `a * b + c`. Only what takes time is written so. It is called by name, and not left to the compiler to find:
-/// the same expression has the same bits wherever it stands.
-pub trait Fused<F = Self>: Sized {
-    /// `self`·`factor` + `term`.
-    fn times_plus(self, factor: F, term: Self) -> Self;
-}
-
-impl Fused for f64 {
-    #[inline(always)]
-    fn times_plus(self, factor: f64, term: f64) -> f64 {
-        if cfg!(target_feature = "fma") { self.mul_add(factor, term) } else { self * factor + term }
-    }
-}
 
 /// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along, or a [`Row`](super::Row) of numbers.
 ///
@@ -156,5 +142,22 @@ impl Real for f64 {
     }
     fn atan2(self, x: Self) -> Self {
         libm::atan2(self, x)
+    }
+}
+
+impl<R: Real> Vec2<R> {
+    /// (0, 0).
+    pub const ZERO: Self = Self { x: R::ZERO, y: R::ZERO };
+
+    /// The same, without derivatives.
+    #[inline(always)]
+    pub fn constant(v: Vec2) -> Self {
+        Self { x: R::constant(v.x), y: R::constant(v.y) }
+    }
+
+    /// √(x² + y²); its derivatives at 0 count as 0.
+    #[inline(always)]
+    pub fn norm(self) -> R {
+        self.norm_squared().sqrt()
     }
 }

@@ -1,7 +1,11 @@
 //! Eight numbers that are computed together: those of one quantity at eight instants of a step.
 
+use super::each::each;
+use super::fused::Fused;
+use super::lanes::LANES;
+use super::real::Real;
 use super::sin_cos::{self, times_plus};
-use super::{Fused, LANES, Real, Vec2, each};
+use super::vec2::Vec2;
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use wide::{CmpGt, f64x4};

@@ -1,7 +1,9 @@
 //! Sine and cosine together, without a branch and without a call: from a table of the circle and short series for the
 //! rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
 
-use super::{Fused, LANES, each};
+use super::each::each;
+use super::fused::Fused;
+use super::lanes::LANES;
 use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 

@@ -1,6 +1,6 @@
-//! Vectors of the plane over any [`Real`].
+//! Vectors of the plane.
 
-use super::{Fused, Real};
+use super::fused::Fused;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A vector of the plane, in inertial axes unless said otherwise.
@@ -20,16 +20,7 @@ impl<R> Vec2<R> {
     }
 }
 
-impl<R: Real> Vec2<R> {
-    /// (0, 0).
-    pub const ZERO: Self = Self { x: R::ZERO, y: R::ZERO };
-
-    /// The same, without derivatives.
-    #[inline(always)]
-    pub fn constant(v: Vec2) -> Self {
-        Self { x: R::constant(v.x), y: R::constant(v.y) }
-    }
-
+impl<R: Copy + Fused + Mul<Output = R>> Vec2<R> {
     /// x·x' + y·y'.
     #[inline(always)]
     pub fn dot(self, other: Self) -> R {
@@ -49,12 +40,6 @@ impl<R: Real> Vec2<R> {
     #[inline(always)]
     pub fn norm_squared(self) -> R {
         self.dot(self)
-    }
-
-    /// √(x² + y²); its derivatives at 0 count as 0.
-    #[inline(always)]
-    pub fn norm(self) -> R {
-        self.norm_squared().sqrt()
     }
 }
 

@@ -12,7 +12,7 @@ use super::bodies::{Bodies, bodies};
 use super::contact::Account;
 use super::drive::InputSignal;
 use super::jacobian::differentiate;
-use super::joint::guide::CORNERS;
+use super::joint::rectangle::CORNERS;
 use super::plane::perp;
 use super::plant::Plant;
 use super::reactions::reactions;

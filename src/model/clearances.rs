@@ -6,7 +6,8 @@
 use super::bodies::bodies;
 use super::bristles::bristled_contacts;
 use super::contact::{Account, ContactMode, ContactParameters};
-use super::joint::guide::{CORNERS, GUIDE_CONTACTS, Guide};
+use super::joint::guide::{GUIDE_CONTACTS, Guide};
+use super::joint::rectangle::CORNERS;
 use super::joint::revolute::Revolute;
 use super::joint_set::{JointSet, Pin};
 use super::loads::Loads;

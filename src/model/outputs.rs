@@ -2,7 +2,8 @@
 
 use super::bodies::{Bodies, bodies};
 use super::ideal::IdealMechanism;
-use super::joint::guide::{CORNERS, contact_of_corner};
+use super::joint::guide::contact_of_corner;
+use super::joint::rectangle::CORNERS;
 use super::joint_set::Pin;
 use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};

@@ -2,7 +2,7 @@
 
 use super::contact::Account;
 use super::drive::InputSignal;
-use super::joint::guide::CORNERS;
+use super::joint::rectangle::CORNERS;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;

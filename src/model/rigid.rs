@@ -6,7 +6,7 @@ use super::contact::Account;
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
-use super::joint::guide::CORNERS;
+use super::joint::rectangle::CORNERS;
 use super::mechanism::{FlexibleRod, Mechanism};
 use super::plant::Plant;
 use super::scalar::Tangent;

@@ -2,7 +2,7 @@
 
 use super::contact::ContactMode;
 use super::drive::Rotor;
-use super::joint::guide::{CORNERS, SliderPose};
+use super::joint::rectangle::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
 use super::joint_set::Pin;
 use super::kinematics::{JointCentres, Turning};

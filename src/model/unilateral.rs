@@ -6,7 +6,7 @@
 use super::clearances::Clearances;
 use super::dynamics::{Accelerations, accelerate};
 use super::ideal::IdealMotion;
-use super::joint::guide::CORNERS;
+use super::joint::rectangle::CORNERS;
 use super::joint_set::{JointSet, Pin};
 use super::kinematics::Turning;
 use super::loads::Loads;

@@ -1,57 +1,14 @@
 //! What a scene's parameters must be to each other.
 
 use super::closure::{rise, rod_sine};
-use super::modal_check::TableError;
-use super::parameter::{PARAMETERS, Parameter, Refusal};
-use super::{Contact, JointModel, Method, Point, Scene, Surface};
+use super::data::{Contact, Point, Scene};
+use super::enumerations::{JointModel, Method, Surface};
+use super::error::{SceneError, rule};
+use super::parameter::{PARAMETERS, Parameter};
 use crate::model_description::number::number;
-use std::fmt;
 
 /// Least restitution of a damping law whose factor grows without bound towards 0.
 pub const LEAST_RESTITUTION: f64 = 0.02;
-
-/// A parameter that does not go with the others.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SceneError {
-    /// A value outside its own range.
-    Range(Refusal),
-    /// A value that another parameter rules out.
-    Conflict {
-        /// Name of the parameter.
-        name: String,
-        /// Its value, in SI units.
-        value: f64,
-        /// What it must be, in words and numbers.
-        allowed: String,
-    },
-    /// The rod's modal table cannot be a rod's.
-    Table(TableError),
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Range(refusal) => refusal.fmt(f),
-            Self::Table(error) => error.fmt(f),
-            Self::Conflict { name, value, allowed } => {
-                write!(f, "{name} = {} is not allowed: {allowed}", number(*value))
-            }
-        }
-    }
-}
-
-impl std::error::Error for SceneError {}
-
-impl SceneError {
-    /// Name of the parameter.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Range(refusal) => refusal.name,
-            Self::Table(_) => "rod.flexible.table",
-            Self::Conflict { name, .. } => name,
-        }
-    }
-}
 
 impl Scene {
     /// Whether the parameters go together; the first that does not, otherwise. What an ideal joint
@@ -144,20 +101,6 @@ fn check_contact(letter: &str, contact: &Contact) -> Result<(), SceneError> {
     rule(!bristles || still >= kinetic, letter, "friction.static_coefficient", still, || {
         format!("at least joint.{letter}.friction.coefficient = {} for law {name}", number(kinetic))
     })
-}
-
-pub(super) fn rule(
-    holds: bool,
-    letter: &str,
-    what: &str,
-    value: f64,
-    allowed: impl FnOnce() -> String,
-) -> Result<(), SceneError> {
-    if holds {
-        return Ok(());
-    }
-    let name = format!("joint.{letter}.{what}");
-    Err(SceneError::Conflict { name, value, allowed: allowed() })
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The loop at the start: A → crank pin → rod → slider pin, closed with every eccentricity in its place.
 
-use super::{Guide, JointModel, Point, Revolute, Scene};
+use super::data::{Guide, Point, Revolute, Scene};
+use super::enumerations::JointModel;
 use crate::math;
 
 /// sin of the rod's angle at the start: l·sin θ2 = height of the small end − height of the big end.

@@ -1,8 +1,9 @@
 //! What a scene may ask of its integration method: rigid contacts are none of an elastic body, of bristles or of a
 //! bed of springs, and their energy is not audited.
 
-use super::check::{SceneError, rule};
-use super::{FrictionLaw, JointModel, Method, Point, Scene, Surface};
+use super::data::{Point, Scene};
+use super::enumerations::{FrictionLaw, JointModel, Method, Surface};
+use super::error::{SceneError, rule};
 use crate::model_description::number::number;
 
 impl Scene {

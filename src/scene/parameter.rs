@@ -1,6 +1,6 @@
 //! A scene's parameters by name: what `modelDescription/variables.toml` declares of them.
 
-use super::Scene;
+use super::data::{Crank, Drive, Energy, GuideLines, Joints, Rod, Scene, Slider, Solver};
 use super::enumerations::*;
 use crate::model_description::number::number;
 use std::fmt;
@@ -67,6 +67,27 @@ pub enum Kind {
         /// Writes the scene; `None` for a value that is not in the list.
         set: fn(&mut Scene, i32) -> Option<()>,
     },
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        let mut scene = Self {
+            drive: Drive::default(),
+            gravity: 0.0,
+            crank: Crank::default(),
+            rod: Rod::default(),
+            slider: Slider::default(),
+            guide: GuideLines::default(),
+            joint: Joints::default(),
+            energy: Energy::default(),
+            solver: Solver::default(),
+        };
+        for parameter in PARAMETERS {
+            // A start value outside its own range does not pass build.rs.
+            let _ = parameter.write(&mut scene, parameter.start());
+        }
+        scene
+    }
 }
 
 /// A value that a parameter cannot take.

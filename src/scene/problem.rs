@@ -1,6 +1,6 @@
 //! What can be wrong with a scene file, told with file, line and column.
 
-use super::SceneError;
+use super::error::SceneError;
 use super::units::UnitError;
 use std::fmt;
 

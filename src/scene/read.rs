@@ -15,13 +15,15 @@
 //! # load = { against = "crank.angle", points = [["0 deg", 0], ["180 deg", "-2 kN"]] }
 //! ```
 
+use super::data::Scene;
+use super::error::SceneError;
 use super::parameter::{Kind, PARAMETERS, Parameter};
 use super::problem::{Fault, Problem, ReadError, nearest, position};
 use super::profile::{Profile, Profiles};
 pub use super::read_table::Files;
 use super::read_value::{Value, integer, number, source};
 use super::run::{End, Run};
-use super::{Scene, SceneError, read_profile, read_table};
+use super::{read_profile, read_table};
 use crate::model_description::number::number as shown;
 use std::collections::HashMap;
 use std::fs;

@@ -1,6 +1,6 @@
 //! How long a scene runs and how often it is looked at: what a harness does with it.
 
-use super::Scene;
+use super::data::Scene;
 use super::parameter::{DEFAULT_STEP, DEFAULT_STOP};
 use std::f64::consts::TAU;
 

@@ -6,7 +6,7 @@
 //! library as the compiler leaves it has length 0: the declared start values. The packager finds the
 //! magic in the library's file and writes a scene's values behind it.
 
-use super::Scene;
+use super::data::Scene;
 use super::modal::{MOST_NUMBERS, ModalTable};
 use super::modal_check::TableError;
 use super::parameter::{DECLARATION, DEFAULT_GUID, PARAMETER_COUNT, PARAMETERS, Refusal};

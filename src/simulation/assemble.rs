@@ -1,6 +1,7 @@
 //! Chooses the compiled mechanism and method that a scene calls for.
 
-use super::run::{Motion, Run};
+use super::motion::Motion;
+use super::run::Run;
 use super::time_stepping::TimeStepping;
 use crate::model::audit::Audited;
 use crate::model::drive::InputSignal;

@@ -1,48 +1,139 @@
-//! The equations of motion themselves, at any state: to be timed, to be tested, to be linearized.
+//! A mechanism's equations of motion without an integrator.
 
-use super::Simulation;
+use super::observation::observe;
+use crate::integrator::{EventFunction, EventFunctions, Extent, MAX_EVENTS, MAX_STATES, Triggered};
+use crate::model::outputs::Observer;
+use crate::model::plant::Plant;
+use crate::model::signals::Outputs;
+use crate::model::state::Contacts;
 
-/// ẏ ≈ rates + by_state·Δy + by_time·Δt near one state and instant.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Linearization {
-    /// [s]
-    pub time: f64,
-    /// Positions, their rates, first-order states.
-    pub states: Vec<f64>,
-    /// Number of positions.
-    pub positions: usize,
-    /// ẏ.
-    pub rates: Vec<f64>,
-    /// ∂ẏ_i/∂y_j in row i, column j.
-    pub by_state: Vec<Vec<f64>>,
-    /// ∂ẏ_i/∂t.
-    pub by_time: Vec<f64>,
+/// How large the equations of motion are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Size {
+    /// Degrees of freedom; a prescribed crank angle is none.
+    pub degrees_of_freedom: usize,
+    /// States: positions, their rates, and what else is integrated.
+    pub states: usize,
+    /// Event functions: one of each joint A, B, C with clearance, and four of the guide.
+    pub event_functions: usize,
 }
 
-impl Simulation {
-    /// [s] Time and states where the next step starts.
-    pub fn front(&self) -> (f64, Vec<f64>) {
-        self.motion.front()
+/// A [`System`](super::System), whatever its size.
+pub trait Equations: Send {
+    /// See [`System::size`](super::System::size).
+    fn size(&self) -> Size;
+    /// See [`System::write_start`](super::System::write_start).
+    fn write_start(&self, y: &mut [f64]);
+    /// See [`System::write_scales`](super::System::write_scales).
+    fn write_scales(&self, scales: &mut [f64]);
+    /// See [`System::longest_step`](super::System::longest_step).
+    fn longest_step(&self) -> f64;
+    /// See [`System::write_rates`](super::System::write_rates).
+    fn write_rates(&self, t: f64, y: &[f64], rates: &mut [f64]);
+    /// See [`System::write_guards`](super::System::write_guards).
+    fn write_guards(&self, t: f64, y: &[f64], guards: &mut [f64]);
+    /// See [`System::cross`](super::System::cross).
+    fn cross(&mut self, t: f64, y: &mut [f64], crossed: &[bool]);
+    /// See [`System::restart`](super::System::restart).
+    fn restart(&mut self);
+    /// See [`System::outputs`](super::System::outputs).
+    fn outputs(&self, t: f64, y: &[f64]) -> Outputs;
+}
+
+/// A mechanism without an integrator.
+pub struct EquationSystem {
+    plant: Box<dyn Plant>,
+    observer: Observer,
+    start: (Vec<f64>, Contacts),
+    contacts: Contacts,
+}
+
+impl EquationSystem {
+    /// From a mechanism and where it starts.
+    pub fn new(plant: Box<dyn Plant>, observer: Observer, y: Vec<f64>, contacts: Contacts) -> Self {
+        Self { plant, observer, start: (y, contacts), contacts }
     }
 
-    /// Rates of the `states` at `time` [s] with the contacts closed that are so where the next step
-    /// starts; states that are missing count as 0.
-    pub fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
-        self.motion.rates_at(time, states)
+    fn states(&self) -> usize {
+        self.start.0.len()
     }
 
-    /// The equations of motion near `states` and `time` [s], with the same contacts.
-    pub fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
-        self.motion.linearization_at(time, states)
+    #[inline(always)]
+    fn events(&self, t: f64, y: &[f64]) -> EventFunctions {
+        let mut functions = [EventFunction::default(); MAX_EVENTS];
+        self.plant.event_functions(&self.contacts, t, &y[..self.states()], &mut functions);
+        functions
+    }
+}
+
+/// A state in an array with room: those that are missing count as 0.
+#[inline(always)]
+fn filled(list: &[f64]) -> [f64; MAX_STATES] {
+    let mut all = [0.0; MAX_STATES];
+    write(list, &mut all);
+    all
+}
+
+/// As many of `values` as `list` has room for.
+#[inline(always)]
+pub fn write(values: &[f64], list: &mut [f64]) {
+    for (place, value) in list.iter_mut().zip(values) {
+        *place = *value;
+    }
+}
+
+impl Equations for EquationSystem {
+    fn size(&self) -> Size {
+        let Extent { positions, states, .. } = self.plant.extent();
+        Size { degrees_of_freedom: positions, states, event_functions: self.plant.event_count() }
     }
 
-    /// Evaluates the equations of motion so many times, for nothing: where the next step starts, to be timed.
-    pub fn evaluate(&self, times: usize) {
-        self.motion.evaluate(times);
+    fn write_start(&self, y: &mut [f64]) {
+        write(&self.start.0, y);
     }
 
-    /// Evaluates their derivatives so many times, likewise.
-    pub fn differentiate(&self, times: usize) {
-        self.motion.differentiate(times);
+    fn write_scales(&self, scales: &mut [f64]) {
+        write(&self.plant.scales()[..self.states()], scales);
+    }
+
+    fn longest_step(&self) -> f64 {
+        self.plant.longest_step()
+    }
+
+    fn write_rates(&self, t: f64, y: &[f64], rates: &mut [f64]) {
+        let n = self.states();
+        if y.len() == n && rates.len() == n {
+            return self.plant.rates(&self.contacts, t, y, rates);
+        }
+        let mut all = [0.0; MAX_STATES];
+        self.plant.rates(&self.contacts, t, &filled(y)[..n], &mut all[..n]);
+        write(&all[..n], rates);
+    }
+
+    fn write_guards(&self, t: f64, y: &[f64], guards: &mut [f64]) {
+        let all = self.events(t, &filled(y));
+        for (place, guard) in guards.iter_mut().zip(all).take(self.plant.event_count()) {
+            *place = guard.value;
+        }
+    }
+
+    fn cross(&mut self, t: f64, y: &mut [f64], crossed: &[bool]) {
+        let mut state = filled(y);
+        let (events, n) = (self.events(t, &state), self.states());
+        let mut all: Triggered = [false; MAX_EVENTS];
+        for (i, place) in all.iter_mut().enumerate().take(self.plant.event_count()) {
+            let EventFunction { value, rate } = events[i];
+            *place = crossed.get(i).is_some_and(|crossed| *crossed) || value <= 0.0 && rate < 0.0;
+        }
+        self.contacts = self.plant.reset(&self.contacts, t, &mut state[..n], &all).discrete;
+        write(&state[..n], y);
+    }
+
+    fn restart(&mut self) {
+        self.contacts = self.start.1;
+    }
+
+    fn outputs(&self, t: f64, y: &[f64]) -> Outputs {
+        observe(self.plant.as_ref(), &self.observer, &self.contacts, t, &filled(y)[..self.states()])
     }
 }

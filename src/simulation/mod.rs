@@ -3,24 +3,30 @@
 mod assemble;
 mod derivatives;
 mod equations;
+mod error;
+mod linearization;
+mod motion;
+mod observation;
 mod phase;
 mod record;
 mod run;
+mod settings;
+mod start;
 mod system;
 mod time_stepping;
 
 pub use crate::integrator::Snapshot;
-pub use equations::Linearization;
+pub use equations::Size;
+pub use error::SimulationError;
+pub use linearization::Linearization;
 pub use phase::{Phase, PhaseScales};
 pub use system::System;
 
 use crate::integrator::{IntegrationError, Reader};
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
-use crate::model::start::StartPose;
 use crate::scene::Scene;
-use run::Motion;
-use std::fmt;
+use motion::Motion;
 
 /// A mechanism at one communication point, ready to go on.
 ///
@@ -32,53 +38,8 @@ pub struct Simulation {
     time: f64,
 }
 
-/// How large the equations of motion are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Size {
-    /// Degrees of freedom; a prescribed crank angle is none.
-    pub degrees_of_freedom: usize,
-    /// States: positions, their rates, and what else is integrated.
-    pub states: usize,
-    /// Event functions: one of each joint A, B, C with clearance, and four of the guide.
-    pub event_functions: usize,
-}
-
-/// Why a simulation cannot start or go on.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SimulationError {
-    /// The scene contradicts itself; the text names the parameter and what is allowed.
-    Scene(String),
-    /// The integrator gave up at `time`; the state is that of `time`, still usable.
-    Integration {
-        /// [s] Last time reached.
-        time: f64,
-        /// One line: component and cause.
-        cause: String,
-    },
-    /// A snapshot does not fit this scene.
-    Snapshot(String),
-}
-
-impl fmt::Display for SimulationError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Scene(text) | Self::Snapshot(text) => f.write_str(text),
-            Self::Integration { time, cause } => write!(f, "at t = {time:.9} s: {cause}"),
-        }
-    }
-}
-
-impl std::error::Error for SimulationError {}
-
 /// The only end that a mechanism's equations of motion have.
 const DEAD_END: &str = "the rod stands across the guide, where ideal joints leave open which way the slider goes on";
-
-/// Where a scene starts.
-fn start_pose(scene: &Scene) -> Result<StartPose, SimulationError> {
-    StartPose::of(scene).ok_or_else(|| {
-        SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
-    })
-}
 
 impl Simulation {
     /// Assembles the scene's mechanism and puts it in its start position at `time` [s].
@@ -87,9 +48,7 @@ impl Simulation {
     /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
-        let pose = start_pose(scene)?;
-        let signal = InputSignal { at: time, value: inputs, rate: Inputs::default() };
-        Ok(Self { motion: assemble::start(scene, time, &pose, signal), time })
+        Ok(Self { motion: start::start(scene, time, inputs)?, time })
     }
 
     /// [s] The communication point reached.
@@ -113,6 +72,21 @@ impl Simulation {
             Ok(()) => {
                 self.time = time;
                 Ok(())
+            }
+            Err(error) => Err(self.failed(error)),
+        }
+    }
+
+    /// Moves to the next closing or opening of a contact, or to `time` (≥ the time reached), and tells whether there
+    /// was one.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_to_event(&mut self, time: f64) -> Result<bool, SimulationError> {
+        match self.motion.advance_to_event(self.time, time) {
+            Ok(event) => {
+                self.time = event.unwrap_or(time);
+                Ok(event.is_some())
             }
             Err(error) => Err(self.failed(error)),
         }
@@ -149,6 +123,49 @@ impl Simulation {
     /// How large its equations of motion are.
     pub fn size(&self) -> Size {
         self.motion.size()
+    }
+
+    /// The point of phase space at the communication point. A step that goes beyond is cut there, so that the point is as
+    /// accurate as the steps are and not as what is interpolated between them; later steps are others than without a look.
+    pub fn phase(&mut self) -> Phase {
+        self.motion.phase(self.time)
+    }
+
+    /// Goes on from `phase`: one of a simulation with the same joints, drive and method, or near one. Inputs stay.
+    pub fn place(&mut self, phase: &Phase) {
+        self.motion.place(phase);
+        self.time = phase.time;
+    }
+
+    /// What size of difference is noticeable.
+    pub fn phase_scales(&self) -> PhaseScales {
+        self.motion.phase_scales()
+    }
+
+    /// [s] Time and states where the next step starts.
+    pub fn front(&self) -> (f64, Vec<f64>) {
+        self.motion.front()
+    }
+
+    /// Rates of the `states` at `time` [s] with the contacts closed that are so where the next step
+    /// starts; states that are missing count as 0.
+    pub fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
+        self.motion.rates_at(time, states)
+    }
+
+    /// The equations of motion near `states` and `time` [s], with the same contacts.
+    pub fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
+        self.motion.linearization_at(time, states)
+    }
+
+    /// Evaluates the equations of motion so many times, for nothing: where the next step starts, to be timed.
+    pub fn evaluate(&self, times: usize) {
+        self.motion.evaluate(times);
+    }
+
+    /// Evaluates their derivatives so many times, likewise.
+    pub fn differentiate(&self, times: usize) {
+        self.motion.differentiate(times);
     }
 
     /// All that is needed to go on from here.

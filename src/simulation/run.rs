@@ -1,66 +1,25 @@
 //! One mechanism under one method.
 
-use super::Size;
 use super::derivatives::{sensitivity, slopes};
-use super::equations::Linearization;
+use super::equations::{EquationSystem, Equations, Size, write};
+use super::linearization::{Linearization, linearization, rates_at};
+use super::motion::Motion;
+use super::observation::{observe, solver_outputs};
 use super::phase::{Phase, PhaseScales};
 use super::record;
-use super::system::{EquationSystem, Equations, write};
+use super::settings::settings;
 use crate::integrator::methods::named;
-use crate::integrator::{
-    Effort, Extent, IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Settings, Snapshot, Statistics,
-    StepPoint,
-};
+use crate::integrator::{Extent, IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Snapshot, StepPoint};
 use crate::model::contact::ContactMode;
 use crate::model::drive::InputSignal;
 use crate::model::outputs::Observer;
 use crate::model::plant::Plant;
 use crate::model::scales::Scale;
-use crate::model::signals::{Inputs, Outputs, SolverOutputs};
+use crate::model::signals::{Inputs, Outputs};
 use crate::model::start::StartPose;
 use crate::model::state::Contacts;
-use crate::scene::{Scene, Solver};
+use crate::scene::Scene;
 use std::hint::black_box;
-
-/// A mechanism in motion, whatever its size.
-pub trait Motion: Send {
-    /// Steps until `t` lies within the last step.
-    fn advance(&mut self, t: f64) -> Result<(), IntegrationError>;
-    /// Steps until `t` lies within the last step, or to an event after `after`, and tells when that was.
-    fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError>;
-    /// The point of phase space at `t` in the last step.
-    fn phase(&mut self, t: f64) -> Phase;
-    /// Starts anew from such a point.
-    fn place(&mut self, phase: &Phase);
-    /// What size of difference is noticeable in a point of phase space.
-    fn phase_scales(&self) -> PhaseScales;
-    /// Inputs from the communication point `signal.at` on.
-    fn set_signal(&mut self, signal: InputSignal);
-    /// Outputs at `t` in the last step.
-    fn outputs(&mut self, t: f64) -> Outputs;
-    /// Their time derivatives.
-    fn output_rates(&mut self, t: f64) -> Outputs;
-    /// Their derivatives with respect to the inputs, along `seed`.
-    fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs;
-    /// How large it is.
-    fn size(&self) -> Size;
-    /// Evaluates the right-hand side where the next step starts.
-    fn evaluate(&self, times: usize);
-    /// Its equations, from where the next step starts.
-    fn equations(self: Box<Self>) -> Box<dyn Equations>;
-    /// Evaluates its derivatives there.
-    fn differentiate(&self, times: usize);
-    /// Time and states there.
-    fn front(&self) -> (f64, Vec<f64>);
-    /// Rates of the right-hand side that holds there.
-    fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64>;
-    /// The same, with derivatives.
-    fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization;
-    /// Appends all that it remembers.
-    fn save(&self, snapshot: &mut Snapshot);
-    /// Takes back what `save` appended of a run at `time` [s]; `None` if it does not fit.
-    fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()>;
-}
 
 /// A mechanism under a method with event location, or without.
 pub struct Run {
@@ -70,10 +29,6 @@ pub struct Run {
     /// [m/s] A noticeable difference of approach speeds.
     approach_scale: f64,
 }
-
-/// Where the scene sets no bound: seconds of computing for a communication step that leads nowhere, and several times
-/// what any shipped scene needs.
-const EFFORT: Effort = Effort { base: 20_000_000, per_second: 50_000_000 };
 
 impl Run {
     /// Starts `plant` at `time` from `pose`.
@@ -98,16 +53,6 @@ impl Run {
         self.plant.set_signal(signal);
         outputs
     }
-}
-
-/// Outputs of the state `y` at `t`.
-pub fn observe(plant: &dyn Plant, observer: &Observer, contacts: &Contacts, t: f64, y: &[f64]) -> Outputs {
-    let instant = plant.instant(contacts, t, y);
-    let penetration = plant.penetration(&instant.pose);
-    let torque = plant.signal().at(t).crank_torque;
-    let mut outputs = observer.outputs(&instant, contacts, &penetration, torque);
-    outputs.energy = plant.energies(contacts, &instant, y);
-    outputs
 }
 
 impl Motion for Run {
@@ -223,52 +168,4 @@ impl Motion for Run {
         self.integrator.set_state(self.plant.as_ref(), state);
         self.integrator.load_method(reader)
     }
-}
-
-/// What a scene asks of its integrator.
-pub fn settings(scene: &Scene) -> Settings {
-    let Solver { tolerance, step, max_evaluations, .. } = scene.solver;
-    let effort = match u64::try_from(max_evaluations) {
-        Ok(base @ 1..) => Effort { base, per_second: 0 },
-        _ => EFFORT,
-    };
-    Settings { tolerance, fixed_step: step, effort }
-}
-
-/// Counters as outputs.
-pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
-    let Statistics { steps, rejected, evaluations, events } = statistics;
-    let count = |n: u64| i32::try_from(n).unwrap_or(i32::MAX);
-    SolverOutputs {
-        steps: count(steps),
-        rejected: count(rejected),
-        evaluations: count(evaluations),
-        events: count(events),
-    }
-}
-
-/// A state in a list of so many: those that are missing count as 0.
-pub fn filled(list: &[f64], states: usize) -> Vec<f64> {
-    let mut all = vec![0.0; states];
-    write(list, &mut all);
-    all
-}
-
-/// Rates of the `states` at `time` [s].
-pub fn rates_at(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Vec<f64> {
-    let n = plant.extent().states;
-    let mut rates = vec![0.0; n];
-    plant.rates(contacts, time, &filled(states, n), &mut rates);
-    rates
-}
-
-/// The equations of motion of `plant` near `states` and `time` [s].
-pub fn linearization(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Linearization {
-    let Extent { positions, states: n, .. } = plant.extent();
-    let states = filled(states, n);
-    let (mut rates, mut jacobian) = (vec![0.0; n], Jacobian::new(n));
-    plant.rates(contacts, time, &states, &mut rates);
-    plant.jacobian(contacts, time, &states, &mut jacobian);
-    let by_state = (0..n).map(|i| jacobian.row(i).to_vec()).collect();
-    Linearization { time, states, positions, rates, by_state, by_time: jacobian.time }
 }

@@ -1,12 +1,13 @@
 //! One mechanism with rigid contacts under time stepping.
 
-use super::Size;
 use super::derivatives::{sensitivity, slopes};
-use super::equations::Linearization;
+use super::equations::{EquationSystem, Equations, Size};
+use super::linearization::{Linearization, filled, linearization, rates_at};
+use super::motion::Motion;
+use super::observation::solver_outputs;
 use super::phase::{Phase, PhaseScales};
 use super::record;
-use super::run::{Motion, filled, linearization, rates_at, settings, solver_outputs};
-use super::system::{EquationSystem, Equations};
+use super::settings::settings;
 use crate::integrator::{
     Extent, Impulses, IntegrationError, Jacobian, MAX_STATES, Moreau, Reader, Settings, Snapshot, StepPoint,
 };

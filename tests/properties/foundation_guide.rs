@@ -2,7 +2,8 @@
 
 use super::chance::Chance;
 use slidercrank::model::contact::ContactMode;
-use slidercrank::model::joint::guide::{GUIDE_CONTACTS, Guide, Load, SliderPose};
+use slidercrank::model::joint::guide::{GUIDE_CONTACTS, Guide, Load};
+use slidercrank::model::joint::rectangle::SliderPose;
 use slidercrank::model::plane::{Rotation, Vec2};
 use slidercrank::scene::{DampingLaw, FrictionLaw, JointModel, Scene, Surface};
 

@@ -1,7 +1,7 @@
 //! Which file imports which, read from the text of the files.
 
 use crate::{read, root, sources};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 
 /// Path of a module from the crate's root.
@@ -23,24 +23,44 @@ pub fn imports_within(folder: &str) -> Imports {
     files.iter().filter(|(module, _)| within(module)).map(imports).collect()
 }
 
-/// A cycle, from a file back to itself, or nothing. Files that import none of the files left are taken away; what stays
-/// leads to a cycle.
-pub fn cycle(imports: &Imports) -> Vec<String> {
-    let mut left = imports.clone();
-    let is_end = |left: &Imports, to: &BTreeSet<String>| !to.iter().any(|to| left.contains_key(to));
-    while let Some(end) = left.iter().find(|(_, to)| is_end(&left, to)).map(|(from, _)| from.clone()) {
-        left.remove(&end);
+/// Files each of which imports all others, itself or by way of others.
+pub struct Knot {
+    /// All of them.
+    pub files: Vec<String>,
+    /// A shortest cycle among them, from a file back to itself.
+    pub cycle: Vec<String>,
+}
+
+/// The strongly connected components that have a cycle.
+pub fn knots(imports: &Imports) -> Vec<Knot> {
+    let ways: BTreeMap<_, _> = imports.keys().map(|file| (file, ways(imports, file))).collect();
+    let mut knots: Vec<Knot> = vec![];
+    for (file, targets) in ways.iter().filter(|(file, targets)| targets.contains_key(**file)) {
+        if knots.iter().any(|knot| knot.files.contains(file)) {
+            continue;
+        }
+        let back = |other: &&String| ways.get(other).is_some_and(|targets| targets.contains_key(*file));
+        let files: Vec<String> = targets.keys().filter(back).cloned().collect();
+        let cycle = files.iter().map(|file| ways[file][file].clone()).min_by_key(Vec::len).unwrap_or_default();
+        knots.push(Knot { files, cycle });
     }
-    let Some(mut file) = left.keys().next() else { return vec![] };
-    let mut way: Vec<String> = vec![];
-    while !way.contains(file) {
-        way.push(file.clone());
-        file = left[file].iter().find(|to| left.contains_key(*to)).expect("all others are taken away");
+    knots
+}
+
+/// Shortest way from `start` to each file that it imports, itself or by way of others.
+fn ways(imports: &Imports, start: &str) -> BTreeMap<String, Vec<String>> {
+    let mut ways: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut ends = VecDeque::from([vec![start.to_owned()]]);
+    while let Some(way) = ends.pop_front() {
+        for to in way.last().and_then(|end| imports.get(end)).into_iter().flatten() {
+            if !ways.contains_key(to) {
+                let longer: Vec<_> = way.iter().chain([to]).cloned().collect();
+                ways.insert(to.clone(), longer.clone());
+                ends.push_back(longer);
+            }
+        }
     }
-    let start = way.iter().position(|before| before == file).expect("the way has been here");
-    way.drain(..start);
-    way.push(file.clone());
-    way
+    ways
 }
 
 fn module(path: &str) -> Module {
@@ -80,8 +100,8 @@ fn targets(own: &Module, text: &str, modules: &BTreeSet<Module>) -> BTreeSet<Mod
                 inner.retain(|(_, outside)| *outside < depth);
             }
             ("use", ..) => at = tree(&tokens, at + 1, &[], &mut paths),
-            ("crate" | "self" | "super", "::", _) => {
-                let path = tokens[at..].iter().copied().take_while(|&part| part == "::" || is_name(part));
+            ("crate" | "$crate" | "self" | "super", "::", _) => {
+                let path = tokens[at..].iter().copied().take_while(|&part| part == "::" || is_part(part));
                 let path: Vec<_> = path.collect();
                 at += path.len() - 1;
                 paths.push(path.into_iter().filter(|&part| part != "::").collect());
@@ -111,7 +131,7 @@ fn tree<'a>(tokens: &[&'a str], mut at: usize, prefix: &[&'a str], paths: &mut V
             }
             "," | "}" | ";" => break,
             "as" => at += 1,
-            name if is_name(name) && (name != "self" || path.is_empty()) => path.push(name),
+            part if is_part(part) && (part != "self" || path.is_empty()) => path.push(part),
             _ => {}
         }
         at += 1;
@@ -123,28 +143,29 @@ fn tree<'a>(tokens: &[&'a str], mut at: usize, prefix: &[&'a str], paths: &mut V
     at
 }
 
-/// The innermost module with a file of its own on a path that is written in the module `here`.
-fn resolve<'a>(mut here: Vec<&'a str>, path: &[&'a str], modules: &BTreeSet<Module>) -> Option<Module> {
+/// The innermost module with a file of its own on a path that is written in the module `here`; where a macro's variable
+/// stands in its place, each module that it may be.
+fn resolve<'a>(mut here: Vec<&'a str>, path: &[&'a str], modules: &BTreeSet<Module>) -> Vec<Module> {
     let owned = |names: &[&str]| names.iter().map(ToString::to_string).collect::<Module>();
-    let (&first, rest) = path.split_first()?;
-    match first {
-        "crate" => here.clear(),
-        "self" => {}
-        "super" => here.truncate(here.len().saturating_sub(1)),
-        name => {
-            here.push(name);
-            if !modules.contains(&owned(&here)) {
-                return None;
+    for (place, &name) in path.iter().enumerate() {
+        match name {
+            "crate" | "$crate" => here.clear(),
+            "self" => {}
+            "super" => here.truncate(here.len().saturating_sub(1)),
+            name if name.starts_with('$') => {
+                let below = |module: &&Module| module.len() == here.len() + 1 && module.starts_with(&owned(&here));
+                return modules.iter().filter(below).cloned().collect();
+            }
+            name => {
+                here.push(name);
+                if place == 0 && !modules.contains(&owned(&here)) {
+                    return vec![];
+                }
             }
         }
     }
-    for &name in rest {
-        match name {
-            "super" => here.truncate(here.len().saturating_sub(1)),
-            name => here.push(name),
-        }
-    }
-    (0..=here.len()).rev().map(|length| owned(&here[..length])).find(|module| modules.contains(module))
+    let innermost = (0..=here.len()).rev().map(|length| owned(&here[..length])).find(|module| modules.contains(module));
+    innermost.into_iter().collect()
 }
 
 /// The text with each comment and each literal of characters as a space.
@@ -184,14 +205,15 @@ fn literal(text: &str, quote: char) -> usize {
     text.len()
 }
 
-/// Names, `::` and single other characters.
+/// Names, a macro's variables, `::` and single other characters.
 fn tokens(code: &str) -> Vec<&str> {
     let mut tokens = vec![];
     let mut rest = code.trim_start();
     while let Some(first) = rest.chars().next() {
-        let name = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let variable = usize::from(first == '$');
+        let name = rest[variable..].find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len() - variable);
         let length = if name > 0 {
-            name
+            variable + name
         } else if rest.starts_with("::") {
             2
         } else {
@@ -204,8 +226,9 @@ fn tokens(code: &str) -> Vec<&str> {
     tokens
 }
 
-fn is_name(token: &str) -> bool {
-    token.starts_with(|c: char| c.is_alphabetic() || c == '_')
+/// Part of a path: a name or a macro's variable.
+fn is_part(token: &str) -> bool {
+    token.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '$' && token.len() > 1)
 }
 
 #[test]
@@ -221,12 +244,13 @@ fn an_import_is_found_however_it_is_written() {
     assert_eq!(found("fn f() -> super::X { crate::d::g::<crate::a::Z>() }"), ["a", "d"]);
     assert_eq!(found("mod inner { use super::X; use super::c::Y; use super::super::Z; }"), ["a", "a::b::c"]);
     assert_eq!(found("mod inner { fn f() {} } use super::X;"), ["a"]);
+    assert_eq!(found("$(mod $file; pub use $file::$law; use crate::$file;)+"), ["a", "a::b::c", "d"]);
     assert_eq!(found("pub(super) mod c; // use crate::d::X;\nmod tests { use crate::d::X; }"), [""; 0]);
     assert_eq!(found("let (c, s) = ('\"', \"{ use crate::d::X; \\\" \"); use super::X;"), ["a"]);
 }
 
 #[test]
-fn a_cycle_is_found_wherever_it_begins() {
+fn one_cycle_is_found_of_each_set_of_files_wherever_it_begins() {
     let graph = |edges: &[(&str, &str)]| {
         let mut graph = Imports::new();
         for &(from, to) in edges {
@@ -234,6 +258,9 @@ fn a_cycle_is_found_wherever_it_begins() {
         }
         graph
     };
-    assert_eq!(cycle(&graph(&[("a", "b"), ("b", "c"), ("a", "c")])), [""; 0]);
-    assert_eq!(cycle(&graph(&[("a", "b"), ("b", "c"), ("c", "d"), ("d", "b"), ("c", "e")])), ["b", "c", "d", "b"]);
+    let found = |edges| knots(&graph(edges)).iter().map(|knot| knot.cycle.join(" ")).collect::<Vec<_>>();
+    assert_eq!(found(&[("a", "b"), ("b", "c"), ("a", "c")]), [""; 0]);
+    assert_eq!(found(&[("a", "b"), ("b", "c"), ("c", "d"), ("d", "b"), ("c", "e")]), ["b c d b"]);
+    assert_eq!(found(&[("a", "b"), ("b", "c"), ("c", "a"), ("b", "d"), ("d", "b")]), ["b d b"]);
+    assert_eq!(found(&[("a", "b"), ("b", "a"), ("b", "c"), ("c", "d"), ("d", "c")]), ["a b a", "c d c"]);
 }

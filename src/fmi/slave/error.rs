@@ -3,7 +3,7 @@
 mod display;
 
 use super::severity::Severity;
-use crate::scene::check::SceneError;
+use crate::scene::SceneError;
 use crate::scene::parameter::Refusal;
 use crate::simulation::SimulationError;
 

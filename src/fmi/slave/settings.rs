@@ -2,9 +2,8 @@
 
 use super::experiment::Experiment;
 use super::inputs::InputLines;
-use crate::scene::Scene;
-use crate::scene::check::SceneError;
 use crate::scene::parameter::{PARAMETERS, Parameter};
+use crate::scene::{Scene, SceneError};
 use serde::{Deserialize, Serialize};
 
 /// Everything that an importer has set, or left at its start value.

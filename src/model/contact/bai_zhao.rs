@@ -9,7 +9,8 @@
 //!
 //! Limits: 3/2 of Liu's force for δ ≪ c, and Liu's for δ ≫ c.
 
-use super::{ElasticLaw, Liu, PowerLaw};
+use super::elastic_law::{ElasticLaw, PowerLaw};
+use super::liu::Liu;
 use crate::math::Real;
 use crate::scene::Revolute;
 

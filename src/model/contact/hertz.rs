@@ -7,7 +7,8 @@
 //! Limits: the contact must be small beside both radii, and the law knows no axial length. In a tight joint, c ≪ R_b,
 //! a conformal law holds longer.
 
-use super::{ElasticLaw, PowerLaw, compliance};
+use super::compliance::compliance;
+use super::elastic_law::{ElasticLaw, PowerLaw};
 use crate::math::{self, Real};
 use crate::scene::{Contact, Guide, Revolute};
 

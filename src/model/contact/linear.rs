@@ -3,7 +3,7 @@
 //! E. Winkler, Die Lehre von der Elastizität und Festigkeit, Prag 1867. The slider's faces are such beds; no scene names
 //! the law for a revolute joint.
 
-use super::PowerLaw;
+use super::elastic_law::PowerLaw;
 use crate::math::Real;
 
 /// K·δ.

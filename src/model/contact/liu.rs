@@ -6,7 +6,8 @@
 //!
 //! Limits: K/√(2c)·δ^(3/2) for δ ≪ c, and K·δ/√2 for δ ≫ c. Fitted to cylinders of equal materials.
 
-use super::{ElasticLaw, PowerLaw, compliance};
+use super::compliance::compliance;
+use super::elastic_law::{ElasticLaw, PowerLaw};
 use crate::math::{self, Real};
 use crate::scene::Revolute;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};

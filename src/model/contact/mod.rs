@@ -6,8 +6,10 @@
 // Defines `elasticities!`, which hands the list of the declared elasticities to another macro.
 include!(concat!(env!("OUT_DIR"), "/elasticities.rs"));
 
+pub mod compliance;
 pub mod damping;
 mod elastic;
+mod elastic_law;
 mod linear;
 
 /// The file of each declared elasticity.
@@ -16,7 +18,8 @@ macro_rules! files {
 }
 elasticities!(files);
 
-pub use elastic::{Elastic, ElasticLaw, PowerLaw};
+pub use elastic::Elastic;
+pub use elastic_law::{ElasticLaw, PowerLaw};
 pub use linear::Linear;
 
 use super::friction::{Friction, Rubbing};
@@ -86,12 +89,6 @@ impl<R: Real> std::ops::AddAssign for Account<R> {
         self.normal_power += other.normal_power;
         self.friction_loss += other.friction_loss;
     }
-}
-
-/// σ_b + σ_j [1/Pa], σ = (1 − ν²)/E.
-pub fn compliance(contact: &scene::Contact) -> f64 {
-    let sigma = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;
-    sigma(contact.young.bearing, contact.poisson.bearing) + sigma(contact.young.journal, contact.poisson.journal)
 }
 
 impl ContactParameters {

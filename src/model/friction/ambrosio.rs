@@ -4,7 +4,7 @@
 //!
 //! Limits: no force below v0, so that nothing sticks: what rests under a force creeps at a speed between v0 and v1.
 
-use super::{Law, Rubbing};
+use super::law::{Law, Rubbing};
 use crate::math::Real;
 use crate::scene;
 

@@ -7,8 +7,8 @@
 //!
 //! Limits: needs 0 < μ_k ≤ μ_s. Large σ0 is stiff: bristles at rest let go at z = μ_s/σ0.
 
+use super::law::{Law, Rubbing};
 use super::stribeck::Falling;
-use super::{Law, Rubbing};
 use crate::math::Real;
 use crate::scene;
 

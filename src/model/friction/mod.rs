@@ -6,42 +6,12 @@
 // Defines `friction_laws!`, which hands the list of the declared laws to another macro.
 include!(concat!(env!("OUT_DIR"), "/friction_laws.rs"));
 
+mod law;
+
+pub use law::{Law, Rubbing};
+
 use crate::math::Real;
 use crate::scene;
-
-/// What sliding does to a contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rubbing<R = f64> {
-    /// f_t/f_n.
-    pub ratio: R,
-    /// [m/s] Rate of the bristles' deflection; 0 of a law without them.
-    pub bristle_rate: R,
-}
-
-impl<R: Real> Rubbing<R> {
-    /// Of a law without bristles.
-    #[inline(always)]
-    fn without_bristles(ratio: R) -> Self {
-        Self { ratio, bristle_rate: R::ZERO }
-    }
-}
-
-/// A friction law, one a file. A new one is its file, which defines a type of the item's name, and an item of
-/// `FrictionLaw` in `modelDescription/variables.toml`.
-pub trait Law: Copy {
-    /// Of this friction.
-    fn new(friction: &scene::Friction) -> Self;
-    /// At the sliding speed `v` [m/s], with the bristles deflected by `z` [m].
-    fn rub<R: Real>(&self, v: R, z: R) -> Rubbing<R>;
-    /// [m/s] Sliding speeds at which the law has corners.
-    fn corners(&self) -> [Option<f64>; 2] {
-        [None; 2]
-    }
-    /// [m] The deflection at which bristles at rest let go, where there are bristles.
-    fn greatest_deflection(&self) -> Option<f64> {
-        None
-    }
-}
 
 /// Declares the files and [`Friction`] from the declared laws.
 macro_rules! friction {

@@ -6,7 +6,7 @@
 //!
 //! Limits: nothing sticks: what rests under a force creeps. With v1 near v_s the peak stays below μ_s.
 
-use super::{Law, Rubbing};
+use super::law::{Law, Rubbing};
 use crate::math::{self, Real};
 use crate::scene;
 

@@ -2,7 +2,7 @@
 //!
 //! Limits: nothing sticks: what rests under a force creeps.
 
-use super::{Law, Rubbing};
+use super::law::{Law, Rubbing};
 use crate::math::{self, Real};
 use crate::scene;
 

@@ -8,11 +8,11 @@
 //! pressure: force times that rate is just the rate of the elastic energy, so that damping never gives
 //! energy back. Force and friction act there.
 
-use super::corners::Touch;
-use super::guide::{CORNERS, Guide, SliderPose, Surface};
+use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, Touch};
 use crate::integrator::EventFunction;
 use crate::math::{self, Real};
-use crate::model::contact::{ContactMode, compliance};
+use crate::model::contact::compliance::compliance;
+use crate::model::contact::{ContactMode, Elastic};
 use crate::model::plane::Vec2;
 use crate::scene::Scene;
 use std::f64::consts::PI;
@@ -112,15 +112,15 @@ pub(super) struct Faces;
 
 impl Faces {
     #[inline(always)]
-    fn bed<R: Real>(guide: &Guide, face: usize, pose: &SliderPose<R>) -> Bed<R> {
-        let middle = &guide.middles[face];
-        Bed { half: guide.half_length, middle: middle.touch(pose).depth, slope: pose.rotation.sin * -middle.normal }
+    fn bed<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> Bed<R> {
+        let middle = &rectangle.middles[face];
+        Bed { half: rectangle.half_length, middle: middle.touch(pose).depth, slope: pose.rotation.sin * -middle.normal }
     }
 
     /// The two ends of a face.
     #[inline(always)]
-    fn ends(guide: &Guide, face: usize, pose: &SliderPose) -> [Touch; 2] {
-        [guide.corners[2 * face].touch(pose), guide.corners[2 * face + 1].touch(pose)]
+    fn ends(rectangle: &Rectangle, face: usize, pose: &SliderPose) -> [Touch; 2] {
+        [rectangle.corners[2 * face].touch(pose), rectangle.corners[2 * face + 1].touch(pose)]
     }
 }
 
@@ -128,25 +128,25 @@ impl Surface for Faces {
     const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 0, 1, 1];
 
     #[inline(always)]
-    fn touch<R: Real>(guide: &Guide, face: usize, pose: &SliderPose<R>) -> Touch<R> {
-        let Pressed { mean, centre } = Self::bed(guide, face, pose).pressed();
-        let middle = &guide.middles[face];
+    fn touch<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> Touch<R> {
+        let Pressed { mean, centre } = Self::bed(rectangle, face, pose).pressed();
+        let middle = &rectangle.middles[face];
         let offset = Vec2::new(centre + middle.offset.x, R::constant(middle.offset.y));
         Touch { depth: mean, ..middle.touch_at(offset, pose) }
     }
 
-    fn approach(guide: &Guide, face: usize, pose: &SliderPose) -> (f64, f64) {
-        let [front, rear] = Self::ends(guide, face, pose);
+    fn approach(rectangle: &Rectangle, face: usize, pose: &SliderPose) -> (f64, f64) {
+        let [front, rear] = Self::ends(rectangle, face, pose);
         (front.depth.max(rear.depth), front.rate.max(rear.rate))
     }
 
     /// An open face closes with either of its corners and has a guard for each; a closed one opens
     /// with the deeper one.
-    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
+    fn guards(rectangle: &Rectangle, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
         let mut guards = [EventFunction { value: 1.0, rate: 0.0 }; CORNERS];
         for (face, pair) in guards.chunks_exact_mut(2).enumerate() {
             let [front, rear] =
-                Self::ends(guide, face, pose).map(|end| EventFunction { value: end.depth, rate: end.rate });
+                Self::ends(rectangle, face, pose).map(|end| EventFunction { value: end.depth, rate: end.rate });
             if modes[face].closed {
                 let front_is_deeper = (front.value, front.rate) > (rear.value, rear.rate);
                 pair[0] = if front_is_deeper { front } else { rear };
@@ -157,8 +157,8 @@ impl Surface for Faces {
         guards
     }
 
-    fn energy<R: Real>(guide: &Guide, face: usize, pose: &SliderPose<R>) -> R {
-        let stiffness = guide.contact.elastic.for_small_penetrations().stiffness;
-        Self::bed(guide, face, pose).mean_square() * (0.5 * stiffness)
+    fn energy<R: Real>(rectangle: &Rectangle, elastic: &Elastic, face: usize, pose: &SliderPose<R>) -> R {
+        let stiffness = elastic.for_small_penetrations().stiffness;
+        Self::bed(rectangle, face, pose).mean_square() * (0.5 * stiffness)
     }
 }

@@ -5,31 +5,17 @@
 //! corner as a contact of its own (`corners`, from which faces and jamming follow), or each face on
 //! an elastic foundation (`foundation`). Which it is, and by which laws, is chosen once.
 
-use super::corners::{Corners, Mark, Touch};
+use super::corners::Corners;
 use super::foundation::{self, Faces};
+use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, Touch};
 use crate::integrator::{Discontinuities, EventFunction, Triggered};
 use crate::math::Real;
 use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces, Hertz, Linear};
 use crate::model::plane::{Rotation, Vec2, cross};
 use crate::scene;
 
-/// How many corners the slider has.
-pub const CORNERS: usize = 4;
 /// Most contacts of the slider with the guide.
 pub const GUIDE_CONTACTS: usize = CORNERS;
-
-/// Where the slider is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SliderPose<R = f64> {
-    /// [m] Pin centre.
-    pub pin: Vec2<R>,
-    /// [m/s] Its velocity.
-    pub pin_velocity: Vec2<R>,
-    /// Tilt.
-    pub rotation: Rotation<R>,
-    /// [rad/s] Rate of tilt.
-    pub speed: R,
-}
 
 /// The guide's forces on the slider, reduced to the pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,30 +26,11 @@ pub struct Load<R = f64> {
     pub couple: R,
 }
 
-/// What the slider touches its lines with.
-pub(super) trait Surface {
-    /// The contact that each corner is part of.
-    const CONTACT_OF_CORNER: [usize; CORNERS];
-    /// How many contacts there are.
-    const CONTACTS: usize = Self::CONTACT_OF_CORNER[CORNERS - 1] + 1;
-    /// Contact `k` as its force law needs it.
-    fn touch<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> Touch<R>;
-    /// [m], [m/s] Greatest penetration in contact `k`, and the approach speed if it closes now.
-    fn approach(guide: &Guide, k: usize, pose: &SliderPose) -> (f64, f64);
-    /// The events at which contacts change, each at the place of a corner.
-    fn guards(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS];
-    /// [J] Elastic energy of contact `k`.
-    fn energy<R: Real>(guide: &Guide, k: usize, pose: &SliderPose<R>) -> R;
-}
-
 /// The guide with clearance.
 #[derive(Clone, Copy, Debug)]
 pub struct Guide {
-    pub(super) corners: [Mark; CORNERS],
-    /// Middles of the upper and of the lower face.
-    pub(super) middles: [Mark; 2],
-    /// [m] a.
-    pub(super) half_length: f64,
+    /// The slider between the two lines.
+    pub(super) rectangle: Rectangle,
     /// The contact's numbers, the same for every contact.
     pub contact: ContactParameters,
     surface: scene::Surface,
@@ -107,7 +74,7 @@ fn load<R: Real, S: Surface>(
     let mut load = Load::default();
     for (k, mode) in modes.iter().enumerate().take(S::CONTACTS) {
         if mode.closed {
-            let Touch { arm, normal, depth, rate, sliding } = S::touch(g, k, pose);
+            let Touch { arm, normal, depth, rate, sliding } = S::touch(&g.rectangle, k, pose);
             let Forces { normal: pressure, tangential, bristle_rate: moving } =
                 g.contact.forces(mode.per_approach, depth, rate, z[k], || sliding);
             bristle_rate[k] = moving;
@@ -122,15 +89,15 @@ fn load<R: Real, S: Surface>(
 
 fn approaches<S: Surface>(guide: &Guide, pose: &SliderPose) -> [(f64, f64); CORNERS] {
     let none = (f64::NEG_INFINITY, 0.0);
-    std::array::from_fn(|k| if k < S::CONTACTS { S::approach(guide, k, pose) } else { none })
+    std::array::from_fn(|k| if k < S::CONTACTS { S::approach(&guide.rectangle, k, pose) } else { none })
 }
 
 fn account<R: Real, S: Surface>(g: &Guide, modes: &[ContactMode], pose: &SliderPose<R>, z: &Bristles<R>) -> Account<R> {
     let mut sum = Account::default();
     for (k, mode) in modes.iter().enumerate().take(S::CONTACTS).filter(|(_, mode)| mode.closed) {
-        let Touch { depth, rate, sliding, .. } = S::touch(g, k, pose);
+        let Touch { depth, rate, sliding, .. } = S::touch(&g.rectangle, k, pose);
         let account = g.contact.account(mode.per_approach, depth, rate, z[k], sliding);
-        sum += Account { energy: S::energy(g, k, pose), ..account };
+        sum += Account { energy: S::energy(&g.rectangle, &g.contact.elastic, k, pose), ..account };
     }
     sum
 }
@@ -139,22 +106,12 @@ impl Guide {
     /// From the scene.
     pub fn new(scene: &scene::Scene) -> Self {
         let joint = &scene.joint.t;
-        let slider = &scene.slider;
-        let (a, b) = (0.5 * slider.length, 0.5 * slider.height);
-        let reach = b + joint.clearance;
-        let mark = |x: f64, side: f64| Mark {
-            offset: Vec2::new(slider.centre.x + x, slider.centre.y + side * b),
-            normal: -side,
-            line: scene.guide.offset + side * reach,
-        };
         let elastic = match joint.surface {
             scene::Surface::Corner => Elastic::Hertz(Hertz::corner(joint)),
             scene::Surface::Foundation => Elastic::Linear(Linear { stiffness: foundation::stiffness(scene) }),
         };
         Self {
-            corners: [mark(a, 1.0), mark(-a, 1.0), mark(a, -1.0), mark(-a, -1.0)],
-            middles: [mark(0.0, 1.0), mark(0.0, -1.0)],
-            half_length: a,
+            rectangle: Rectangle::new(scene),
             contact: ContactParameters::new(&joint.contact, elastic),
             surface: joint.surface,
         }
@@ -162,7 +119,7 @@ impl Guide {
 
     /// [m] Penetration of every corner, negative when open.
     pub fn penetrations(&self, pose: &SliderPose) -> [f64; CORNERS] {
-        self.corners.map(|corner| corner.touch(pose).depth)
+        self.rectangle.corners.map(|corner| corner.touch(pose).depth)
     }
 
     /// [m], [m/s] Greatest penetration in every contact, and the approach speed if it closes now; far
@@ -173,13 +130,13 @@ impl Guide {
 
     /// The events at which the contacts change.
     pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
-        of_surface!(self, S => S::guards(self, modes, pose))
+        of_surface!(self, S => S::guards(&self.rectangle, modes, pose))
     }
 
     /// Adds the kinks of the closed contacts' forces.
     pub fn kinks(&self, modes: &[ContactMode], pose: &SliderPose, kinks: &mut Discontinuities) {
         for (k, mode) in modes.iter().enumerate().filter(|(_, mode)| mode.closed) {
-            let Touch { rate, sliding, .. } = of_surface!(self, S => S::touch(self, k, pose));
+            let Touch { rate, sliding, .. } = of_surface!(self, S => S::touch(&self.rectangle, k, pose));
             self.contact.kinks(mode, rate, sliding, kinks);
         }
     }

@@ -3,5 +3,6 @@
 mod corners;
 pub mod foundation;
 pub mod guide;
+pub mod rectangle;
 pub mod revolute;
 mod rigid;

@@ -4,7 +4,8 @@
 //! it along the sliding speed. Force times velocity is power, as in the compliant contacts: so the forces' directions
 //! are the transposed velocities.
 
-use super::guide::{Guide, Load, SliderPose};
+use super::guide::{Guide, Load};
+use super::rectangle::SliderPose;
 use super::revolute::{self, Play, Revolute};
 use crate::model::plane::{Vec2, cross, perp};
 
@@ -34,13 +35,13 @@ impl Revolute {
 impl Guide {
     /// [m/s] Rate of the gap of a corner, and its speed along the line.
     pub fn contact_velocity(&self, corner: usize, pose: &SliderPose) -> [f64; 2] {
-        let touch = self.corners[corner].touch(pose);
+        let touch = self.rectangle.corners[corner].touch(pose);
         [-touch.rate, touch.sliding]
     }
 
     /// The load of the forces `normal` and `tangential` [N] on a corner.
     pub fn rigid_load(&self, corner: usize, pose: &SliderPose, [normal, tangential]: [f64; 2]) -> Load {
-        let touch = self.corners[corner].touch(pose);
+        let touch = self.rectangle.corners[corner].touch(pose);
         let force = Vec2::new(tangential, touch.normal * normal);
         Load { force, couple: cross(touch.arm, force) }
     }

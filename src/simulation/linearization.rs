@@ -1,0 +1,49 @@
+//! Rates of the states at any state, and their derivatives.
+
+use super::equations::write;
+use crate::integrator::{Extent, Jacobian};
+use crate::model::plant::Plant;
+use crate::model::state::Contacts;
+
+/// ẏ ≈ rates + by_state·Δy + by_time·Δt near one state and instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linearization {
+    /// [s]
+    pub time: f64,
+    /// Positions, their rates, first-order states.
+    pub states: Vec<f64>,
+    /// Number of positions.
+    pub positions: usize,
+    /// ẏ.
+    pub rates: Vec<f64>,
+    /// ∂ẏ_i/∂y_j in row i, column j.
+    pub by_state: Vec<Vec<f64>>,
+    /// ∂ẏ_i/∂t.
+    pub by_time: Vec<f64>,
+}
+
+/// Rates of the `states` at `time` [s].
+pub fn rates_at(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Vec<f64> {
+    let n = plant.extent().states;
+    let mut rates = vec![0.0; n];
+    plant.rates(contacts, time, &filled(states, n), &mut rates);
+    rates
+}
+
+/// The equations of motion of `plant` near `states` and `time` [s].
+pub fn linearization(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Linearization {
+    let Extent { positions, states: n, .. } = plant.extent();
+    let states = filled(states, n);
+    let (mut rates, mut jacobian) = (vec![0.0; n], Jacobian::new(n));
+    plant.rates(contacts, time, &states, &mut rates);
+    plant.jacobian(contacts, time, &states, &mut jacobian);
+    let by_state = (0..n).map(|i| jacobian.row(i).to_vec()).collect();
+    Linearization { time, states, positions, rates, by_state, by_time: jacobian.time }
+}
+
+/// A state in a list of so many: those that are missing count as 0.
+pub fn filled(list: &[f64], states: usize) -> Vec<f64> {
+    let mut all = vec![0.0; states];
+    write(list, &mut all);
+    all
+}
