@@ -3,9 +3,10 @@
 //! [`scene`](crate::scene) says which joints are ideal and which have clearance; here that becomes a
 //! set of minimal coordinates and a right-hand side that holds the effects called for and no others.
 //! Reading order: `structure` (what hangs on what), `bodies`, `kinematics` (outwards), `dynamics` (inwards, M·q̈ = Q),
-//! `rod` and `modal` (what a flexible rod adds), `mechanism` (all together), `compiled` and `rigid` (as the integrator asks
-//! for it), `joint` and `contact` (forces), `reactions` and `outputs`.
+//! `rod` and `modal` (what a flexible rod adds), `mechanism` (all together), `compiled` and `assembled` ([`Model`], as the
+//! integrator asks for it), `joint` and `contact` (forces), `reactions` and `outputs`.
 
+mod assembled;
 pub mod audit;
 pub mod bodies;
 pub mod bristles;
@@ -27,7 +28,6 @@ pub mod outputs;
 pub mod plane;
 pub mod plant;
 pub mod reactions;
-pub mod rigid;
 pub mod rod;
 pub mod scalar;
 pub mod scales;
@@ -37,3 +37,5 @@ pub mod start;
 pub mod state;
 pub mod structure;
 pub mod unilateral;
+
+pub use assembled::Model;

@@ -3,10 +3,10 @@
 use super::motion::Motion;
 use super::run::Run;
 use super::time_stepping::TimeStepping;
+use crate::model::Model;
 use crate::model::audit::Audited;
 use crate::model::drive::InputSignal;
 use crate::model::plant::Plant;
-use crate::model::rigid::Rigid;
 use crate::model::start::StartPose;
 use crate::scene::{Method, Scene};
 
@@ -14,7 +14,7 @@ use crate::scene::{Method, Scene};
 /// Integrators are compiled once and call the mechanism through a table of functions. Only the loop over a step's stages
 /// is compiled for some small mechanisms on its own; see [`Ode::stages`](crate::integrator::Ode::stages).
 pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) -> Box<dyn Motion> {
-    let mut plant: Box<dyn Plant> = Box::new(Rigid::assemble(scene, time));
+    let mut plant: Box<dyn Plant> = Box::new(Model::assemble(scene, time));
     if scene.energy.audit {
         plant = Box::new(Audited::new(scene, plant));
     }

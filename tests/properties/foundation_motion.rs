@@ -9,10 +9,10 @@ use super::scenes::{
 use super::symmetry::{mirror, mirrored};
 use slidercrank::integrator::methods::named;
 use slidercrank::integrator::{Effort, Integrator, Ode, Settings, StepPoint};
+use slidercrank::model::Model;
 use slidercrank::model::joint::foundation::Bed;
 use slidercrank::model::joint::guide::Guide;
 use slidercrank::model::plant::Plant;
-use slidercrank::model::rigid::Rigid;
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::model::start::StartPose;
 use slidercrank::scene::{DampingLaw, FrictionLaw, Method, Scene, Surface};
@@ -144,7 +144,7 @@ fn jamming(play: Play) -> Scene {
 fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
     let scene = at_tolerance(faced([false, false, false, true]), 1e-8);
     let guide = Guide::new(&scene);
-    let plant = Rigid::assemble(&scene, 0.0);
+    let plant = Model::assemble(&scene, 0.0);
     let mut y = vec![0.0; plant.extent().states];
     plant.write_start(&StartPose::of(&scene).expect("a loop that closes"), &mut y);
     let contacts = plant.start_contacts(0.0, &y);
@@ -185,7 +185,7 @@ fn a_face_closed_at_the_start_has_the_least_approach_speed() {
     for (offset, upper) in [(1.2e-4, true), (-1.2e-4, false)] {
         let mut scene = faced([false, false, false, true]);
         scene.joint.t.offset_start = offset;
-        let plant = Rigid::assemble(&scene, 0.0);
+        let plant = Model::assemble(&scene, 0.0);
         let mut y = vec![0.0; plant.extent().states];
         plant.write_start(&StartPose::of(&scene).expect("a loop that closes"), &mut y);
         let contacts = plant.start_contacts(0.0, &y);

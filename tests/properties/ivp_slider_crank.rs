@@ -6,9 +6,8 @@
 
 use slidercrank::integrator::methods::named;
 use slidercrank::integrator::{Effort, Integrator, Settings};
-use slidercrank::model::flexible::{Flexible, most_equations};
+use slidercrank::model::Model;
 use slidercrank::model::plant::Plant;
-use slidercrank::model::rod::{Rod, most_functions};
 use slidercrank::model::state::Instant;
 use slidercrank::scene::modal::{AxialMode, BendingMode, ModalTable};
 use slidercrank::scene::{DriveMode, Scene};
@@ -113,11 +112,7 @@ fn at_the_end(factor: f64) -> (Instant, [f64; 4]) {
     let f = &mut scene.rod.flexible;
     (f.bending_modes, f.axial_modes, f.damping_ratio, f.geometric_stiffness) = (2, 2, 0.0, false);
     f.table = Some(table);
-    let plant = Flexible::<32, { most_equations(4) }, 4, { most_functions(4) }>::assemble(
-        &scene,
-        0.0,
-        Rod::new(&scene).expect("a flexible rod"),
-    );
+    let plant = Model::assemble(&scene, 0.0);
     // Positions and rates of the set's initial state.
     let [a, b] = amplitudes(nodes, [0.103339863e-4, 0.169327969e-4]);
     let [c, d] = amplitudes(nodes, [-0.178591076e-5, -0.268938672e-5]);

@@ -6,9 +6,9 @@ use super::scenes::{at, contacts, crooked, elastic, inputs, revolutes, start, wi
 use nalgebra::{DMatrix, DVector};
 use slidercrank::integrator::{Jacobian, Linearizable, Ode};
 use slidercrank::math::Real;
+use slidercrank::model::Model;
 use slidercrank::model::contact::ContactMode;
 use slidercrank::model::plant::Plant;
-use slidercrank::model::rigid::Rigid;
 use slidercrank::model::scalar::Tangent;
 use slidercrank::model::start::StartPose;
 use slidercrank::model::state::Contacts;
@@ -20,7 +20,7 @@ const N: usize = 18;
 const P: usize = N / 2;
 
 /// Everything has clearance.
-type Loose = Rigid;
+type Loose = Model;
 
 /// Three bodies that touch each other at crank pin and slider pin alone: state and contacts.
 fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) {
@@ -120,7 +120,7 @@ fn it_is_finite_where_journals_are_centred_and_contacts_just_touch() {
         for contact in contacts(&mut scene) {
             contact.friction.law = law;
         }
-        let plant = Rigid::assemble(&scene, 0.0);
+        let plant = Model::assemble(&scene, 0.0);
         let n = plant.extent().states;
         let mut centred = vec![0.0; n];
         plant.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut centred);

@@ -6,10 +6,8 @@ use super::scenes::{Play, all_plays, contacts, crooked, letters, revolutes, with
 use slidercrank::integrator::SeveralInstants;
 use slidercrank::integrator::system::one_by_one;
 use slidercrank::math::{ROW, Real, Row};
-use slidercrank::model::flexible::{Flexible, most_equations};
+use slidercrank::model::Model;
 use slidercrank::model::plant::Plant;
-use slidercrank::model::rigid::Rigid;
-use slidercrank::model::rod::{Rod, most_functions};
 use slidercrank::model::start::StartPose;
 use slidercrank::scene::{DampingLaw, DriveMode, Elasticity, FrictionLaw, Scene, Surface};
 
@@ -85,7 +83,7 @@ fn a_rigid_mechanism_moves_alike() {
         for drive in [DriveMode::Torque, DriveMode::Speed] {
             for (name, scene) in laws(play, drive) {
                 for _ in 0..4 {
-                    agree(&name, &scene, Rigid::assemble(&scene, 0.0), &mut chance);
+                    agree(&name, &scene, Model::assemble(&scene, 0.0), &mut chance);
                 }
             }
         }
@@ -94,8 +92,6 @@ fn a_rigid_mechanism_moves_alike() {
 
 #[test]
 fn a_mechanism_with_a_flexible_rod_moves_alike() {
-    type Few = Flexible<64, { most_equations(4) }, 4, { most_functions(4) }>;
-    type Many = Flexible<64, { most_equations(8) }, 8, { most_functions(8) }>;
     let mut chance = Chance(12);
     for play in all_plays() {
         for drive in [DriveMode::Torque, DriveMode::Speed] {
@@ -103,12 +99,7 @@ fn a_mechanism_with_a_flexible_rod_moves_alike() {
                 let (name, mut scene) = laws(play, drive).swap_remove(8);
                 (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (bending, axial);
                 let name = format!("{name}, {bending} + {axial} modes");
-                let rod = Rod::new(&scene).expect("a flexible rod");
-                if bending + axial > 4 {
-                    agree(&name, &scene, Many::assemble(&scene, 0.0, rod), &mut chance);
-                } else {
-                    agree(&name, &scene, Few::assemble(&scene, 0.0, rod), &mut chance);
-                }
+                agree(&name, &scene, Model::assemble(&scene, 0.0), &mut chance);
             }
         }
     }
@@ -117,7 +108,7 @@ fn a_mechanism_with_a_flexible_rod_moves_alike() {
 #[test]
 fn a_problem_that_knows_no_rows_is_asked_for_each_state() {
     let scene = crooked();
-    let plant = Rigid::assemble(&scene, 0.0);
+    let plant = Model::assemble(&scene, 0.0);
     let rows = [Row::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
     let mut alone = [Row::ZERO; 2];
     one_by_one(&plant, &Default::default(), &Row::ZERO, &rows, &mut alone);

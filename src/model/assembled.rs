@@ -1,4 +1,4 @@
-//! A mechanism with a rigid rod, as the integrator and the simulation ask for it.
+//! The model of a scene: its mechanism, as the integrator and the simulation ask for it.
 
 use super::bristles::bristled_contacts;
 use super::compiled::Compiled;
@@ -9,6 +9,7 @@ use super::jacobian::differentiate;
 use super::joint::rectangle::CORNERS;
 use super::mechanism::{FlexibleRod, Mechanism};
 use super::plant::Plant;
+use super::rod::{Modes, Room};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
@@ -22,9 +23,9 @@ use crate::integrator::{
 use crate::math::{Real, Row};
 use crate::scene::Scene;
 
-/// A mechanism, and the code that its steps are made of.
+/// The model of a scene: a mechanism, and the code that its steps are made of.
 #[derive(Clone, Debug)]
-pub struct Rigid {
+pub struct Model {
     /// The mechanism.
     pub mechanism: Mechanism,
     compiled: Compiled,
@@ -34,8 +35,8 @@ pub struct Rigid {
     event_scale: f64,
 }
 
-impl Rigid {
-    /// Assembles the mechanism of a scene that starts at `time` [s].
+impl Model {
+    /// Assembles the model of a scene that starts at `time` [s].
     pub fn assemble(scene: &Scene, time: f64) -> Self {
         let mechanism = Mechanism::assemble(scene, time);
         let (structure, states) = (mechanism.structure, mechanism.states());
@@ -69,9 +70,18 @@ impl Rigid {
             mechanism,
         }
     }
+
+    /// The same with a flexible rod's modes in arrays that have room for more of them: it has the same motion.
+    pub fn in_room(mut self, room: Room) -> Self {
+        if let Some(FlexibleRod { rod, modes, .. }) = &mut self.mechanism.rod {
+            *modes = Modes::in_room(rod, room);
+        }
+        self.compiled = Compiled::of(&self.mechanism);
+        self
+    }
 }
 
-impl Ode for Rigid {
+impl Ode for Model {
     type Discrete = Contacts;
 
     fn extent(&self) -> Extent {
@@ -98,7 +108,7 @@ impl Ode for Rigid {
     }
 }
 
-impl SeveralInstants for Rigid {
+impl SeveralInstants for Model {
     fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row], rates: &mut [Row]) {
         (self.compiled.rates_of_eight)(&self.mechanism, contacts, *t, y, rates);
     }
@@ -108,7 +118,7 @@ impl SeveralInstants for Rigid {
     }
 }
 
-impl Linearizable for Rigid {
+impl Linearizable for Model {
     fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let states = self.scales.len();
         differentiate::<MAX_STATES>(states, states, t, y, jacobian, &|t, y, rates| {
@@ -117,7 +127,7 @@ impl Linearizable for Rigid {
     }
 }
 
-impl Events for Rigid {
+impl Events for Model {
     fn event_count(&self) -> usize {
         self.mechanism.guard_count()
     }
@@ -160,7 +170,7 @@ impl Events for Rigid {
     }
 }
 
-impl Unilateral for Rigid {
+impl Unilateral for Model {
     fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
         self.mechanism.clearances.laws
     }
@@ -181,7 +191,7 @@ fn acting(impulses: &Impulses, states: usize) -> Acting<'_> {
     Acting { t: impulses.t, y: &impulses.y[..states], forces: &impulses.forces, acts }
 }
 
-impl Plant for Rigid {
+impl Plant for Model {
     fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
         self.mechanism.start(pose, y);
     }
