@@ -12,7 +12,7 @@
 
 use super::contact::Account;
 use super::mechanism::{FlexibleMotion, FlexibleRod, Mechanism, Stance};
-use super::rod::{Any, Chord, Room};
+use super::rod::{Any, Chord, Counted, Exactly, Room};
 use super::scalar::{Scalar, Tangent};
 use super::stages::of_so_many;
 use super::state::{Contacts, Instant, Pose};
@@ -94,11 +94,44 @@ impl Compiled {
             ends: Mechanism::ends,
             stages: stages_of_all(2 * mechanism.positions()),
         };
-        if structure.flexible {
-            return all;
+        if let Some(rod) = &mechanism.rod {
+            return flexible(structure, rod, all);
         }
         by_structure!(structure, own, all)
     }
+}
+
+/// The code for a flexible rod: for the usual numbers of modes some of its own, in which loops over modes are written
+/// out.
+fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled {
+    macro_rules! counted {
+        ($(($bending:literal $axial:literal))*) => {
+            match rod.modes.counts {
+                $(counts if Exactly::<$bending, $axial>::COUNTS == Some(counts) && rod.modes.room == Room::Few => Compiled {
+                    rates: Mechanism::counted_rates::<Exactly<$bending, $axial>>,
+                    stages: counted_stages::<Exactly<$bending, $axial>>(structure),
+                    ..all
+                },)*
+                _ => all,
+            }
+        };
+    }
+    counted!((2 0) (3 1))
+}
+
+/// The loop over a step's stages with a rod of these counts.
+fn counted_stages<C: Counted>(structure: &Structure) -> Stages {
+    macro_rules! of {
+        ($($n:literal)*) => {
+            match 2 * (structure.positions + C::MODES) {
+                $($n => |mechanism, tableau, contacts, t, y, h, k| {
+                    of_so_many::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.counted_rates::<C>(contacts, t, y, rates))
+                },)*
+                _ => |_, _, _, _, _, _, _| false,
+            }
+        };
+    }
+    of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
 /// The loop over a step's stages of any structure with so many states, which its sums know.
@@ -116,14 +149,14 @@ fn stages_of_all(states: usize) -> Stages {
     of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// `in_room!(rod, name(arguments))` calls `name::<K, F, S>(arguments)` with the arrays that the rod has room in: of `K` modes, `F`
-/// functions along the rod and `S` equations.
+/// `in_room!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the arrays that the rod has room in: of `K` modes and `F`
+/// functions along the rod.
 macro_rules! in_room {
     ($rod:expr, $own:ident . $name:ident $(:: <$number:ty>)? ($($argument:expr),*)) => {
         match $rod.modes.room {
-            Room::Few => $own.$name::<$($number,)? 4, 12, 7>($($argument),*),
-            Room::Many => $own.$name::<$($number,)? 8, 40, 11>($($argument),*),
-            Room::All => $own.$name::<$($number,)? 16, 48, 19>($($argument),*),
+            Room::Few => $own.$name::<$($number,)? 4, 12>($($argument),*),
+            Room::Many => $own.$name::<$($number,)? 8, 40>($($argument),*),
+            Room::All => $own.$name::<$($number,)? 16, 48>($($argument),*),
         }
     };
 }
@@ -207,7 +240,14 @@ impl Mechanism {
     }
 
     #[inline(never)]
-    fn write_flexible_rates<R: Scalar, const K: usize, const F: usize, const S: usize>(
+    fn counted_rates<C: Counted>(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
+        if let Some(rod) = &self.rod {
+            self.flexible_rates::<f64, C, 4, 12>(&self.structure, rod, contacts, t, y, rates);
+        }
+    }
+
+    #[inline(never)]
+    fn write_flexible_rates<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
         contacts: &Contacts,
@@ -215,11 +255,11 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
     ) {
-        self.flexible_rates::<R, Any, K, F, S>(&self.structure, rod, contacts, t, y, rates);
+        self.flexible_rates::<R, Any, K, F>(&self.structure, rod, contacts, t, y, rates);
     }
 
     #[inline(never)]
-    fn flexible_motion<R: Scalar, const K: usize, const F: usize, const S: usize>(
+    fn flexible_motion<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
         contacts: &Contacts,
@@ -227,11 +267,11 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
     ) -> FlexibleMotion<R, K, F> {
-        self.flexible_rates::<R, Any, K, F, S>(&self.structure, rod, contacts, t, y, rates)
+        self.flexible_rates::<R, Any, K, F>(&self.structure, rod, contacts, t, y, rates)
     }
 
     #[inline(never)]
-    fn drop_flexible_motion<const K: usize, const F: usize, const S: usize>(
+    fn drop_flexible_motion<const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
         contacts: &Contacts,
@@ -239,11 +279,11 @@ impl Mechanism {
         y: &[Tangent],
         rates: &mut [Tangent],
     ) {
-        self.flexible_motion::<Tangent, K, F, S>(rod, contacts, t, y, rates);
+        self.flexible_motion::<Tangent, K, F>(rod, contacts, t, y, rates);
     }
 
     #[inline(never)]
-    fn flexible_instant<R: Scalar, const K: usize, const F: usize, const S: usize>(
+    fn flexible_instant<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
         contacts: &Contacts,
@@ -251,6 +291,6 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
     ) -> Instant<R> {
-        self.flexible_motion::<R, K, F, S>(rod, contacts, t, y, rates).instant(self, rod, y, rates)
+        self.flexible_motion::<R, K, F>(rod, contacts, t, y, rates).instant(self, rod, y, rates)
     }
 }

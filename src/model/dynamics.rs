@@ -279,7 +279,7 @@ fn couple<R: Real + Mul<C, Output = R> + Fused<C>, C: Copy>(
 impl<R: Real> MassMatrix<R> {
     /// The slider does not turn.
     #[inline(always)]
-    fn solve_crank_and_rod(&self, of: &Structure, [q1, q2]: [R; 2]) -> [R; 3] {
+    pub fn solve_crank_and_rod(&self, of: &Structure, [q1, q2]: [R; 2]) -> [R; 3] {
         let Self { d1, d2, m12, .. } = *self;
         if of.topology.speed {
             [R::ZERO, q2 * d2.recip(), R::ZERO]
@@ -294,7 +294,7 @@ impl<R: Real> MassMatrix<R> {
     /// By cofactors: one division, and nothing but the last products waits for the right side. A matrix without
     /// couplings is solved angle by angle.
     #[inline(always)]
-    fn solve(&self, of: &Structure, [q1, q2, q3]: [R; 3]) -> [R; 3] {
+    pub fn solve(&self, of: &Structure, [q1, q2, q3]: [R; 3]) -> [R; 3] {
         let Self { d1, d2, d3, m12, m23, m13 } = *self;
         if !(of.coupled[1] || (of.coupled[0] && !of.topology.speed)) {
             let a1 = if of.topology.speed { R::ZERO } else { q1 * d1.recip() };

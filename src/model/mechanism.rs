@@ -155,10 +155,10 @@ impl Mechanism {
         (stance, loads, accelerations)
     }
 
-    /// Writes the rates of the state `y` at `t`, of a mechanism with a flexible rod in arrays of `K` modes, `F` functions
-    /// and `S` equations, with counts that are known or not; and returns what they were made of.
+    /// Writes the rates of the state `y` at `t`, of a mechanism with a flexible rod in arrays of `K` modes and `F`
+    /// functions along the rod, with counts that are known or not; and returns what they were made of.
     #[inline(always)]
-    pub(super) fn flexible_rates<R: Scalar, C: Counted, const K: usize, const F: usize, const S: usize>(
+    pub(super) fn flexible_rates<R: Scalar, C: Counted, const K: usize, const F: usize>(
         &self,
         of: &Structure,
         rod: &FlexibleRod,
@@ -181,7 +181,7 @@ impl Mechanism {
         let inertia = modes.inertia::<R, C>(&shape, eta, rate, pose.turning.speed[ROD]);
         let bent = Bent { modes, chain: rod.chain, shape: &shape, inertia: &inertia, eta, rate };
         let bodies = bent.augmented(of, &self.augmented, self.ideal.crank);
-        let accelerations = bent.accelerate::<C, S>(
+        let accelerations = bent.accelerate::<C>(
             of,
             &bodies,
             &self.augmented,
@@ -342,7 +342,7 @@ impl Mechanism {
 
     /// Poses, outwards, with a flexible rod, and its chord.
     #[inline(always)]
-    pub(super) fn flexible_pose<const K: usize, const F: usize, const S: usize>(
+    pub(super) fn flexible_pose<const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
         t: f64,

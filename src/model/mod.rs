@@ -3,7 +3,7 @@
 //! [`scene`](crate::scene) says which joints are ideal and which have clearance; here that becomes a
 //! set of minimal coordinates and a right-hand side that holds the effects called for and no others.
 //! Reading order: `structure` (what hangs on what), `bodies`, `kinematics` (outwards), `dynamics` (inwards, M·q̈ = Q),
-//! `rod` and `modal` (what a flexible rod adds), `mechanism` (all together), `compiled` and `assembled` ([`Model`], as the
+//! `rod`, `modal` and `condensation` (what a flexible rod adds), `mechanism` (all together), `compiled` and `assembled` ([`Model`], as the
 //! integrator asks for it), `joint` and `contact` (forces), `reactions` and `outputs`.
 
 mod assembled;
@@ -12,6 +12,7 @@ pub mod bodies;
 pub mod bristles;
 pub mod clearances;
 pub mod compiled;
+mod condensation;
 pub mod contact;
 pub mod drive;
 pub mod dynamics;

@@ -32,12 +32,13 @@
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
 use super::bodies::{AugmentedBodies, RodInChain};
+use super::condensation::ModalEquations;
 use super::dynamics::{Accelerations, Equations};
 use super::ideal::IdealMotion;
 use super::kinematics::{Arms, Turning};
 use super::loads::Loads;
 use super::plane::{Vec2, cross, perp};
-use super::rod::{Arrays, Counted, FEW_MODES, Inertia, ModalEquations, Shape};
+use super::rod::{Arrays, Counted, FEW_MODES, Inertia, Shape};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
 use crate::math::{Real, each};
 
@@ -95,10 +96,10 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
     }
 
     /// Solves the equations of motion: accelerations of roots and angles, and of the modal coordinates, which are written
-    /// into `modal` [m/s²]. `bodies` are those of [`Bent::augmented`], `S` is room for three angles and `K` modes.
+    /// into `modal` [m/s²]. `bodies` are those of [`Bent::augmented`].
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "inlined")]
-    pub fn accelerate<C: Counted, const S: usize>(
+    pub fn accelerate<C: Counted>(
         &self,
         of: &Structure,
         bodies: &AugmentedBodies<R>,
@@ -110,14 +111,13 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         loads: &Loads<R>,
         modal: &mut [R],
     ) -> Accelerations<R> {
-        const { assert!(S == K + 3) };
         let Self { modes, chain, shape, inertia, eta, rate } = self;
         let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
         let RodInChain { far, big_end, first: kappa, second } = *chain;
         let mut equations = Equations::new(of, bodies, gravity, turning, loads, |number| number);
         let forces = equations.gather(of, arms, loads);
         let mut roots = forces.fall(of, constant, gravity);
-        let Equations { mut m, mut q1, mut q2, mut q3, .. } = equations;
+        let Equations { m, q1, q2, q3, .. } = &mut equations;
 
         let [r1, r2, r3] = turning.rotation;
         let [w1, w2, w3] = turning.speed;
@@ -140,7 +140,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         let own = inertia.force + first * s2;
         let extra: Vec2<R> = r2.apply(Vec2::new(stretching.times_plus(kappa, own.x), sliding.times_plus(kappa, own.y)));
         let own_moment = first.x * sliding - first.y * stretching + length * own.y;
-        q2 -= (sliding * second).times_plus(length, own_moment.times_plus(big_end, inertia.couple));
+        *q2 -= (sliding * second).times_plus(length, own_moment.times_plus(big_end, inertia.couple));
         let far_extra: Vec2<R> = r2.apply(Vec2::new(stretching * far, sliding * far));
         let mut hanging = Vec2::<R>::ZERO; // acceleration of the joint by which the rod hangs, against the root
         let mut beyond = Vec2::<R>::ZERO; // centrifugal force of bodies beyond the far joint
@@ -148,15 +148,15 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         if with_crank {
             asked = h1.times_plus(-s1, asked);
             if inwards {
-                q1 -= cross(h1, far_extra);
+                *q1 -= cross(h1, far_extra);
                 beyond = h1 * -s1;
             } else {
-                q1 -= cross(arms.throw, extra);
+                *q1 -= cross(arms.throw, extra);
                 hanging = arms.throw * -s1;
             }
         }
         if with_slider {
-            q3 -= cross(h3, far_extra);
+            *q3 -= cross(h3, far_extra);
             beyond = h3 * -s3;
             asked = h3.times_plus(-s3, asked);
         }
@@ -172,15 +172,15 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         let (p1, p2, p3) = (perp(h1), perp(h2), perp(h3));
         let (per1, per2, per3) = (p1 * per_mass, p2 * per_mass, p3 * per_mass);
         if !matches!(root, Root::Ground) {
-            q2 -= root.product(p2, free);
+            *q2 -= root.product(p2, free);
             m.d2 -= root.product(p2, per2);
             if with_crank {
-                q1 -= root.product(p1, free);
+                *q1 -= root.product(p1, free);
                 m.d1 -= root.product(p1, per1);
                 m.m12 -= root.product(p1, per2);
             }
             if with_slider {
-                q3 -= root.product(p3, free);
+                *q3 -= root.product(p3, free);
                 m.d3 -= root.product(p3, per3);
                 m.m23 -= root.product(p3, per2);
             }
@@ -189,32 +189,14 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
             }
         }
 
-        // Places of the angles in the equations of the chain; the modes come after them.
+        // In a closed loop the rod's angle follows the crank's and the modes.
         let turns_crank = with_crank && !of.topology.speed;
-        let rod_angle = usize::from(turns_crank);
-        let slider_angle = rod_angle + usize::from(!of.closed);
-        let angles = slider_angle + usize::from(with_slider);
-        let mut all = ModalEquations { size: angles + n, matrix: [[R::ZERO; S]; S], right: [R::ZERO; S] };
-        let with_rod = closing.rod_ratio.times_plus(m.d2, m.m12); // of a closed loop
+        let (inertia_of_rod, couple_on_rod) = (m.d2, *q2);
+        let with_rod = closing.rod_ratio.times_plus(m.d2, m.m12);
         if of.closed {
-            if turns_crank {
-                all.matrix[0][0] = closing.rod_ratio.times_plus(m.m12 + with_rod, m.d1);
-                all.right[0] = (-with_rod).times_plus(closing.rod_bias, closing.rod_ratio.times_plus(q2, q1));
-            }
-        } else {
-            all.matrix[rod_angle][rod_angle] = m.d2;
-            all.right[rod_angle] = q2;
-            if turns_crank {
-                (all.matrix[0][0], all.matrix[0][rod_angle]) = (m.d1, m.m12);
-                all.right[0] = q1;
-            }
-            if with_slider {
-                (all.matrix[rod_angle][slider_angle], all.matrix[slider_angle][slider_angle]) = (m.m23, m.d3);
-                all.right[slider_angle] = q3;
-                if turns_crank {
-                    all.matrix[0][slider_angle] = m.m13;
-                }
-            }
+            m.d1 = closing.rod_ratio.times_plus(m.m12 + with_rod, m.d1);
+            *q1 = (-with_rod).times_plus(closing.rod_bias, closing.rod_ratio.times_plus(*q2, *q1));
+            (m.m12, m.d2, *q2) = (R::ZERO, R::ONE, R::ZERO);
         }
 
         // Modes.
@@ -224,6 +206,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         let slider_by_length = axis.dot(p3) * far;
         let (across, weight) = (perp(arms.throw), if of.weighs[ROD] { gravity } else { 0.0 });
         let resting = hanging + free_part(root, free);
+        let mut all = ModalEquations::<R, K>::new(n);
         let mut momentum = [Vec2::<R>::ZERO; K];
         let mut with_angle = [R::ZERO; K]; // M_θa
         each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
@@ -245,21 +228,21 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
                 let follows = closing.rod_per_length * slope;
                 if turns_crank {
                     let crank = across.dot(p);
-                    all.matrix[0][angles + a] = with_rod.times_plus(follows, closing.rod_ratio.times_plus(rod, crank));
+                    all.with[a][CRANK] = with_rod.times_plus(follows, closing.rod_ratio.times_plus(rod, crank));
                 }
-                let inertia = m.d2.times_plus(follows, rod);
-                force = (-inertia).times_plus(closing.rod_bias, follows.times_plus(q2, force));
+                let inertia = inertia_of_rod.times_plus(follows, rod);
+                force = (-inertia).times_plus(closing.rod_bias, follows.times_plus(couple_on_rod, force));
             } else {
-                all.matrix[rod_angle][angles + a] = rod;
+                all.with[a][ROD] = rod;
                 if turns_crank {
                     let crank = if inwards { slope * crank_by_length } else { across.dot(p) };
-                    all.matrix[0][angles + a] = crank - root.product(p1, shared);
+                    all.with[a][CRANK] = crank - root.product(p1, shared);
                 }
                 if with_slider {
-                    all.matrix[slider_angle][angles + a] = slope * slider_by_length - root.product(p3, shared);
+                    all.with[a][SLIDER] = slope * slider_by_length - root.product(p3, shared);
                 }
             }
-            all.right[angles + a] = force;
+            all.right[a] = force;
             // With one another.
             each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
                 let (other, other_own) = (shape.chord_slope[b], inertia.first_slope[b]);
@@ -271,37 +254,24 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
                 if of.closed {
                     let (follows, other_follows) = (closing.rod_per_length * slope, closing.rod_per_length * other);
                     let shared = follows.times_plus(with_angle[b], other_follows * with_angle[a]);
-                    both += (follows * other_follows).times_plus(m.d2, shared);
+                    both += (follows * other_follows).times_plus(inertia_of_rod, shared);
                 }
-                all.matrix[angles + b][angles + a] = both;
+                all.matrix[b][a] = both;
             });
         });
-        let found = all.solve::<C>();
-
-        // Back to all coordinates.
-        let mut angle = [R::ZERO; 3];
+        all.condense::<C>(&mut equations);
+        let Equations { m, q1, q2, q3, .. } = equations;
+        let mut angle =
+            if of.slider_angle.is_some() { m.solve(of, [q1, q2, q3]) } else { m.solve_crank_and_rod(of, [q1, q2]) };
+        let found = all.accelerations::<C>(angle);
+        let mut lengthening = R::ZERO;
         each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
-            modal[a] = found[angles + a];
+            modal[a] = found[a];
+            lengthening = found[a].times_plus(shape.chord_slope[a], lengthening);
         });
-        if turns_crank {
-            angle[CRANK] = found[0];
-        } else if !of.topology.speed {
-            angle[CRANK] = q1 * m.d1.recip();
-        }
         if of.closed {
-            let mut lengthening = R::ZERO;
-            each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
-                lengthening = found[angles + a].times_plus(shape.chord_slope[a], lengthening);
-            });
             let turning = closing.rod_ratio.times_plus(angle[CRANK], closing.rod_bias);
             angle[ROD] = closing.rod_per_length.times_plus(lengthening, turning);
-        } else {
-            angle[ROD] = found[rod_angle];
-        }
-        if with_slider {
-            angle[SLIDER] = found[slider_angle];
-        } else if of.slider_angle.is_some() {
-            angle[SLIDER] = q3 * m.d3.recip();
         }
         match of.slider {
             Link::Rail(_) if !inwards => roots.slider.x = forces.rail.x * constant.per_mass[SLIDER],
@@ -316,7 +286,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
                 own = per3.times_plus(-angle[SLIDER], own);
             }
             each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
-                own = momentum[a].times_plus(-(found[angles + a] * per_mass), own);
+                own = momentum[a].times_plus(-(found[a] * per_mass), own);
             });
             let falling = own - Vec2::new(0.0, gravity);
             match (root, of.rod) {

@@ -10,7 +10,6 @@ pub mod beam;
 mod inertia;
 mod modes;
 mod shape;
-mod solver;
 mod sums;
 mod tables;
 
@@ -18,7 +17,6 @@ pub use inertia::Inertia;
 pub(super) use modes::Arrays;
 pub use modes::{Any, Counted, Counts, Exactly, Modes, Room};
 pub use shape::{Chord, Shape};
-pub(super) use solver::ModalEquations;
 
 use super::bodies::Body;
 use super::plane::Vec2;

@@ -1,0 +1,205 @@
+//! Takes the modal coordinates out of the equations of motion, so that those of the angles are solved as with a rigid rod.
+//!
+//! ```text
+//!     | M_ηη  C  | | η̈ |   | Q_η |
+//!     | Cᵀ    M  |·| θ̈ | = | Q   |      M − Cᵀ·M_ηη⁻¹·C,   Q − Cᵀ·M_ηη⁻¹·Q_η
+//! ```
+//!
+//! M_ηη is positive definite and is eliminated by L·D·Lᵀ. D is of blocks of two, since pivots wait for one another, each
+//! with a division: there are half as many.
+
+#![allow(clippy::needless_range_loop)] // triangles are read by their indices
+
+use super::dynamics::Equations;
+use super::rod::Counted;
+use crate::math::{Real, each};
+
+/// Equations of at most `K` modal coordinates.
+pub struct ModalEquations<R, const K: usize> {
+    /// How many there are.
+    pub size: usize,
+    /// [kg] M_ηη; the upper triangle.
+    pub matrix: [[R; K]; K],
+    /// [kg·m] C: of each mode with the angles of crank, rod and slider.
+    pub with: [[R; 3]; K],
+    /// [N] Q_η.
+    pub right: [R; K],
+}
+
+/// Two coordinates that are eliminated together, and what their block divides by.
+#[derive(Clone, Copy)]
+struct Block<R> {
+    a: R,
+    b: R,
+    d: R,
+    per: R,
+}
+
+impl<R: Real> Block<R> {
+    /// The inverse block's determinant apart, times a column.
+    #[inline(always)]
+    fn adjugate(&self, [one, two]: [R; 2]) -> [R; 2] {
+        let Self { a, b, d, .. } = *self;
+        [d.times_plus(one, -(b * two)), a.times_plus(two, -(b * one))]
+    }
+
+    /// What is left of an element after both have been eliminated.
+    #[inline(always)]
+    fn reduced(&self, [p, q]: [R; 2], [one, two]: [R; 2], element: R) -> R {
+        p.times_plus(one, q * two).times_plus(-self.per, element)
+    }
+}
+
+impl<R: Real, const K: usize> ModalEquations<R, K> {
+    /// No equations yet, of `size` coordinates.
+    #[inline(always)]
+    pub fn new(size: usize) -> Self {
+        Self { size, matrix: [[R::ZERO; K]; K], with: [[R::ZERO; 3]; K], right: [R::ZERO; K] }
+    }
+
+    /// Takes them out of the equations of the angles.
+    #[inline(always)]
+    pub(super) fn condense<C: Counted>(&mut self, angles: &mut Equations<R>) {
+        let size = self.size;
+        each!(C::KNOWN, half < size / 2, C::MODES.div_ceil(2) => {
+            let (k, block) = (2 * half, self.block(2 * half));
+            each!(C::KNOWN, i in k + 2..size, C::MODES => {
+                let own = block.adjugate([self.matrix[k][i], self.matrix[k + 1][i]]);
+                each!(C::KNOWN, j in i..size, C::MODES => {
+                    let other = [self.matrix[k][j], self.matrix[k + 1][j]];
+                    self.matrix[i][j] = block.reduced(own, other, self.matrix[i][j]);
+                });
+                let (one, two) = (self.with[k], self.with[k + 1]);
+                each!(true, angle < 3 => {
+                    self.with[i][angle] = block.reduced(own, [one[angle], two[angle]], self.with[i][angle]);
+                });
+                self.right[i] = block.reduced(own, [self.right[k], self.right[k + 1]], self.right[i]);
+            });
+            angles.reduce(&block, self.with[k], self.with[k + 1], [self.right[k], self.right[k + 1]]);
+        });
+        if !size.is_multiple_of(2) {
+            // The last one alone is a block with a coordinate that nothing moves.
+            let last = size - 1;
+            let (b, d) = (R::ZERO, R::ONE);
+            let a = self.matrix[last][last];
+            let block = Block { a, b, d, per: a.recip() };
+            angles.reduce(&block, self.with[last], [R::ZERO; 3], [self.right[last], R::ZERO]);
+        }
+    }
+
+    /// The block of the coordinates `k` and `k` + 1.
+    #[inline(always)]
+    fn block(&self, k: usize) -> Block<R> {
+        let (a, b, d) = (self.matrix[k][k], self.matrix[k][k + 1], self.matrix[k + 1][k + 1]);
+        Block { a, b, d, per: a.times_plus(d, -(b * b)).recip() }
+    }
+
+    /// The accelerations [m/s²] of the modal coordinates at those of the angles [rad/s²].
+    #[inline(always)]
+    pub(super) fn accelerations<C: Counted>(self, angles: [R; 3]) -> [R; K] {
+        let (size, mut found) = (self.size, self.right);
+        each!(C::KNOWN, k < size, C::MODES => {
+            each!(true, angle < 3 => {
+                found[k] = (-self.with[k][angle]).times_plus(angles[angle], found[k]);
+            });
+        });
+        if !size.is_multiple_of(2) {
+            let last = size - 1;
+            found[last] = found[last] * self.matrix[last][last].recip();
+        }
+        each!(C::KNOWN, done < size / 2, C::MODES.div_ceil(2) => {
+            let k = 2 * (size / 2 - 1 - done);
+            each!(C::KNOWN, later in k + 2..size, C::MODES => {
+                found[k] = (-self.matrix[k][later]).times_plus(found[later], found[k]);
+                found[k + 1] = (-self.matrix[k + 1][later]).times_plus(found[later], found[k + 1]);
+            });
+            let block = self.block(k);
+            let [one, two] = block.adjugate([found[k], found[k + 1]]);
+            (found[k], found[k + 1]) = (one * block.per, two * block.per);
+        });
+        found
+    }
+}
+
+impl<R: Real> Equations<R> {
+    /// What is left of the equations of the angles after a block of modal coordinates has been eliminated that stands with
+    /// them in such columns and has such right sides.
+    #[inline(always)]
+    fn reduce(&mut self, block: &Block<R>, one: [R; 3], two: [R; 3], right: [R; 2]) {
+        let column = |angle: usize| [one[angle], two[angle]];
+        let [first, second, third] = [block.adjugate(column(0)), block.adjugate(column(1)), block.adjugate(column(2))];
+        let m = &mut self.m;
+        m.d1 = block.reduced(first, column(0), m.d1);
+        m.m12 = block.reduced(first, column(1), m.m12);
+        m.m13 = block.reduced(first, column(2), m.m13);
+        m.d2 = block.reduced(second, column(1), m.d2);
+        m.m23 = block.reduced(second, column(2), m.m23);
+        m.d3 = block.reduced(third, column(2), m.d3);
+        self.q1 = block.reduced(first, right, self.q1);
+        self.q2 = block.reduced(second, right, self.q2);
+        self.q3 = block.reduced(third, right, self.q3);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::dynamics::MassMatrix;
+    use crate::model::plane::Vec2;
+    use crate::model::rod::{Any, Exactly};
+
+    const ROOM: usize = 12;
+
+    /// Element of a chain of springs between masses, and a corner that fills up.
+    fn element(i: usize, j: usize) -> f64 {
+        match i.abs_diff(j) {
+            0 => 3.0 + i as f64,
+            1 => -1.0,
+            distance => 0.1 / distance as f64,
+        }
+    }
+
+    fn solution(k: usize) -> f64 {
+        if k.is_multiple_of(2) { k as f64 + 1.0 } else { -(k as f64 + 1.0) }
+    }
+
+    /// The modal coordinates found with the angles', which come after them, at their solution; and what is left of the
+    /// angles' equations there.
+    fn found<C: Counted>(size: usize) -> ([f64; ROOM], [f64; 3]) {
+        let right = |i: usize| (0..size + 3).map(|j| element(i, j) * solution(j)).sum::<f64>();
+        let mut modal = ModalEquations::<f64, ROOM>::new(size);
+        for i in 0..size {
+            for j in i..size {
+                modal.matrix[i][j] = element(i, j);
+            }
+            modal.with[i] = [0, 1, 2].map(|k| element(i, size + k));
+            modal.right[i] = right(i);
+        }
+        let of = |i: usize, j: usize| element(size + i, size + j);
+        let m = MassMatrix { d1: of(0, 0), d2: of(1, 1), d3: of(2, 2), m12: of(0, 1), m23: of(1, 2), m13: of(0, 2) };
+        let [q1, q2, q3] = [0, 1, 2].map(|k| right(size + k));
+        let mut angles = Equations { m, q1, q2, q3, h1: Vec2::ZERO, h2: Vec2::ZERO };
+        modal.condense::<C>(&mut angles);
+        let wanted = [0, 1, 2].map(|k| solution(size + k));
+        let [a1, a2, a3] = wanted;
+        let Equations { m, q1, q2, q3, .. } = angles;
+        let left = [
+            q1 - m.d1 * a1 - m.m12 * a2 - m.m13 * a3,
+            q2 - m.m12 * a1 - m.d2 * a2 - m.m23 * a3,
+            q3 - m.m13 * a1 - m.m23 * a2 - m.d3 * a3,
+        ];
+        (modal.accelerations::<C>(wanted), left)
+    }
+
+    #[test]
+    fn what_is_condensed_has_the_solution_of_the_whole() {
+        for size in 1..=ROOM {
+            let (modal, left) = found::<Any>(size);
+            assert_eq!((modal, left), found::<Exactly<ROOM, 0>>(size), "{size}");
+            for (k, modal) in modal.iter().enumerate().take(size) {
+                assert!((modal - solution(k)).abs() < 1e-11, "{size}: {modal} for {}", solution(k));
+            }
+            assert!(left.iter().all(|left| left.abs() < 1e-10), "{size}: {left:?}");
+        }
+    }
+}
