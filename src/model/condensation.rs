@@ -62,18 +62,10 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
     pub(super) fn condense<C: Counted>(&mut self, angles: &mut Equations<R>) {
         let size = self.size;
         each!(C::KNOWN, half < size / 2, C::MODES.div_ceil(2) => {
-            let (k, block) = (2 * half, self.block(2 * half));
+            let k = 2 * half;
+            let block = self.block(k);
             each!(C::KNOWN, i in k + 2..size, C::MODES => {
-                let own = block.adjugate([self.matrix[k][i], self.matrix[k + 1][i]]);
-                each!(C::KNOWN, j in i..size, C::MODES => {
-                    let other = [self.matrix[k][j], self.matrix[k + 1][j]];
-                    self.matrix[i][j] = block.reduced(own, other, self.matrix[i][j]);
-                });
-                let (one, two) = (self.with[k], self.with[k + 1]);
-                each!(true, angle < 3 => {
-                    self.with[i][angle] = block.reduced(own, [one[angle], two[angle]], self.with[i][angle]);
-                });
-                self.right[i] = block.reduced(own, [self.right[k], self.right[k + 1]], self.right[i]);
+                self.eliminate::<C>(&block, k, i);
             });
             angles.reduce(&block, self.with[k], self.with[k + 1], [self.right[k], self.right[k + 1]]);
         });
@@ -85,6 +77,21 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
             let block = Block { a, b, d, per: a.recip() };
             angles.reduce(&block, self.with[last], [R::ZERO; 3], [self.right[last], R::ZERO]);
         }
+    }
+
+    /// Takes the block of `k` and `k` + 1 out of the equation of `i`.
+    #[inline(always)]
+    fn eliminate<C: Counted>(&mut self, block: &Block<R>, k: usize, i: usize) {
+        let own = block.adjugate([self.matrix[k][i], self.matrix[k + 1][i]]);
+        each!(C::KNOWN, j in i..self.size, C::MODES => {
+            let other = [self.matrix[k][j], self.matrix[k + 1][j]];
+            self.matrix[i][j] = block.reduced(own, other, self.matrix[i][j]);
+        });
+        let (one, two) = (self.with[k], self.with[k + 1]);
+        for angle in 0..3 {
+            self.with[i][angle] = block.reduced(own, [one[angle], two[angle]], self.with[i][angle]);
+        }
+        self.right[i] = block.reduced(own, [self.right[k], self.right[k + 1]], self.right[i]);
     }
 
     /// The block of the coordinates `k` and `k` + 1.
@@ -99,25 +106,30 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
     pub(super) fn accelerations<C: Counted>(self, angles: [R; 3]) -> [R; K] {
         let (size, mut found) = (self.size, self.right);
         each!(C::KNOWN, k < size, C::MODES => {
-            each!(true, angle < 3 => {
-                found[k] = (-self.with[k][angle]).times_plus(angles[angle], found[k]);
-            });
+            let [with_crank, with_rod, with_slider] = self.with[k];
+            let known = with_crank.times_plus(angles[0], with_rod.times_plus(angles[1], with_slider * angles[2]));
+            found[k] = found[k] - known;
         });
         if !size.is_multiple_of(2) {
             let last = size - 1;
             found[last] = found[last] * self.matrix[last][last].recip();
         }
         each!(C::KNOWN, done < size / 2, C::MODES.div_ceil(2) => {
-            let k = 2 * (size / 2 - 1 - done);
-            each!(C::KNOWN, later in k + 2..size, C::MODES => {
-                found[k] = (-self.matrix[k][later]).times_plus(found[later], found[k]);
-                found[k + 1] = (-self.matrix[k + 1][later]).times_plus(found[later], found[k + 1]);
-            });
-            let block = self.block(k);
-            let [one, two] = block.adjugate([found[k], found[k + 1]]);
-            (found[k], found[k + 1]) = (one * block.per, two * block.per);
+            self.substitute::<C>(2 * (size / 2 - 1 - done), &mut found);
         });
         found
+    }
+
+    /// Puts the coordinates `k` and `k` + 1 in place of their right sides, those after them being there.
+    #[inline(always)]
+    fn substitute<C: Counted>(&self, k: usize, found: &mut [R; K]) {
+        each!(C::KNOWN, later in k + 2..self.size, C::MODES => {
+            found[k] = (-self.matrix[k][later]).times_plus(found[later], found[k]);
+            found[k + 1] = (-self.matrix[k + 1][later]).times_plus(found[later], found[k + 1]);
+        });
+        let block = self.block(k);
+        let [one, two] = block.adjugate([found[k], found[k + 1]]);
+        (found[k], found[k + 1]) = (one * block.per, two * block.per);
     }
 }
 

@@ -37,7 +37,7 @@ use super::dynamics::{Accelerations, Equations};
 use super::ideal::IdealMotion;
 use super::kinematics::{Arms, Turning};
 use super::loads::Loads;
-use super::plane::{Vec2, cross, perp};
+use super::plane::{Rotation, Vec2, cross, perp};
 use super::rod::{Arrays, Counted, FEW_MODES, Inertia, Shape};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
 use crate::math::{Real, each};
@@ -85,6 +85,16 @@ impl Root {
             Self::Free => u.dot(v),
         }
     }
+
+    /// What of an acceleration the root makes.
+    #[inline(always)]
+    fn part<R: Real>(self, free: Vec2<R>) -> Vec2<R> {
+        match self {
+            Self::Ground => Vec2::ZERO,
+            Self::Rail => Vec2::new(free.x, R::ZERO),
+            Self::Free => free,
+        }
+    }
 }
 
 impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
@@ -113,7 +123,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
     ) -> Accelerations<R> {
         let Self { modes, chain, shape, inertia, eta, rate } = self;
         let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
-        let RodInChain { far, big_end, first: kappa, second } = *chain;
+        let RodInChain { far, big_end, first: kappa, second } = *chain; // see the module
         let mut equations = Equations::new(of, bodies, gravity, turning, loads, |number| number);
         let forces = equations.gather(of, arms, loads);
         let mut roots = forces.fall(of, constant, gravity);
@@ -191,73 +201,52 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
 
         // In a closed loop the rod's angle follows the crank's and the modes.
         let turns_crank = with_crank && !of.topology.speed;
-        let (inertia_of_rod, couple_on_rod) = (m.d2, *q2);
-        let with_rod = closing.rod_ratio.times_plus(m.d2, m.m12);
+        let (rod_inertia, rod_couple) = (m.d2, *q2);
+        let following = closing.rod_ratio.times_plus(m.d2, m.m12);
         if of.closed {
-            m.d1 = closing.rod_ratio.times_plus(m.m12 + with_rod, m.d1);
-            *q1 = (-with_rod).times_plus(closing.rod_bias, closing.rod_ratio.times_plus(*q2, *q1));
+            m.d1 = closing.rod_ratio.times_plus(m.m12 + following, m.d1);
+            *q1 = (-following).times_plus(closing.rod_bias, closing.rod_ratio.times_plus(*q2, *q1));
             (m.m12, m.d2, *q2) = (R::ZERO, R::ONE, R::ZERO);
         }
 
-        // Modes.
         let along = (-s2).times_plus(length, stretching); // of the far joint's acceleration, along the chord
-        let by_length = axis.dot(forces.far_end - beyond) * far - along.times_plus(second, inertia.force.x * big_end);
-        let crank_by_length = if inwards { axis.dot(p1) * far } else { R::ZERO };
-        let slider_by_length = axis.dot(p3) * far;
-        let (across, weight) = (perp(arms.throw), if of.weighs[ROD] { gravity } else { 0.0 });
-        let resting = hanging + free_part(root, free);
+        let chain = Chain {
+            root,
+            closed: of.closed,
+            inwards,
+            turns_crank,
+            with_slider,
+            rod: *chain,
+            weight: if of.weighs[ROD] { gravity } else { 0.0 },
+            per_mass,
+            rotation: r2,
+            length,
+            first,
+            along,
+            sliding,
+            resting: hanging + root.part(free),
+            across: perp(arms.throw),
+            p1,
+            p2,
+            p3,
+            by_length: axis.dot(forces.far_end - beyond) * far - along.times_plus(second, inertia.force.x * big_end),
+            crank_by_length: axis.dot(p1) * far,
+            slider_by_length: axis.dot(p3) * far,
+            closing: *closing,
+            rod_inertia,
+            rod_couple,
+            following,
+        };
         let mut all = ModalEquations::<R, K>::new(n);
-        let mut momentum = [Vec2::<R>::ZERO; K];
-        let mut with_angle = [R::ZERO; K]; // M_θa
+        let (mut momentum, mut with_rod) = ([Vec2::<R>::ZERO; K], [R::ZERO; K]);
         each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
             let (slope, own) = (shape.chord_slope[a], inertia.first_slope[a]);
-            let p: Vec2<R> = r2.apply(Vec2::new(slope.times_plus(kappa, own.x), own.y));
-            momentum[a] = p;
-            with_angle[a] = (length * own.y - first.y * slope).times_plus(big_end, inertia.turning[a]);
-            let mut force = modes.force(a, eta[a], rate[a], &loads.end_couple) - inertia.modal_force[a];
-            force = slope.times_plus(by_length, force);
-            force -= own.x.times_plus(along, own.y * sliding) * big_end;
-            force -= p.dot(resting) + p.y * weight;
-            let shared = match root {
-                Root::Ground => Vec2::ZERO,
-                _ => p * per_mass,
-            };
-            // With the angles.
-            let rod = with_angle[a] - root.product(p2, shared);
-            if of.closed {
-                let follows = closing.rod_per_length * slope;
-                if turns_crank {
-                    let crank = across.dot(p);
-                    all.with[a][CRANK] = with_rod.times_plus(follows, closing.rod_ratio.times_plus(rod, crank));
-                }
-                let inertia = inertia_of_rod.times_plus(follows, rod);
-                force = (-inertia).times_plus(closing.rod_bias, follows.times_plus(couple_on_rod, force));
-            } else {
-                all.with[a][ROD] = rod;
-                if turns_crank {
-                    let crank = if inwards { slope * crank_by_length } else { across.dot(p) };
-                    all.with[a][CRANK] = crank - root.product(p1, shared);
-                }
-                if with_slider {
-                    all.with[a][SLIDER] = slope * slider_by_length - root.product(p3, shared);
-                }
-            }
-            all.right[a] = force;
-            // With one another.
-            each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
-                let (other, other_own) = (shape.chord_slope[b], inertia.first_slope[b]);
-                let mut both = inertia.modal[a][b] + slope * other * second
-                    + own.x.times_plus(other, other_own.x * slope) * big_end;
-                if !matches!(root, Root::Ground) {
-                    both -= root.product(momentum[b], shared);
-                }
-                if of.closed {
-                    let (follows, other_follows) = (closing.rod_per_length * slope, closing.rod_per_length * other);
-                    let shared = follows.times_plus(with_angle[b], other_follows * with_angle[a]);
-                    both += (follows * other_follows).times_plus(inertia_of_rod, shared);
-                }
-                all.matrix[b][a] = both;
-            });
+            momentum[a] = chain.momentum(slope, own);
+            with_rod[a] = chain.with_rod(slope, own, inertia.turning[a]);
+            all.with[a] = chain.with_angles(slope, momentum[a], with_rod[a]);
+            let elastic = modes.force(a, eta[a], rate[a], &loads.end_couple) - inertia.modal_force[a];
+            all.right[a] = chain.force(slope, own, momentum[a], with_rod[a], elastic);
+            self.write_pairs(&chain, a, &momentum, &with_rod, &mut all);
         });
         all.condense::<C>(&mut equations);
         let Equations { m, q1, q2, q3, .. } = equations;
@@ -297,14 +286,140 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         }
         Accelerations { roots, angle }
     }
+
+    /// Writes M_ab of the mode `a` with those before it.
+    #[inline(always)]
+    fn write_pairs(
+        &self,
+        chain: &Chain<R>,
+        a: usize,
+        momentum: &[Vec2<R>; K],
+        with_rod: &[R; K],
+        all: &mut ModalEquations<R, K>,
+    ) {
+        let (slope, own) = (&self.shape.chord_slope, &self.inertia.first_slope);
+        each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
+            let pair = self.inertia.modal[a][b];
+            let pair = chain.inertia([slope[a], slope[b]], [own[a], own[b]], [momentum[a], momentum[b]], pair);
+            all.matrix[b][a] = chain.closed_inertia([slope[a], slope[b]], [with_rod[a], with_rod[b]], pair);
+        });
+    }
 }
 
-/// What of the root's acceleration there is.
-#[inline(always)]
-fn free_part<R: Real>(root: Root, free: Vec2<R>) -> Vec2<R> {
-    match root {
-        Root::Ground => Vec2::ZERO,
-        Root::Rail => Vec2::new(free.x, R::ZERO),
-        Root::Free => free,
+/// What a mode meets in its chain: numbers that are the same for each of them. A mode's `slope` is L_a, its `own` ∂D/∂η_a.
+struct Chain<R> {
+    root: Root,
+    closed: bool,
+    inwards: bool,
+    turns_crank: bool,
+    with_slider: bool,
+    rod: RodInChain,
+    /// [m/s²] Gravity, where the chain does not float.
+    weight: f64,
+    /// [1/kg]
+    per_mass: f64,
+    rotation: Rotation<R>,
+    /// [m] L.
+    length: R,
+    /// [kg·m] D.
+    first: Vec2<R>,
+    /// [m/s²] L̈ − θ̇²·L at η̈ = 0.
+    along: R,
+    /// [m/s²] 2·θ̇·L̇.
+    sliding: R,
+    /// [m/s²] Acceleration of the joint by which the rod hangs, at accelerations of zero.
+    resting: Vec2<R>,
+    /// [m] perp(throw).
+    across: Vec2<R>,
+    /// [kg·m] Momentum per unit of the angles of crank, rod and slider.
+    p1: Vec2<R>,
+    p2: Vec2<R>,
+    p3: Vec2<R>,
+    /// [N] Force along the chord.
+    by_length: R,
+    /// [kg·m] Inertia of the crank's angle with the length of a chord on which it hangs,
+    crank_by_length: R,
+    /// and of the slider's.
+    slider_by_length: R,
+    closing: IdealMotion<R>,
+    /// Of a closed loop: [kg·m²] M_22, [N·m] Q_2 and [kg·m²] M_12 + ρ·M_22.
+    rod_inertia: R,
+    rod_couple: R,
+    following: R,
+}
+
+impl<R: Real> Chain<R> {
+    /// [kg] p_a = rot(θ2)·P_a.
+    #[inline(always)]
+    fn momentum(&self, slope: R, own: Vec2<R>) -> Vec2<R> {
+        self.rotation.apply(Vec2::new(slope.times_plus(self.rod.first, own.x), own.y))
+    }
+
+    /// [kg·m] M_θa.
+    #[inline(always)]
+    fn with_rod(&self, slope: R, own: Vec2<R>, turning: R) -> R {
+        (self.length * own.y - self.first.y * slope).times_plus(self.rod.big_end, turning)
+    }
+
+    /// [kg·m] With the angles of crank, rod and slider, as far as these are coordinates.
+    #[inline(always)]
+    fn with_angles(&self, slope: R, momentum: Vec2<R>, with_rod: R) -> [R; 3] {
+        let Self { root, closing, .. } = self;
+        let shared = momentum * self.per_mass;
+        let mut all = [R::ZERO; 3];
+        if self.closed {
+            if self.turns_crank {
+                let follows = closing.rod_per_length * slope;
+                let open = closing.rod_ratio.times_plus(with_rod, self.across.dot(momentum));
+                all[CRANK] = self.following.times_plus(follows, open);
+            }
+            return all;
+        }
+        all[ROD] = with_rod - root.product(self.p2, shared);
+        if self.turns_crank {
+            let crank = if self.inwards { slope * self.crank_by_length } else { self.across.dot(momentum) };
+            all[CRANK] = crank - root.product(self.p1, shared);
+        }
+        if self.with_slider {
+            all[SLIDER] = slope * self.slider_by_length - root.product(self.p3, shared);
+        }
+        all
+    }
+
+    /// [N] Q_a, of which `elastic` is what the mode alone has.
+    #[inline(always)]
+    fn force(&self, slope: R, own: Vec2<R>, momentum: Vec2<R>, with_rod: R, elastic: R) -> R {
+        let mut force = slope.times_plus(self.by_length, elastic);
+        force -= own.x.times_plus(self.along, own.y * self.sliding) * self.rod.big_end;
+        force -= momentum.dot(self.resting) + momentum.y * self.weight;
+        if self.closed {
+            let follows = self.closing.rod_per_length * slope;
+            let inertia = self.rod_inertia.times_plus(follows, with_rod);
+            force = (-inertia).times_plus(self.closing.rod_bias, follows.times_plus(self.rod_couple, force));
+        }
+        force
+    }
+
+    /// [kg] M_ab of two modes, of which the rod's own is `own_inertia`.
+    #[inline(always)]
+    fn inertia(&self, slope: [R; 2], own: [Vec2<R>; 2], momentum: [Vec2<R>; 2], own_inertia: R) -> R {
+        let [a, b] = slope;
+        let crossed = own[0].x.times_plus(b, own[1].x * a);
+        let both = crossed.times_plus(self.rod.big_end, (a * b).times_plus(self.rod.second, own_inertia));
+        match self.root {
+            Root::Ground => both,
+            root => (-root.product(momentum[0], momentum[1])).times_plus(self.per_mass, both),
+        }
+    }
+
+    /// The same in a loop, if it is closed: the rod's angle follows.
+    #[inline(always)]
+    fn closed_inertia(&self, slope: [R; 2], with_rod: [R; 2], open: R) -> R {
+        if !self.closed {
+            return open;
+        }
+        let [a, b] = slope.map(|slope| self.closing.rod_per_length * slope);
+        let crossed = a.times_plus(with_rod[1], b * with_rod[0]);
+        open + (a * b).times_plus(self.rod_inertia, crossed)
     }
 }
