@@ -1,11 +1,14 @@
 //! Every command on the scenes that are shipped with it: it ends well, and no row of a table is without numbers.
 //!
-//! `peers` is left out, as what it compares with comes from elsewhere, and so is `ssp`, which the tests of the hosts run.
+//! `peers` has none of those that it compares with, as they come from elsewhere and take minutes; the study of `ssp`,
+//! which takes minutes too, is run with a short plan by the tests of the hosts.
 
-use fmu_harness::scenes::{contests, directory, names};
+use fmu_harness::scenes::{Scenario, contests, directory, names};
 use rayon::prelude::*;
+use slidercrank::fmi::slave::variables::VARIABLES;
+use slidercrank::scene::parameter::{Kind, PARAMETERS};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, ExitStatus};
 
 /// The one shipped scene whose crank stands: it has no turns.
 const STANDING: &str = "hold";
@@ -14,13 +17,21 @@ const PRESCRIBED: &str = "ideal";
 /// Under each table stands a sentence for every row without numbers.
 const GAP: &str = "has no numbers";
 
+fn program() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_fmu-harness"))
+}
+
+/// How a command ends, and all that it says.
+fn said(command: &mut Command) -> (ExitStatus, String) {
+    let output = command.output().expect("the program starts");
+    (output.status, String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr))
+}
+
 /// Runs a command and tells what is wrong with it.
 fn wrong(arguments: &[&str], out: &Path) -> Option<String> {
-    let output = Command::new(env!("CARGO_BIN_EXE_fmu-harness")).args(arguments).arg("-o").arg(out).output();
-    let output = output.expect("the program starts");
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    let well = output.status.success() && !text.contains(GAP) && !text.contains("NaN");
-    (!well).then(|| format!("{}: {}\n{text}", arguments.join(" "), output.status))
+    let (status, text) = said(program().args(arguments).arg("-o").arg(out));
+    let well = status.success() && !text.contains(GAP) && !text.contains("NaN");
+    (!well).then(|| format!("{}: {status}\n{text}", arguments.join(" ")))
 }
 
 /// Runs all of these, each with a directory of its own, and finds nothing wrong.
@@ -92,4 +103,115 @@ fn a_row_without_numbers_is_told_under_the_table_and_fails_the_command() {
     let found = wrong(&arguments, folder.path()).expect("some of its mechanisms cannot go round");
     assert!(found.contains("none has no numbers: none: "), "{found}");
     assert!(found.contains("error: ") && found.contains("of the rows above"), "{found}");
+}
+
+#[test]
+fn inspect_tells_every_variable_of_every_scene_as_it_is_packaged() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    for scene in shipped() {
+        let packaged = folder.path().join("scene.fmu");
+        let found = wrong(&["package", "--scene", &scene], &packaged);
+        assert_eq!(found, None);
+        let (status, text) = said(program().arg("inspect").arg(&packaged));
+        assert!(status.success() && text.contains("model: SliderCrank"), "{scene}: {status}\n{text}");
+        let table: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        let row = |name: &str| table.iter().find(|row| row.first() == Some(&name));
+        for (reference, variable) in VARIABLES.iter().enumerate() {
+            let told = row(variable.name).is_some_and(|row| row[1] == reference.to_string());
+            assert!(told, "{scene}: {}\n{text}", variable.name);
+        }
+        let file = Scenario::find(&scene).expect("a shipped scene").file;
+        for parameter in PARAMETERS.iter().filter(|parameter| matches!(parameter.kind, Kind::Real { .. })) {
+            let start = row(parameter.name).and_then(|row| row[5].parse().ok());
+            assert_eq!(start, Some(parameter.value(&file.scene)), "{scene}: {}", parameter.name);
+        }
+    }
+}
+
+/// With the Python environment of the hosts, which their tests make.
+#[test]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn ssp_packages_the_press_with_its_drive() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    let found = wrong(&["ssp"], folder.path());
+    assert_eq!(found, None);
+    let package = std::fs::read(folder.path().join("press.ssp")).expect("a package");
+    let names = |name: &[u8]| package.windows(name.len()).any(|window| window == name);
+    assert!(names(b"SystemStructure.ssd") && names(b"resources/press.fmu"));
+}
+
+#[cfg(unix)]
+mod peers {
+    use super::{GAP, contests, program, said};
+    use fmu_harness::scenes::file;
+    use rayon::prelude::*;
+    use std::os::unix::fs::PermissionsExt;
+    use std::path::{Path, PathBuf};
+    use std::process::Command;
+
+    /// A scene of `peers` so short that its runs take no time; all its rows have numbers where it is good to 1e-2.
+    fn shortened(scene: &str, folder: &Path) -> PathBuf {
+        let text = std::fs::read_to_string(file(scene).expect("a shipped scene")).expect("a text");
+        let (before, run) = text.split_once("[run]\n").expect("a run");
+        let after = run.split_once("\n\n").expect("what comes after it").1;
+        let short = folder.join(format!("{}.toml", scene.replace('/', "-")));
+        std::fs::write(&short, format!("{before}[run]\nstop = \"0.1 ms\"\nstep = \"10 us\"\n\n{after}"))
+            .expect("written");
+        short
+    }
+
+    /// A folder of programs that stand before those of the machine: no C interface is built, and there is no Python with
+    /// packages. Of the competitors none is left, whatever is installed.
+    fn without_competitors(folder: &Path) -> Command {
+        let write = |name: &str, refused: &str, real: &str| {
+            let text = format!(
+                "#!/bin/sh\ncase \"$*\" in *{refused}*) exit 1;; esac\nPATH=${{PATH#*:}}\nexec {real} \"$@\"\n"
+            );
+            let file = folder.join(name);
+            std::fs::write(&file, text).expect("written");
+            std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o755)).expect("allowed to run");
+        };
+        let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
+        write("cargo", "slidercrank-equations", &format!("'{cargo}'"));
+        write("python3", "environment.py", "python3");
+        let path = std::env::var("PATH").expect("a path");
+        let mut command = program();
+        command.env("CARGO", folder.join("cargo")).env("PATH", format!("{}:{path}", folder.display()));
+        command
+    }
+
+    /// One scene for each set of competitors, with those that know no other.
+    const CONTESTS: [(&str, &[&str]); 4] = [
+        ("peers/ideal", &["SUNDIALS", "MuJoCo"]),
+        ("peers/wornpin", &["SUNDIALS", "SciPy", "Exudyn"]),
+        ("peers/guideplay", &["SUNDIALS", "Siconos"]),
+        ("flexrod", &["SUNDIALS"]),
+    ];
+
+    #[test]
+    fn ours_are_run_and_each_competitor_that_is_missing_is_named() {
+        let folder = tempfile::tempdir().expect("a temporary directory");
+        assert!(contests().iter().all(|scene| CONTESTS.iter().any(|(known, _)| known == scene)));
+        CONTESTS.par_iter().for_each(|&(scene, competitors)| {
+            let [place, out] = ["programs", "out"].map(|name| folder.path().join(scene).join(name));
+            std::fs::create_dir_all(&place).expect("a folder");
+            let short = shortened(scene, &place);
+            let (status, text) =
+                said(without_competitors(&place).arg("peers").arg("--scene").arg(&short).arg("-o").arg(&out));
+            let gaps: Vec<&str> = text.lines().filter(|line| line.contains(GAP)).collect();
+            for competitor in competitors {
+                let told = format!("{GAP}: not installed: ");
+                assert!(gaps.iter().any(|gap| gap.starts_with(competitor) && gap.contains(&told)), "{scene}\n{text}");
+            }
+            let expected = |gap: &&str| competitors.iter().any(|competitor| gap.starts_with(competitor));
+            assert!(gaps.iter().all(expected) && text.contains("SliderCrank dopri5"), "{scene}\n{text}");
+            assert!(!text.contains("NaN"), "{scene}\n{text}");
+            // It says that the table is not whole.
+            let rows = format!("{} of the rows above have no numbers", gaps.len());
+            assert!(!status.success() && text.contains(&rows), "{scene}: {status}\n{text}");
+            for ending in ["csv", "md", "svg"] {
+                assert!(out.join(format!("peers.{ending}")).is_file(), "{scene}: {ending}");
+            }
+        });
+    }
 }

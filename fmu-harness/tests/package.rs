@@ -81,6 +81,44 @@ fn everything_is_in_the_archive_and_the_description_is_first() {
     assert_eq!(names, wanted);
 }
 
+#[cfg(target_os = "linux")]
+mod code {
+    use super::saved;
+    use fmu_harness::host::Archive;
+    use object::elf::{FileHeader64, SHF_EXECINSTR};
+    use object::endian::Endianness;
+    use object::read::elf::{FileHeader, SectionHeader};
+
+    /// [bytes] Most machine code of one packaged library. What a step runs through has to stay in a processor's caches.
+    const MOST: u64 = 2_500_000;
+
+    /// [bytes] Sections of a library that hold instructions.
+    fn size(library: &[u8]) -> u64 {
+        let header = FileHeader64::<Endianness>::parse(library).expect("a 64-bit ELF library");
+        let endian = header.endian().expect("a byte order");
+        let sections = header.sections(endian, library).expect("sections");
+        let executable = sections.iter().filter(|section| section.sh_flags(endian).contains(SHF_EXECINSTR));
+        executable.map(|section| section.sh_size(endian)).sum()
+    }
+
+    #[test]
+    fn no_library_has_more_of_it_than_it_may() {
+        let (directory, file) = saved();
+        let mut archive = Archive::open(&file).expect("an archive");
+        archive.unpack(directory.path()).expect("unpacked");
+        let libraries = archive.names().into_iter().filter(|name| name.starts_with("binaries/"));
+        let sizes: Vec<(String, u64)> = libraries
+            .map(|name| (name.clone(), size(&std::fs::read(directory.path().join(&name)).expect("read"))))
+            .collect();
+        let told: Vec<String> =
+            sizes.iter().map(|(name, size)| format!("{name} has {size} bytes of code, of at most {MOST}")).collect();
+        println!("{}", told.join("\n"));
+        // Sections that are not found would be no code at all.
+        assert!(!sizes.is_empty() && sizes.iter().all(|(_, size)| *size > 100_000), "{told:#?}");
+        assert!(sizes.iter().all(|(_, size)| *size <= MOST), "{told:#?}");
+    }
+}
+
 #[test]
 fn no_byte_tells_where_it_was_built() {
     let (directory, file) = saved();

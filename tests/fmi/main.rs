@@ -11,6 +11,7 @@ mod library;
 mod lifecycle;
 mod logging;
 mod slave;
+mod small_stack;
 mod states;
 mod steps;
 mod threads;

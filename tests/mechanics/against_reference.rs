@@ -3,8 +3,10 @@
 use crate::chance::drawn;
 use crate::comparison::{Distance, distances, flags};
 use crate::elastic_scenes::{audit_cases, face_cases, flexible_cases, lugre_cases};
-use crate::reference::{Crossing, Reference};
+
 use crate::scenes::{Case, cases};
+use crate::translation::{self, mechanism};
+use reference_mechanism::{Crossing, Reference};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::simulation::Simulation;
 
@@ -152,8 +154,9 @@ fn end_of_run(case: &Case) -> f64 {
 }
 
 fn begin(case: &Case, tolerance: f64) -> Reference {
-    let mut reference = Reference::start(&case.scene, 0.0, case.inputs, tolerance);
-    reference.set_inputs(case.inputs, case.rates);
+    let [inputs, rates] = [case.inputs, case.rates].map(translation::inputs);
+    let mut reference = Reference::start(&mechanism(&case.scene), 0.0, inputs, tolerance);
+    reference.set_inputs(inputs, rates);
     reference
 }
 
@@ -161,7 +164,7 @@ fn by_reference(case: &Case, times: &[f64], tolerance: f64) -> (Vec<Outputs>, Ve
     let mut reference = begin(case, tolerance);
     let outputs = times.iter().map(|&time| {
         reference.advance_to(time);
-        reference.outputs()
+        translation::outputs(&reference.outputs())
     });
     (outputs.collect(), reference.crossings().to_vec())
 }

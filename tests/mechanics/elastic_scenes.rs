@@ -22,13 +22,6 @@ pub fn flexible(scene: &mut Scene, bending_modes: i32, axial_modes: i32) {
     (f.young, f.damping_ratio, f.geometric_stiffness) = (20e9, 0.02, true);
 }
 
-/// Brisk, with a rod of two bending modes.
-pub fn bending(mode: DriveMode, play: Play) -> Scene {
-    let mut scene = brisk(mode, play);
-    flexible(&mut scene, 2, 0);
-    scene
-}
-
 /// Bristles soft enough for their equation to be no stiffer than the contacts'.
 pub fn lugre(contact: &mut Contact) {
     let friction = &mut contact.friction;

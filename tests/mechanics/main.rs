@@ -3,8 +3,6 @@
 mod against_reference;
 mod chance;
 mod comparison;
-mod elastic_itself;
 mod elastic_scenes;
-mod reference;
-mod reference_itself;
 mod scenes;
+mod translation;

@@ -1,10 +1,10 @@
 //! The branch that each contact is on. Within a step branches are frozen, so that the equations
 //! are smooth; a step that ends where its branch does not hold is cut at the crossing.
 
-use super::contact::{Contact, Touch};
-use super::coordinates::Motion;
-use super::laws::Laws;
-use slidercrank::scene::FrictionLaw;
+use crate::contact::{Contact, Touch};
+use crate::coordinates::Motion;
+use crate::laws::Laws;
+use crate::mechanism::FrictionLaw;
 
 /// One contact's memory and branch.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Gragg, Bulirsch and Stoer: modified midpoint rules with 2, 4, 6, … substeps, extrapolated to
 //! substeps of length 0 (Hairer, Nørsett, Wanner, Solving ODEs I, II.9).
 
-use super::coordinates::{CONTACTS, COORDINATES};
+use crate::coordinates::{CONTACTS, COORDINATES};
 use nalgebra::SVector;
 
 pub const SIZE: usize = 2 * COORDINATES + CONTACTS + 6;

@@ -1,9 +1,9 @@
 //! Three bodies: masses, and the points where they meet.
 
-use super::beam::{Beam, mode_count};
-use super::coordinates::{CRANK, Coordinates, GROUND, Mass, Motion, RIGID, ROD, SLIDER};
-use super::mark::Mark;
-use slidercrank::scene::{Point, Scene};
+use crate::beam::{Beam, mode_count};
+use crate::coordinates::{CRANK, Coordinates, GROUND, Mass, Motion, RIGID, ROD, SLIDER};
+use crate::mark::Mark;
+use crate::mechanism::{Mechanism, Point};
 
 /// Masses and the points where the bodies meet.
 pub struct Bodies {
@@ -34,12 +34,12 @@ pub struct Inertia {
 
 impl Bodies {
     /// `points`: of the quadrature along the rod.
-    pub fn new(scene: &Scene, points: usize) -> Self {
-        let (crank, rod, slider) = (&scene.crank, &scene.rod, &scene.slider);
+    pub fn new(mechanism: &Mechanism, points: usize) -> Self {
+        let (crank, rod, slider) = (&mechanism.crank, &mechanism.rod, &mechanism.slider);
         let mark = |body, com: Point, x: f64, y: f64| Mark::fixed(body, x - com.x, y - com.y);
         let on_slider = |x, y| mark(SLIDER, slider.com, slider.centre.x + x, slider.centre.y + y);
         let (a, b) = (slider.length / 2.0, slider.height / 2.0);
-        let beam = Beam::new(scene, points);
+        let beam = Beam::new(mechanism, points);
         let [big_end, small_end] = match &beam {
             None => [mark(ROD, rod.com, 0.0, 0.0), mark(ROD, rod.com, rod.length, 0.0)],
             Some(beam) => [Mark::on_beam(beam.big_end), Mark::on_beam(beam.small_end)],
@@ -57,7 +57,7 @@ impl Bodies {
             count: RIGID + mode_count(&rod.flexible),
             inertia,
             beam,
-            gravity: scene.gravity,
+            gravity: mechanism.gravity,
             crank: mark(CRANK, crank.com, crank.com.x, crank.com.y),
             bearings: [Mark::fixed(GROUND, 0.0, 0.0), big_end, small_end],
             journals: [

@@ -1,11 +1,11 @@
 //! Ideal joints and a prescribed crank as constraints Φ(q, t) = 0, held by Lagrange multipliers:
 //! M·q̈ − Φ_qᵀ·λ = Q and Φ_q·q̈ = γ, so that Φ_qᵀ·λ is the reaction.
 
-use super::bodies::Bodies;
-use super::coordinates::{COORDINATES, CRANK, Coordinates, Mass, Motion, SLIDER, Vector};
-use super::elimination::System;
+use crate::bodies::Bodies;
+use crate::coordinates::{COORDINATES, CRANK, Coordinates, Mass, Motion, SLIDER, Vector};
+use crate::elimination::System;
+use crate::mechanism::{DriveMode, JointModel, Mechanism};
 use nalgebra::{SMatrix, SVector};
-use slidercrank::scene::{DriveMode, JointModel, Scene};
 
 /// Rows of each constraint; a joint with clearance leaves its rows empty.
 pub const REVOLUTE_ROWS: [usize; 3] = [0, 2, 4];
@@ -46,15 +46,15 @@ pub struct Solution {
 }
 
 impl Constraints {
-    pub fn new(scene: &Scene, time_start: f64) -> Self {
-        let joint = &scene.joint;
+    pub fn new(mechanism: &Mechanism, time_start: f64) -> Self {
+        let joint = &mechanism.joint;
         let [a, b, c, t] = [joint.a.model, joint.b.model, joint.c.model, joint.t.model].map(|m| m == JointModel::Ideal);
-        let drive = scene.drive.mode == DriveMode::Speed;
+        let drive = mechanism.drive.mode == DriveMode::Speed;
         Self {
             held: [a, a, b, b, c, c, t, t, drive],
-            guide_offset: scene.guide.offset,
-            angle_start: scene.crank.angle_start,
-            speed: scene.crank.speed_start,
+            guide_offset: mechanism.guide.offset,
+            angle_start: mechanism.crank.angle_start,
+            speed: mechanism.crank.speed_start,
             time_start,
         }
     }

@@ -1,8 +1,8 @@
 //! A face of the slider on a bed of springs: force per length k·max(0, δ) along the face, with δ
 //! linear between its corners' δ1 at +a and δ2 at −a.
 
-use super::laws::compliance;
-use slidercrank::scene::Scene;
+use crate::laws::compliance;
+use crate::mechanism::Mechanism;
 use std::f64::consts::PI;
 
 /// [m] Below this sum of penetrations, the sign of each is round-off.
@@ -28,9 +28,9 @@ pub struct Pressure {
 }
 
 impl Face {
-    pub fn new(scene: &Scene) -> Self {
-        let guide = &scene.joint.t;
-        let (length, width) = (scene.slider.length, guide.contact.width);
+    pub fn new(mechanism: &Mechanism) -> Self {
+        let guide = &mechanism.joint.t;
+        let (length, width) = (mechanism.slider.length, guide.contact.width);
         let given = guide.foundation_stiffness;
         // The half-space under a stiff rectangle: K = √A/(m·(σ_g + σ_s)).
         let face = || (length * width).sqrt() / (shape_factor(length / width) * compliance(&guide.contact));

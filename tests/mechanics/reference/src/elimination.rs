@@ -1,7 +1,7 @@
 //! Gauss: a dense linear system with partial pivoting, sparing what is 0.
 
 /// Nine rows of constraints under all coordinates.
-const LARGEST: usize = super::coordinates::COORDINATES + 9;
+const LARGEST: usize = crate::coordinates::COORDINATES + 9;
 
 /// A square matrix with the right side as its last column.
 pub struct System {

@@ -1,12 +1,12 @@
 //! Where bodies may touch: three journals in bearings, four corners or two faces between two lines.
 
-use super::bodies::Bodies;
-use super::coordinates::{CONTACTS, Coordinates, Motion, Vector, perp};
-use super::face::Face;
-use super::laws::Laws;
-use super::mark::Mark;
-use super::phase::Phase;
-use slidercrank::scene::{Guide, JointModel, Revolute, Scene, Surface as Kind};
+use crate::bodies::Bodies;
+use crate::coordinates::{CONTACTS, Coordinates, Motion, Vector, perp};
+use crate::face::Face;
+use crate::laws::Laws;
+use crate::mark::Mark;
+use crate::mechanism::{Guide, JointModel, Mechanism, Revolute, Surface as Kind};
+use crate::phase::Phase;
 
 /// A pair of surfaces.
 pub struct Contact {
@@ -55,9 +55,9 @@ impl Contact {
         Self { surface: Surface::Line { corner, height, side }, laws: Laws::of_corner(guide) }
     }
 
-    fn of_face(scene: &Scene, corners: [Mark; 2], height: f64, side: f64) -> Self {
-        let face = Face::new(scene);
-        Self { surface: Surface::Bed { corners, face, height, side }, laws: Laws::of_face(&scene.joint.t) }
+    fn of_face(mechanism: &Mechanism, corners: [Mark; 2], height: f64, side: f64) -> Self {
+        let face = Face::new(mechanism);
+        Self { surface: Surface::Bed { corners, face, height, side }, laws: Laws::of_face(&mechanism.joint.t) }
     }
 
     /// Generalized force of `force` on the inner body, and of its reaction on the outer.
@@ -140,16 +140,16 @@ pub fn eccentricity(bearing: &Mark, journal: &Mark, motion: &Motion) -> Vector {
 }
 
 /// A, B, C, then the corners or the faces of the guide; `None` where the joint is ideal.
-pub fn contacts(scene: &Scene, bodies: &Bodies) -> [Option<Contact>; CONTACTS] {
-    let (joint, corners) = (&scene.joint, &bodies.corners);
+pub fn contacts(mechanism: &Mechanism, bodies: &Bodies) -> [Option<Contact>; CONTACTS] {
+    let (joint, corners) = (&mechanism.joint, &bodies.corners);
     let revolute = |joint: &Revolute, k: usize| {
         Contact::of_revolute(joint, bodies.bearings[k].clone(), bodies.journals[k].clone())
     };
-    let half = scene.slider.height / 2.0 + joint.t.clearance;
-    let height = |side: f64| scene.guide.offset + side * half;
+    let half = mechanism.slider.height / 2.0 + joint.t.clearance;
+    let height = |side: f64| mechanism.guide.offset + side * half;
     let corner = |k: usize, side: f64| Some(Contact::of_corner(&joint.t, corners[k].clone(), height(side), side));
     let face = |k: usize, side: f64| {
-        Some(Contact::of_face(scene, [corners[k].clone(), corners[k + 1].clone()], height(side), side))
+        Some(Contact::of_face(mechanism, [corners[k].clone(), corners[k + 1].clone()], height(side), side))
     };
     let guide = match (joint.t.model, joint.t.surface) {
         (JointModel::Ideal, _) => [None, None, None, None],

@@ -1,17 +1,17 @@
 //! Outputs of a motion: the solver's numbers as the FMU names them.
 
-use super::constraints::{Constraints, Solution};
-use super::contact::eccentricity;
-use super::coordinates::{CRANK, ROD, SLIDER, Vector, cross, perp};
-use super::loads::Loads;
-use super::solver::Reference;
-use slidercrank::model::signals::{
+use crate::constraints::{Constraints, Solution};
+use crate::contact::eccentricity;
+use crate::coordinates::{CRANK, ROD, SLIDER, Vector, cross, perp};
+use crate::loads::Loads;
+use crate::mechanism::{JointModel, Mechanism};
+use crate::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
-use slidercrank::scene::{JointModel, Scene};
+use crate::solver::Reference;
 
 impl Reference {
-    /// Everything of the model's §8; the solver's counts are left at 0.
+    /// Everything of the model's §8.
     pub fn outputs(&self) -> Outputs {
         let (motion, bodies) = (&self.motion, &self.bodies);
         let loads = self.loads(self.time, motion);
@@ -24,7 +24,7 @@ impl Reference {
             speed: motion.spin(CRANK),
             acceleration: solution.acceleration[3 * CRANK + 2],
         };
-        let ideal = ideal_slider(&self.scene, crank);
+        let ideal = ideal_slider(&self.mechanism, crank);
         let [joint_a, joint_b, joint_c] = [0, 1, 2].map(|k| self.revolute(k, &loads, &solution));
         Outputs {
             slider: SliderOutputs {
@@ -52,7 +52,6 @@ impl Reference {
                 acceleration: acceleration.x - ideal[2],
             },
             energy: self.audit(),
-            ..Outputs::default()
         }
     }
 
@@ -74,7 +73,7 @@ impl Reference {
 
     fn guide(&self, loads: &Loads, solution: &Solution) -> GuideOutputs {
         let motion = &self.motion;
-        if self.scene.joint.t.model == JointModel::Ideal {
+        if self.mechanism.joint.t.model == JointModel::Ideal {
             let (height, couple) = Constraints::guide_reaction(solution);
             let reaction = height * Vector::y();
             let lever = self.bodies.centre.position(motion) - self.bodies.journals[2].position(motion);
@@ -98,12 +97,12 @@ impl Reference {
 }
 
 /// Position, velocity and acceleration of the ideal mechanism's slider at this crank motion.
-fn ideal_slider(scene: &Scene, crank: CrankOutputs) -> [f64; 3] {
-    let height = scene.guide.offset - scene.slider.centre.y;
+fn ideal_slider(mechanism: &Mechanism, crank: CrankOutputs) -> [f64; 3] {
+    let height = mechanism.guide.offset - mechanism.slider.centre.y;
     let (sin, cos) = crank.angle.sin_cos();
-    let to_pin = scene.crank.length * Vector::new(cos, sin);
-    let rod_angle = ((height - to_pin.y) / scene.rod.length).asin();
-    let along_rod = scene.rod.length * Vector::new(rod_angle.cos(), rod_angle.sin());
+    let to_pin = mechanism.crank.length * Vector::new(cos, sin);
+    let rod_angle = ((height - to_pin.y) / mechanism.rod.length).asin();
+    let along_rod = mechanism.rod.length * Vector::new(rod_angle.cos(), rod_angle.sin());
     // Each rate of the rod from: the pin's height, its rate and its acceleration do not change.
     let rod_speed = -crank.speed * to_pin.x / along_rod.x;
     let velocity = crank.speed * perp(to_pin) + rod_speed * perp(along_rod);

@@ -1,8 +1,8 @@
 //! Points that move with a body, with the material around them: what they do, and what forces on
 //! that material do to the coordinates.
 
-use super::beam::Section;
-use super::coordinates::{COORDINATES, Coordinates, GROUND, MODES, Motion, RIGID, ROD, Vector, cross, perp, turned};
+use crate::beam::Section;
+use crate::coordinates::{COORDINATES, Coordinates, GROUND, MODES, Motion, RIGID, ROD, Vector, cross, perp, turned};
 use nalgebra::SMatrix;
 
 /// Derivative of a point's position with respect to the coordinates.

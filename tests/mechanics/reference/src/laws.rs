@@ -1,7 +1,7 @@
 //! Elastic force, hysteresis damping and friction of one contact, each on a frozen branch.
 
-use super::phase::Phase;
-use slidercrank::scene::{Contact, DampingLaw, Elasticity, Friction, FrictionLaw, Guide, Revolute};
+use crate::mechanism::{Contact, DampingLaw, Elasticity, Friction, FrictionLaw, Guide, Revolute};
+use crate::phase::Phase;
 use std::f64::consts::PI;
 
 /// The elastic force as a function of penetration.
@@ -23,7 +23,7 @@ pub struct Laws {
     pub ratio_limit: f64,
     /// [m/s] v_floor.
     pub speed_floor: f64,
-    /// Friction: the scene's data.
+    /// Friction, as told.
     pub friction: Friction,
 }
 

@@ -1,14 +1,13 @@
-//! The reference by itself: what mechanics conserves, what the literature prints.
+//! Rigid bodies: energy and momentum, the worn pin of the literature, and what each damping law returns.
 
-use crate::reference::{Crossing, Reference};
-use crate::scenes::{ALL, brisk, each_contact, worn_pin};
-use slidercrank::model::signals::{Inputs, Outputs};
-use slidercrank::scene::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Point, Scene};
+use crate::mechanisms::{ALL, brisk, each_contact, worn_pin};
+use reference_mechanism::mechanism::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Point};
+use reference_mechanism::{Crossing, Inputs, Mechanism, Outputs, Reference};
 
 const TOLERANCE: f64 = 1e-12;
 
-fn started(scene: &Scene) -> Reference {
-    Reference::start(scene, 0.0, Inputs::default(), TOLERANCE)
+fn started(mechanism: &Mechanism) -> Reference {
+    Reference::start(mechanism, 0.0, Inputs::default(), TOLERANCE)
 }
 
 /// Advances in steps of `step` until something touches or parts for the `count`th time.
@@ -25,12 +24,12 @@ fn until_crossing(reference: &mut Reference, step: f64, count: usize) -> Crossin
 #[test]
 fn energy_stays_where_nothing_dissipates() {
     for elasticity in [Elasticity::Hertz, Elasticity::Liu, Elasticity::BaiZhao] {
-        let mut scene = brisk(DriveMode::Torque, ALL);
-        scene.gravity = 9.81;
-        scene.guide.offset = 0.01;
-        (scene.joint.a.elasticity, scene.joint.b.elasticity) = (elasticity, elasticity);
-        each_contact(&mut scene, |contact| contact.law = DampingLaw::Hertz);
-        let mut reference = started(&scene);
+        let mut mechanism = brisk(DriveMode::Torque, ALL);
+        mechanism.gravity = 9.81;
+        mechanism.guide.offset = 0.01;
+        (mechanism.joint.a.elasticity, mechanism.joint.b.elasticity) = (elasticity, elasticity);
+        each_contact(&mut mechanism, |contact| contact.law = DampingLaw::Hertz);
+        let mut reference = started(&mechanism);
         let start = reference.energy();
         reference.advance_to(1e-3);
         assert!(reference.crossings().len() > 10, "there are impacts to lose energy in");
@@ -42,10 +41,10 @@ fn energy_stays_where_nothing_dissipates() {
 
 #[test]
 fn momentum_stays_through_an_impact_of_the_crank_pin() {
-    let mut scene = brisk(DriveMode::Torque, ALL);
-    scene.joint.b.eccentricity_start = Point { x: -9e-5, y: 2e-5 };
-    each_contact(&mut scene, |contact| contact.friction.law = FrictionLaw::Ambrosio);
-    let mut reference = started(&scene);
+    let mut mechanism = brisk(DriveMode::Torque, ALL);
+    mechanism.joint.b.eccentricity_start = Point { x: -9e-5, y: 2e-5 };
+    each_contact(&mut mechanism, |contact| contact.friction.law = FrictionLaw::Ambrosio);
+    let mut reference = started(&mechanism);
     let start = reference.momentum();
     let opening = until_crossing(&mut reference, 1e-7, 2);
     assert!(reference.crossings().iter().all(|crossing| crossing.contact == 1) && !opening.closed);
@@ -68,9 +67,9 @@ fn crossings_are_located_to_round_off() {
 /// Literature §10, B1: 6.8186° and 4.38578 m/s, as printed.
 #[test]
 fn the_worn_pin_first_strikes_where_the_literature_says() {
-    let scene = worn_pin();
-    let first = until_crossing(&mut started(&scene), 1e-5, 1);
-    let angle = (scene.crank.speed_start * first.time).to_degrees();
+    let mechanism = worn_pin();
+    let first = until_crossing(&mut started(&mechanism), 1e-5, 1);
+    let angle = (mechanism.crank.speed_start * first.time).to_degrees();
     assert!((angle - 6.8186).abs() < 0.5e-4, "{angle}°");
     assert!((first.rate - 4.38578).abs() < 0.5e-5, "{} m/s", first.rate);
 }
@@ -78,10 +77,10 @@ fn the_worn_pin_first_strikes_where_the_literature_says() {
 /// Literature §10, B1: the ideal mechanism's peaks, as printed.
 #[test]
 fn the_ideal_mechanism_peaks_as_the_literature_says() {
-    let mut scene = worn_pin();
-    scene.joint.c.model = JointModel::Ideal;
-    let mut reference = started(&scene);
-    let turn = std::f64::consts::TAU / scene.crank.speed_start;
+    let mut mechanism = worn_pin();
+    mechanism.joint.c.model = JointModel::Ideal;
+    let mut reference = started(&mechanism);
+    let turn = std::f64::consts::TAU / mechanism.crank.speed_start;
     let outputs: Vec<Outputs> = (0..=3600)
         .map(|tenth| {
             reference.advance_to(turn * f64::from(tenth) / 3600.0);
@@ -109,17 +108,17 @@ fn the_ideal_mechanism_peaks_as_the_literature_says() {
 
 /// Rebound over approach speed of the slider dropped on the guide with both lower corners.
 fn rebound(law: DampingLaw, restitution: f64, exponent: f64) -> f64 {
-    let mut scene = Scene::default();
-    scene.drive.mode = DriveMode::Speed;
-    scene.gravity = 1e3;
-    scene.joint.c.model = JointModel::Clearance;
-    (scene.joint.c.radius, scene.joint.c.clearance) = (3.0, 2.0);
-    let guide = &mut scene.joint.t;
+    let mut mechanism = Mechanism::default();
+    mechanism.drive.mode = DriveMode::Speed;
+    mechanism.gravity = 1e3;
+    mechanism.joint.c.model = JointModel::Clearance;
+    (mechanism.joint.c.radius, mechanism.joint.c.clearance) = (3.0, 2.0);
+    let guide = &mut mechanism.joint.t;
     (guide.model, guide.clearance) = (JointModel::Clearance, 0.05);
     // So stiff that weight is 1e-5 of the contact force.
     guide.contact.stiffness = 2e7 / 1e-6_f64.powf(exponent);
     (guide.contact.law, guide.contact.restitution, guide.contact.exponent) = (law, restitution, exponent);
-    let mut reference = started(&scene);
+    let mut reference = started(&mechanism);
     // It closes with two corners, then opens with two.
     let opening = until_crossing(&mut reference, 1e-4, 3);
     -opening.rate / reference.crossings()[0].rate

@@ -1,11 +1,11 @@
 //! Applied forces: drive, slider load, viscous friction, contacts, and the rod's elasticity.
 
-use super::bodies::Bodies;
-use super::contact::Contact;
-use super::coordinates::{Bristles, CONTACTS, Coordinates, Motion, Vector, cross};
-use super::phase::Phase;
-use slidercrank::model::signals::Inputs;
-use slidercrank::scene::{DriveMode, Scene};
+use crate::bodies::Bodies;
+use crate::contact::Contact;
+use crate::coordinates::{Bristles, CONTACTS, Coordinates, Motion, Vector, cross};
+use crate::mechanism::{DriveMode, Mechanism};
+use crate::phase::Phase;
+use crate::signals::Inputs;
 
 /// Forces of the joints at one instant, and the generalized forces of everything applied.
 pub struct Loads {
@@ -27,7 +27,7 @@ pub struct Loads {
 }
 
 pub fn loads(
-    scene: &Scene,
+    mechanism: &Mechanism,
     bodies: &Bodies,
     contacts: &[Option<Contact>; CONTACTS],
     phases: &[Phase; CONTACTS],
@@ -35,14 +35,14 @@ pub fn loads(
     motion: &Motion,
 ) -> Loads {
     let mut sum = bodies.beam.as_ref().map_or(Coordinates::zeros(), |beam| beam.inner_forces(motion));
-    if scene.drive.mode == DriveMode::Torque {
+    if mechanism.drive.mode == DriveMode::Torque {
         sum += bodies.crank.twist(inputs.crank_torque);
     }
     let pin = &bodies.journals[2];
     let along = |force: f64| pin.push(motion, pin.position(motion), force * Vector::x());
     sum += along(inputs.slider_load);
 
-    let joint = &scene.joint;
+    let joint = &mechanism.joint;
     let mut viscous_loss = 0.0;
     for (k, damping) in [joint.a.damping, joint.b.damping, joint.c.damping].into_iter().enumerate() {
         let (bearing, journal) = (&bodies.bearings[k], &bodies.journals[k]);

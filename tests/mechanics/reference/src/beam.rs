@@ -1,10 +1,10 @@
 //! The flexible rod: sections at (x + u − ½∫w'², w) in the chord's frame, with nothing dropped, and
 //! every integral along the rod a sum over quadrature points.
 
-use super::coordinates::{COORDINATES, Coordinates, MODES, Mass, Modal, Motion, RIGID, ROD, Vector, perp, turned};
-use super::quadrature::gauss_legendre;
+use crate::coordinates::{COORDINATES, Coordinates, MODES, Mass, Modal, Motion, RIGID, ROD, Vector, perp, turned};
+use crate::mechanism::{Flexible, Mechanism};
+use crate::quadrature::gauss_legendre;
 use nalgebra::SMatrix;
-use slidercrank::scene::{Flexible, Scene};
 use std::f64::consts::PI;
 
 type Square = SMatrix<f64, MODES, MODES>;
@@ -33,8 +33,8 @@ struct Shapes {
     strain: Modal,
 }
 
-fn shapes(scene: &Scene, x: f64) -> Shapes {
-    let (flexible, length) = (&scene.rod.flexible, scene.rod.length);
+fn shapes(mechanism: &Mechanism, x: f64) -> Shapes {
+    let (flexible, length) = (&mechanism.rod.flexible, mechanism.rod.length);
     let bending = flexible.bending_modes as usize;
     let count = bending + flexible.axial_modes as usize;
     // w: sin(iπx/l), i = 1, 2, …; u: sin((2j − 1)πx/(2l)), j = 1, 2, ….
@@ -55,13 +55,13 @@ fn shapes(scene: &Scene, x: f64) -> Shapes {
 }
 
 impl Section {
-    pub fn new(scene: &Scene, x: f64, points: usize) -> Self {
-        let Shapes { bend, slope, axial, .. } = shapes(scene, x);
+    pub fn new(mechanism: &Mechanism, x: f64, points: usize) -> Self {
+        let Shapes { bend, slope, axial, .. } = shapes(mechanism, x);
         let products = |(s, weight): (f64, f64)| {
-            let slope = shapes(scene, s).slope;
+            let slope = shapes(mechanism, s).slope;
             weight * slope * slope.transpose()
         };
-        let shortening = if scene.rod.flexible.geometric_stiffness && x > 0.0 {
+        let shortening = if mechanism.rod.flexible.geometric_stiffness && x > 0.0 {
             gauss_legendre(points, x).into_iter().map(products).sum()
         } else {
             Square::zeros()
@@ -110,26 +110,26 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// `None` where the scene has no modes.
-    pub fn new(scene: &Scene, points: usize) -> Option<Self> {
-        let f = &scene.rod.flexible;
+    /// `None` where the mechanism has no modes.
+    pub fn new(mechanism: &Mechanism, points: usize) -> Option<Self> {
+        let f = &mechanism.rod.flexible;
         let count = mode_count(f);
         assert!(count <= MODES, "the reference has room for {MODES} modes");
         (count > 0).then(|| {
-            let length = scene.rod.length;
+            let length = mechanism.rod.length;
             let mut sections = Vec::new();
             let (mut stiffness, mut modal_mass) = (Square::zeros(), Modal::zeros());
             for (x, weight) in gauss_legendre(points, length) {
-                let Shapes { bend, curvature, axial, strain, .. } = shapes(scene, x);
+                let Shapes { bend, curvature, axial, strain, .. } = shapes(mechanism, x);
                 stiffness += weight * f.young * f.second_moment * curvature * curvature.transpose();
                 stiffness += weight * f.young * f.area * strain * strain.transpose();
                 let mass = weight * f.density * f.area;
                 modal_mass += mass * (bend.component_mul(&bend) + axial.component_mul(&axial));
-                sections.push((mass, Section::new(scene, x, points)));
+                sections.push((mass, Section::new(mechanism, x, points)));
             }
             // 2·ζ·ω·m with ω² = k/m.
             let damping = (stiffness.diagonal().component_mul(&modal_mass)).map(|km| 2.0 * f.damping_ratio * km.sqrt());
-            let section = |x: f64| Section::new(scene, x, points);
+            let section = |x: f64| Section::new(mechanism, x, points);
             let [big_end, middle, small_end] = [0.0, length / 2.0, length].map(section);
             Self { sections, stiffness, damping, big_end, middle, small_end }
         })

@@ -1,12 +1,12 @@
 //! Where a contact leaves its branch: found between the rough states inside a step, located by
 //! steps from the same start.
 
-use super::contact::{Contact, Touch};
-use super::coordinates::{CONTACTS, Motion};
-use super::extrapolation::{State, Trial};
-use super::phase::{CONDITIONS, Condition};
-use super::solver::{Reference, STEP_AFTER_CROSSING};
-use slidercrank::scene::Surface;
+use crate::contact::{Contact, Touch};
+use crate::coordinates::{CONTACTS, Motion};
+use crate::extrapolation::{State, Trial};
+use crate::mechanism::Surface;
+use crate::phase::{CONDITIONS, Condition};
+use crate::solver::{Reference, STEP_AFTER_CROSSING};
 
 /// A contact that opened or closed.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +15,7 @@ pub struct Crossing {
     pub time: f64,
     /// A, B, C, then the corners.
     pub contact: usize,
+    /// It closed; else it opened.
     pub closed: bool,
     /// [m/s] δ̇ at the crossing.
     pub rate: f64,
@@ -26,7 +27,7 @@ pub struct Crossing {
 type Departure = (usize, Condition);
 
 /// Where in a step conditions are first seen not to hold.
-pub(super) struct Departed {
+pub(crate) struct Departed {
     /// Share of the step at which all still held.
     held: f64,
     /// Share of the step at which these did not.
@@ -54,7 +55,7 @@ impl Reference {
     }
 
     /// Where in the step some conditions first do not hold.
-    pub(super) fn first_departures(&self, trial: &Trial) -> Option<Departed> {
+    pub(crate) fn first_departures(&self, trial: &Trial) -> Option<Departed> {
         let inside = &trial.samples[..trial.samples.len() - 1];
         let end = (1.0, trial.change);
         let mut held = 0.0;
@@ -69,7 +70,7 @@ impl Reference {
     }
 
     /// Steps to where the first condition fails, and goes over to the branch beyond.
-    pub(super) fn cross(&mut self, length: f64, departed: &Departed) {
+    pub(crate) fn cross(&mut self, length: f64, departed: &Departed) {
         let (low, high) = (departed.held * length, departed.share * length);
         let located: Option<Vec<(f64, Departure)>> = departed
             .departures
@@ -109,7 +110,7 @@ impl Reference {
 
     /// A, B, C, then the corners, those of faces too.
     fn named(&self, contact: usize, corner: usize) -> usize {
-        match self.scene.joint.t.surface {
+        match self.mechanism.joint.t.surface {
             Surface::Foundation if contact >= 3 => 3 + 2 * (contact - 3) + corner,
             _ => contact,
         }

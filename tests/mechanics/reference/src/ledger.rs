@@ -1,12 +1,12 @@
 //! The energy audit; and what a motion without losses keeps: energy, and momentum while nothing
 //! touches the ground.
 
-use super::constraints::{DRIVE_ROW, Solution};
-use super::coordinates::{Account, CRANK, Motion, ROD, SLIDER, Vector, cross};
-use super::loads::Loads;
-use super::solver::Reference;
-use slidercrank::model::signals::{EnergyOutputs, Inputs};
-use slidercrank::scene::DriveMode;
+use crate::constraints::{DRIVE_ROW, Solution};
+use crate::coordinates::{Account, CRANK, Motion, ROD, SLIDER, Vector, cross};
+use crate::loads::Loads;
+use crate::mechanism::DriveMode;
+use crate::signals::{EnergyOutputs, Inputs};
+use crate::solver::Reference;
 
 impl Reference {
     /// [J] Kinetic energy, height, elastic rod and elastic contacts.
@@ -29,16 +29,16 @@ impl Reference {
     }
 
     /// [N·m] On the crank: given, or what the speed drive needs.
-    pub(super) fn drive_torque(&self, inputs: Inputs, solution: &Solution) -> f64 {
-        match self.scene.drive.mode {
+    pub(crate) fn drive_torque(&self, inputs: Inputs, solution: &Solution) -> f64 {
+        match self.mechanism.drive.mode {
             DriveMode::Torque => inputs.crank_torque,
             DriveMode::Speed => solution.multipliers[DRIVE_ROW],
         }
     }
 
     /// [W] What the account gains.
-    pub(super) fn powers(&self, time: f64, motion: &Motion, loads: &Loads, solution: &Solution) -> Account {
-        if !self.scene.energy.audit {
+    pub(crate) fn powers(&self, time: f64, motion: &Motion, loads: &Loads, solution: &Solution) -> Account {
+        if !self.mechanism.energy.audit {
             return Account::zeros();
         }
         let inputs = self.inputs_at(time);
@@ -53,8 +53,8 @@ impl Reference {
     }
 
     /// All 0 without an audit.
-    pub(super) fn audit(&self) -> EnergyOutputs {
-        if !self.scene.energy.audit {
+    pub(crate) fn audit(&self) -> EnergyOutputs {
+        if !self.mechanism.energy.audit {
             return EnergyOutputs::default();
         }
         let kinetic = self.kinetic(&self.motion);

@@ -1,67 +1,67 @@
 //! The motion through time: extrapolated steps, cut where a contact leaves its branch.
 
-use super::beam::mode_count;
-use super::bodies::Bodies;
-use super::constraints::Constraints;
-use super::contact::{Contact, contacts};
-use super::coordinates::{CONTACTS, COORDINATES, Motion, RIGID};
-use super::crossing::Crossing;
-use super::extrapolation::{State, Trial, step};
-use super::loads::{Loads, loads};
-use super::phase::Phase;
-use super::start::start;
-use slidercrank::model::signals::Inputs;
-use slidercrank::scene::Scene;
+use crate::beam::mode_count;
+use crate::bodies::Bodies;
+use crate::constraints::Constraints;
+use crate::contact::{Contact, contacts};
+use crate::coordinates::{CONTACTS, COORDINATES, Motion, RIGID};
+use crate::crossing::Crossing;
+use crate::extrapolation::{State, Trial, step};
+use crate::loads::{Loads, loads};
+use crate::mechanism::Mechanism;
+use crate::phase::Phase;
+use crate::signals::Inputs;
+use crate::start::start;
 
 /// [s] Short against the ~1e-5 s of an impact, so that the rough states inside a step show a touch.
 const LONGEST_STEP: f64 = 2e-5;
 /// [s] First step after a crossing: a force that starts as δ^1.5 has no Taylor series there.
-pub(super) const STEP_AFTER_CROSSING: f64 = 1e-8;
+pub(crate) const STEP_AFTER_CROSSING: f64 = 1e-8;
 /// [s] A converged step this short cannot fail but by a fault of ours.
 const SHORTEST_STEP: f64 = 1e-16;
 
 /// One mechanism on its way.
 pub struct Reference {
-    pub(super) scene: Scene,
-    pub(super) bodies: Bodies,
-    pub(super) constraints: Constraints,
-    pub(super) contacts: [Option<Contact>; CONTACTS],
-    pub(super) phases: [Phase; CONTACTS],
-    pub(super) motion: Motion,
-    pub(super) time: f64,
+    pub(crate) mechanism: Mechanism,
+    pub(crate) bodies: Bodies,
+    pub(crate) constraints: Constraints,
+    pub(crate) contacts: [Option<Contact>; CONTACTS],
+    pub(crate) phases: [Phase; CONTACTS],
+    pub(crate) motion: Motion,
+    pub(crate) time: f64,
     /// Inputs at `input_time` and their rates.
     inputs: (Inputs, Inputs),
     input_time: f64,
     tolerance: State,
-    pub(super) step: f64,
+    pub(crate) step: f64,
     /// [J] At the start.
-    pub(super) energy_start: f64,
-    pub(super) crossings: Vec<Crossing>,
+    pub(crate) energy_start: f64,
+    pub(crate) crossings: Vec<Crossing>,
 }
 
 impl Reference {
     /// At the start position, under constant inputs. `tolerance` bounds each step's error: 1e-3 m
     /// and 1e-2 rad times it in position, 1 m/s and 10 rad/s times it in velocity, a tenth of that
     /// in the rod's modes.
-    pub fn start(scene: &Scene, time: f64, inputs: Inputs, tolerance: f64) -> Self {
+    pub fn start(mechanism: &Mechanism, time: f64, inputs: Inputs, tolerance: f64) -> Self {
         // Products of four shapes have up to 4·modes half waves. From the points where the sum meets
         // them at all, some more bring it to round-off.
-        let points = 14 + 3 * mode_count(&scene.rod.flexible);
-        Self::start_with(scene, time, inputs, tolerance, points)
+        let points = 14 + 3 * mode_count(&mechanism.rod.flexible);
+        Self::start_with(mechanism, time, inputs, tolerance, points)
     }
 
     /// With as many quadrature `points` along the rod.
-    pub fn start_with(scene: &Scene, time: f64, inputs: Inputs, tolerance: f64, points: usize) -> Self {
-        let bodies = Bodies::new(scene, points);
-        let contacts = contacts(scene, &bodies);
-        let motion = start(scene);
+    pub fn start_with(mechanism: &Mechanism, time: f64, inputs: Inputs, tolerance: f64, points: usize) -> Self {
+        let bodies = Bodies::new(mechanism, points);
+        let contacts = contacts(mechanism, &bodies);
+        let motion = start(mechanism);
         let at_start = |contact: &Option<Contact>| match contact {
             Some(contact) => Phase::at_start(contact, &motion),
             None => Phase::open(),
         };
         let mut reference = Self {
-            constraints: Constraints::new(scene, time),
-            scene: scene.clone(),
+            constraints: Constraints::new(mechanism, time),
+            mechanism: mechanism.clone(),
             bodies,
             phases: contacts.each_ref().map(at_start),
             tolerance: tolerance * scales(&contacts),
@@ -88,6 +88,7 @@ impl Reference {
         &self.crossings
     }
 
+    /// u(t).
     pub fn inputs_at(&self, time: f64) -> Inputs {
         let (value, rate) = &self.inputs;
         let since = time - self.input_time;
@@ -97,8 +98,8 @@ impl Reference {
         }
     }
 
-    pub(super) fn loads(&self, time: f64, motion: &Motion) -> Loads {
-        loads(&self.scene, &self.bodies, &self.contacts, &self.phases, self.inputs_at(time), motion)
+    pub(crate) fn loads(&self, time: f64, motion: &Motion) -> Loads {
+        loads(&self.mechanism, &self.bodies, &self.contacts, &self.phases, self.inputs_at(time), motion)
     }
 
     /// Moves to `end` exactly.
@@ -121,12 +122,12 @@ impl Reference {
         }
     }
 
-    pub(super) fn shorten(&mut self, length: f64) {
+    pub(crate) fn shorten(&mut self, length: f64) {
         assert!(length > SHORTEST_STEP, "no step converges at t = {}", self.time);
         self.step = length;
     }
 
-    pub(super) fn attempt(&self, length: f64) -> Option<Trial> {
+    pub(crate) fn attempt(&self, length: f64) -> Option<Trial> {
         let rate = |time: f64, state: &State| {
             let motion = motion(state);
             let loads = self.loads(time, &motion);
@@ -137,7 +138,7 @@ impl Reference {
         step(&rate, self.time, &stack(&self.motion), length, &self.tolerance)
     }
 
-    pub(super) fn after(&self, change: &State) -> Motion {
+    pub(crate) fn after(&self, change: &State) -> Motion {
         let (now, change) = (&self.motion, motion(change));
         Motion {
             q: now.q + change.q,
@@ -147,7 +148,7 @@ impl Reference {
         }
     }
 
-    pub(super) fn accept(&mut self, trial: &Trial, time: f64) {
+    pub(crate) fn accept(&mut self, trial: &Trial, time: f64) {
         self.motion = self.constraints.project(&self.bodies, time, self.after(&trial.change));
         self.time = time;
     }
