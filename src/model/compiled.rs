@@ -51,6 +51,8 @@ macro_rules! by_structure {
             (true true true true false)
             (true true false true false) (true false true true false) (false true true true false)
             (true true false true true)  (true false true true true)  (false true true true true)
+            (true true true false false) (true true true false true)
+            (false false false true false) (false false false false false) (false false false false true)
         )
     };
     (@ $structure:expr, $own:ident, $all:expr, $(($a:literal $b:literal $c:literal $t:literal $speed:literal))*) => {
@@ -64,6 +66,11 @@ macro_rules! by_structure {
     };
 }
 
+/// Whether steps in blocks, which ask for eight states at a time, are the usual ones of a structure.
+const fn suits_rows(structure: &Structure) -> bool {
+    structure.closed || structure.topology.has_one_play_in_a_pin()
+}
+
 impl Compiled {
     /// Of a mechanism.
     pub fn of(mechanism: &Mechanism) -> Self {
@@ -74,8 +81,10 @@ impl Compiled {
                     rates: |mechanism, contacts, t, y, rates| {
                         mechanism.rates(&$structure, contacts, t, y, rates);
                     },
-                    rates_of_eight: |mechanism, contacts, t, y, rates| {
-                        mechanism.rates(&$structure, contacts, t, y, rates);
+                    rates_of_eight: if const { suits_rows(&$structure) } {
+                        |mechanism, contacts, t, y, rates| mechanism.rates(&$structure, contacts, t, y, rates)
+                    } else {
+                        Mechanism::rates_of_eight
                     },
                     ends: |mechanism, contacts, t, y, rates, guards| {
                         mechanism.rates_and_guards(&$structure, contacts, t, y, rates, guards);
@@ -95,43 +104,57 @@ impl Compiled {
             stages: stages_of_all(2 * mechanism.positions()),
         };
         if let Some(rod) = &mechanism.rod {
-            return flexible(structure, rod, all);
+            return flexible(mechanism, rod, all);
         }
         by_structure!(structure, own, all)
     }
 }
 
-/// The code for a flexible rod: for the usual numbers of modes some of its own, in which loops over modes are written
-/// out.
-fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled {
-    macro_rules! counted {
-        ($(($bending:literal $axial:literal))*) => {
-            match rod.modes.counts {
-                $(counts if Exactly::<$bending, $axial>::COUNTS == Some(counts) && rod.modes.room == Room::Few => Compiled {
-                    rates: Mechanism::counted_rates::<Exactly<$bending, $axial>>,
-                    stages: counted_stages::<Exactly<$bending, $axial>>(structure),
-                    ..all
-                },)*
-                _ => all,
-            }
+/// The code for a flexible rod: for some structures and numbers of modes of its own, in which nothing is left to ask and
+/// loops over modes are written out. A line has the ideal joints, whether the crank's angle is prescribed, and the numbers of
+/// bending and axial modes.
+fn flexible(mechanism: &Mechanism, rod: &FlexibleRod, all: Compiled) -> Compiled {
+    macro_rules! own {
+        ($(($a:literal $b:literal $c:literal $t:literal $speed:literal, $bending:literal $axial:literal))*) => {
+            $({
+                type Own = Exactly<$bending, $axial>;
+                const TOPOLOGY: Topology = Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed };
+                const OWN: Structure = Structure::with_rod(TOPOLOGY, true);
+                if mechanism.structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
+                    return Compiled {
+                        rates: |mechanism, contacts, t, y, rates| {
+                            mechanism.counted_rates::<f64, Own>(&OWN, contacts, t, y, rates);
+                        },
+                        rates_of_eight: if const { suits_rows(&OWN) } {
+                            |mechanism, contacts, t, y, rates| {
+                                mechanism.counted_rates::<Row, Own>(&OWN, contacts, t, y, rates);
+                            }
+                        } else {
+                            Mechanism::rates_of_eight
+                        },
+                        ends: |mechanism, contacts, t, y, rates, guards| {
+                            mechanism.counted_rates::<f64, Own>(&OWN, contacts, t, y, rates);
+                            mechanism.guards(contacts, t, y, guards);
+                        },
+                        stages: |mechanism, tableau, contacts, t, y, h, k| {
+                            of_so_many::<{ 2 * (OWN.positions + $bending + $axial) }>(tableau, t, y, h, k, |t, y, rates| {
+                                mechanism.counted_rates::<f64, Own>(&OWN, contacts, t, y, rates);
+                            })
+                        },
+                    };
+                }
+            })*
         };
     }
-    counted!((2 0) (3 1))
-}
-
-/// The loop over a step's stages with a rod of these counts.
-fn counted_stages<C: Counted>(structure: &Structure) -> Stages {
-    macro_rules! of {
-        ($($n:literal)*) => {
-            match 2 * (structure.positions + C::MODES) {
-                $($n => |mechanism, tableau, contacts, t, y, h, k| {
-                    of_so_many::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.counted_rates::<C>(contacts, t, y, rates))
-                },)*
-                _ => |_, _, _, _, _, _, _| false,
-            }
-        };
+    if rod.modes.room == Room::Few {
+        own! {
+            (true true false true true, 3 1)
+            (true false false false true, 3 1)
+            (false false false false false, 2 0)
+            (false false false false false, 3 1)
+        }
     }
-    of!(4 6 8 10 12 14 16 18 20 22 24 26)
+    all
 }
 
 /// The loop over a step's stages of any structure with so many states, which its sums know.
@@ -167,8 +190,9 @@ impl Mechanism {
     #[inline(never)]
     pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
+            _ if y.is_empty() => {}
             None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.write_flexible_rates::<f64>(rod, contacts, t, y, rates)),
+            Some(rod) => in_room!(rod, self.drop_flexible_motion::<f64>(rod, contacts, t, y, rates)),
         }
     }
 
@@ -177,7 +201,7 @@ impl Mechanism {
     pub fn rates_of_eight(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
         match &self.rod {
             None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.write_flexible_rates::<Row>(rod, contacts, t, y, rates)),
+            Some(rod) => in_room!(rod, self.flexible_rates_of_eight(rod, contacts, t, y, rates)),
         }
     }
 
@@ -186,7 +210,7 @@ impl Mechanism {
     pub fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
             None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.drop_flexible_motion(rod, contacts, t, y, rates)),
+            Some(rod) => in_room!(rod, self.drop_flexible_motion::<Tangent>(rod, contacts, t, y, rates)),
         }
     }
 
@@ -239,23 +263,31 @@ impl Mechanism {
         (instant, account)
     }
 
-    #[inline(never)]
-    fn counted_rates<C: Counted>(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
-        if let Some(rod) = &self.rod {
-            self.flexible_rates::<f64, C, 4, 12>(&self.structure, rod, contacts, t, y, rates);
-        }
-    }
-
-    #[inline(never)]
-    fn write_flexible_rates<R: Scalar, const K: usize, const F: usize>(
+    /// Rates with a flexible rod of known counts.
+    #[inline(always)]
+    fn counted_rates<R: Scalar, C: Counted>(
         &self,
-        rod: &FlexibleRod,
+        of: &Structure,
         contacts: &Contacts,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) {
-        self.flexible_rates::<R, Any, K, F>(&self.structure, rod, contacts, t, y, rates);
+        if let Some(rod) = &self.rod {
+            self.flexible_rates::<R, C, 4, 12>(of, rod, contacts, t, y, rates);
+        }
+    }
+
+    #[inline(never)]
+    fn flexible_rates_of_eight<const K: usize, const F: usize>(
+        &self,
+        rod: &FlexibleRod,
+        contacts: &Contacts,
+        t: Row,
+        y: &[Row],
+        rates: &mut [Row],
+    ) {
+        self.flexible_rates::<Row, Any, K, F>(&self.structure, rod, contacts, t, y, rates);
     }
 
     #[inline(never)]
@@ -271,15 +303,15 @@ impl Mechanism {
     }
 
     #[inline(never)]
-    fn drop_flexible_motion<const K: usize, const F: usize>(
+    fn drop_flexible_motion<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
         contacts: &Contacts,
-        t: Tangent,
-        y: &[Tangent],
-        rates: &mut [Tangent],
+        t: R,
+        y: &[R],
+        rates: &mut [R],
     ) {
-        self.flexible_motion::<Tangent, K, F>(rod, contacts, t, y, rates);
+        self.flexible_motion::<R, K, F>(rod, contacts, t, y, rates);
     }
 
     #[inline(never)]

@@ -2,9 +2,9 @@
 
 use crate::math::{Dual, Real, Row};
 
-/// Derivatives along so many directions at a time: with 8 the Jacobian takes up to a fifth less time than
-/// with 4, and is compiled in somewhat more (`cargo bench --bench jacobian`).
-pub const DIRECTIONS: usize = 8;
+/// Derivatives along so many directions at a time: with 8 the Jacobian takes up to a fifth less time than with 4
+/// (`cargo bench --bench jacobian`), but twice as much stack and code.
+pub const DIRECTIONS: usize = 4;
 
 /// A number with its derivatives along some of the states and time.
 pub type Tangent = Dual<DIRECTIONS>;
