@@ -8,7 +8,8 @@
 //! That power is 0 while a contact that has no adhesion lets go, where the loss itself has corners that
 //! steps of a smooth motion would step over.
 
-use super::bodies::{Bodies, bodies};
+use super::bodies::bodies;
+use super::body::Bodies;
 use super::contact::Account;
 use super::drive::InputSignal;
 use super::jacobian::differentiate;

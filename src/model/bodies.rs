@@ -31,27 +31,12 @@
 //! augmented bodies are then not constants, but follow from them with few products ([`RodInChain`]); the chain's root is a
 //! joint, and no h_k is taken off.
 
+use super::body::{Bodies, Body};
 use super::plane::{Vec2, perp};
 use super::rod::Rod;
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure, Topology};
 use crate::math::Real;
 use crate::scene::{Point, Scene};
-
-/// A rigid body: its mass properties and its joint on the x axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
-    /// [kg]
-    pub mass: f64,
-    /// [kg·m²] About the centre of mass.
-    pub inertia: f64,
-    /// [m] Centre of mass from the reference point, in body axes.
-    pub com: Vec2,
-    /// [m] Distance of the second joint from the reference point, along the body's x axis.
-    pub length: f64,
-}
-
-/// Crank, rod and slider.
-pub type Bodies = [Body; 3];
 
 /// The three bodies of a scene; a flexible rod's mass properties are its beam's.
 pub fn bodies(scene: &Scene) -> Bodies {

@@ -14,9 +14,8 @@ use super::loads::Loads;
 use super::scalar::Scalar;
 use super::state::{CONTACTS, Contacts, Pose};
 use super::structure::{CRANK, ROD, SLIDER};
-use super::unilateral;
 use crate::integrator::{ContactLaw, Discontinuities, EventFunctions, MAX_EVENTS, Reset, Triggered};
-use crate::scene::Scene;
+use crate::scene::{Contact, FrictionLaw, Scene};
 
 /// The joints of a scene as contacts.
 #[derive(Clone, Debug)]
@@ -33,6 +32,20 @@ pub struct Clearances {
     pub(super) laws: [ContactLaw; CONTACTS],
 }
 
+/// Restitution and friction of every contact of a scene: of a friction law, its (kinetic) coefficient.
+fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
+    let law = |contact: &Contact| ContactLaw {
+        restitution: contact.restitution,
+        friction: if contact.friction.law == FrictionLaw::None { 0.0 } else { contact.friction.coefficient },
+    };
+    let joint = &scene.joint;
+    let mut laws = [law(&joint.t.contact); CONTACTS];
+    for (place, joint) in laws.iter_mut().zip([&joint.a, &joint.b, &joint.c]) {
+        *place = law(&joint.contact);
+    }
+    laws
+}
+
 impl Clearances {
     /// Of a scene.
     pub fn new(scene: &Scene) -> Self {
@@ -44,7 +57,7 @@ impl Clearances {
             mass: bodies(scene).map(|body| body.mass),
             bristle: std::array::from_fn(|contact| bristles.iter().position(|&bristled| bristled == contact)),
             bristles,
-            laws: unilateral::laws(scene),
+            laws: laws(scene),
         }
     }
 

@@ -108,7 +108,7 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
         each!(C::KNOWN, k < size, C::MODES => {
             let [with_crank, with_rod, with_slider] = self.with[k];
             let known = with_crank.times_plus(angles[0], with_rod.times_plus(angles[1], with_slider * angles[2]));
-            found[k] = found[k] - known;
+            found[k] -= known;
         });
         if !size.is_multiple_of(2) {
             let last = size - 1;

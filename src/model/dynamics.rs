@@ -20,10 +20,10 @@
 
 use super::bodies::AugmentedBodies;
 use super::ideal::IdealMotion;
-use super::kinematics::{Arms, Roots, Turning};
+use super::kinematics::{Arms, Turning};
 use super::loads::Loads;
 use super::plane::{Rotation, Vec2, cross};
-use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
+use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure};
 use crate::math::{Fused, Real};
 use std::ops::Mul;
 

@@ -13,7 +13,7 @@
 
 use super::bodies::AugmentedBodies;
 use super::plane::{Rotation, Vec2, perp};
-use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
+use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure};
 use crate::math::Real;
 use std::ops::{Add, Mul, Sub};
 
@@ -34,18 +34,6 @@ pub struct Centres<V> {
 
 /// One vector (a position, velocity or acceleration) for every joint centre.
 pub type JointCentres<R = f64> = Centres<Vec2<R>>;
-
-/// What the roots of the chains contribute: positions, velocities or accelerations of floating centres of mass and of the
-/// pin on an ideal guide.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Roots<V> {
-    /// Of the chain with the crank, where it floats.
-    pub crank: V,
-    /// Of the chain that begins with the rod, where it floats.
-    pub rod: V,
-    /// Of the slider: its pin on an ideal guide, its centre of mass where it floats alone.
-    pub slider: V,
-}
 
 /// Arms that turn with the bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -9,11 +9,13 @@
 mod assembled;
 pub mod audit;
 pub mod bodies;
+pub mod body;
 pub mod bristles;
 pub mod clearances;
 pub mod compiled;
 mod condensation;
 pub mod contact;
+pub mod demand;
 pub mod drive;
 pub mod dynamics;
 pub mod friction;

@@ -1,6 +1,7 @@
 //! Outputs of one instant.
 
-use super::bodies::{Bodies, bodies};
+use super::bodies::bodies;
+use super::body::Bodies;
 use super::ideal::IdealMechanism;
 use super::joint::guide::contact_of_corner;
 use super::joint::rectangle::CORNERS;

@@ -4,8 +4,9 @@
 //! An open chain is walked from the cut, where the contact force is known, body by body. Only the
 //! closed loop needs an equation with two unknowns: the moments on the rod about its big end.
 
-use super::bodies::{Bodies, Body};
-use super::plane::{Rotation, Vec2, cross, perp};
+use super::body::Bodies;
+use super::demand::Demand;
+use super::plane::{Vec2, cross};
 use super::state::Instant;
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::math::Real;
@@ -26,24 +27,6 @@ pub struct Reactions<R = f64> {
     pub moment: R,
     /// [N·m] What a speed drive adds to the couples on the crank.
     pub torque: R,
-}
-
-/// What a body's motion needs of forces and of moments about its reference point, gravity subtracted.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Demand<R = f64> {
-    /// [N]
-    pub force: Vec2<R>,
-    /// [N·m] About the body's reference point.
-    pub moment: R,
-}
-
-impl<R: Real> Demand<R> {
-    fn new(body: &Body, rotation: Rotation<R>, speed: R, alpha: R, point: Vec2<R>, gravity: f64) -> Self {
-        let com = rotation.apply(body.com);
-        let acceleration = point + alpha * perp(com) - speed * speed * com;
-        let force = (acceleration + Vec2::new(0.0, gravity)) * body.mass;
-        Self { force, moment: alpha * body.inertia + cross(com, force) }
-    }
 }
 
 /// The joint forces at `instant`.

@@ -1,6 +1,7 @@
 //! A mechanism at one instant, the same for every topology: what outputs are made from.
 
 use super::contact::ContactMode;
+use super::demand::Demand;
 use super::drive::Rotor;
 use super::joint::rectangle::{CORNERS, SliderPose};
 use super::joint::revolute::Play;
@@ -8,7 +9,6 @@ use super::joint_set::Pin;
 use super::kinematics::{JointCentres, Turning};
 use super::loads::Loads;
 use super::plane::Rotation;
-use super::reactions::Demand;
 use super::rod::Elastic;
 use super::structure::{CRANK, ROD, SLIDER, Structure};
 use crate::math::Real;

@@ -28,7 +28,6 @@
 //! the bodies as the rod bends; where that chain floats, its root is its first joint.
 
 use super::joint_set::JointSet;
-use super::kinematics::Roots;
 use super::plane::Vec2;
 use crate::math::Real;
 use crate::scene::{DriveMode, JointModel, Scene};
@@ -130,6 +129,18 @@ impl Link {
             _ => {}
         }
     }
+}
+
+/// What the roots of the chains contribute: positions, velocities or accelerations of floating centres of mass and of the
+/// pin on an ideal guide.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Roots<V> {
+    /// Of the chain with the crank, where it floats.
+    pub crank: V,
+    /// Of the chain that begins with the rod, where it floats.
+    pub rod: V,
+    /// Of the slider: its pin on an ideal guide, its centre of mass where it floats alone.
+    pub slider: V,
 }
 
 /// A mechanism's bodies, joints and coordinates, as a plain value.

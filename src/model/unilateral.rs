@@ -13,25 +13,10 @@ use super::loads::Loads;
 use super::mechanism::{Mechanism, instant, write};
 use super::state::{CONTACTS, Contacts, Instant, Pose};
 use super::structure::Structure;
+use crate::integrator::Relative;
 use crate::integrator::complementarity::{MOST_CONTACTS, Pairs};
-use crate::integrator::{ContactLaw, Relative};
-use crate::scene::{Contact, FrictionLaw, Scene};
 
 const _: () = assert!(CONTACTS == MOST_CONTACTS);
-
-/// Restitution and friction of every contact of a scene: of a friction law, its (kinetic) coefficient.
-pub fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
-    let law = |contact: &Contact| ContactLaw {
-        restitution: contact.restitution,
-        friction: if contact.friction.law == FrictionLaw::None { 0.0 } else { contact.friction.coefficient },
-    };
-    let joint = &scene.joint;
-    let mut laws = [law(&joint.t.contact); CONTACTS];
-    for (place, joint) in laws.iter_mut().zip([&joint.a, &joint.b, &joint.c]) {
-        *place = law(&joint.contact);
-    }
-    laws
-}
 
 impl Clearances {
     /// [m/s] Rate of the gap and sliding speed of every contact; 0 in a joint without clearance.

@@ -3,8 +3,9 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
-use super::Shape;
-use super::modes::{Arrays, Counted, Counts};
+use super::counts::{Counted, Counts};
+use super::modes::Arrays;
+use super::shape::Shape;
 use super::sums::{FunctionsToFunctions, FunctionsToModes, ModesToModes, add_rows};
 use super::tables::Viewed;
 use crate::math::{LANES, Real, each};

@@ -2,7 +2,8 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
-use super::modes::{Arrays, Counted, Counts};
+use super::counts::{Counted, Counts};
+use super::modes::Arrays;
 use super::sums::{ModesToModes, add_rows};
 use crate::math::{Real, each};
 

@@ -2,7 +2,7 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one four
 
-use super::modes::Counted;
+use super::counts::Counted;
 use crate::math::{LANES, Lanes, Real, each};
 use std::array;
 use std::marker::PhantomData;

@@ -4,8 +4,8 @@
 //! foreshortenings of pairs (ξ_kl = −q_k·q_l, twice that where k ≠ l). With w = Σ q_i·φ_i and ∂x/∂q_i = −2·Σ_k q_k·B_ik,
 //! every integral over the rod that its motion asks for is a sum over few products of modal coordinates and rates.
 
-use super::Rod;
-use super::modes::Room;
+use super::counts::Room;
+use super::flexible::Rod;
 
 /// Rows of numbers, each with room for so many.
 #[derive(Clone, Debug)]

@@ -1,0 +1,37 @@
+//! What outputs tell of a rod's elasticity.
+
+use super::flexible::Rod;
+use super::shape::Shape;
+use crate::math::Real;
+
+/// Deflection, stretch, elastic energy and its loss.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elastic<R = f64> {
+    /// [m] At mid-span.
+    pub deflection: R,
+    /// [m] From end to end.
+    pub stretch: R,
+    /// [J]
+    pub energy: R,
+    /// [W] That modal damping takes.
+    pub modal_loss: R,
+}
+
+impl Rod {
+    /// Deflection, stretch and elastic energy.
+    pub fn elastic<R: Real, const K: usize, const F: usize>(
+        &self,
+        shape: &Shape<R, K, F>,
+        eta: &[R],
+        rate: &[R],
+    ) -> Elastic<R> {
+        let mut elastic = Elastic { stretch: shape.chord.stretch, ..Elastic::default() };
+        elastic.deflection = eta.iter().zip(&self.middle).fold(R::ZERO, |sum, (eta, middle)| sum + *eta * *middle);
+        for k in 0..self.modes() {
+            let (m, omega) = (self.modal_mass[k], self.frequency[k]);
+            elastic.energy += eta[k] * (0.5 * m * omega * omega) * eta[k];
+            elastic.modal_loss += rate[k] * (2.0 * self.damping_ratio * m * omega) * rate[k];
+        }
+        elastic
+    }
+}

@@ -1,0 +1,115 @@
+//! A flexible rod's modes as a scene has them.
+
+use super::beam;
+use super::counts::Counts;
+use crate::math::Vec2;
+use crate::model::body::Body;
+use crate::scene::modal::{MOST_MODES, ModalTable};
+use crate::scene::{Flexible, Scene};
+
+/// The rod's modes, as the scene calls for them.
+#[derive(Clone, Debug)]
+pub struct Rod {
+    pub(super) counts: Counts,
+    /// [m] Undeformed.
+    pub(super) length: f64,
+    /// [kg]
+    pub(super) mass: f64,
+    /// [kg·m] ∫B dm.
+    pub(super) first: Vec<f64>,
+    /// [kg·m²] ∫B·Bᵀ dm, row by row.
+    pub(super) second: Vec<f64>,
+    /// [kg·m] ∫B·φᵀ dm, row by row.
+    pub(super) coupling: Vec<f64>,
+    /// [kg] ∫φ dm.
+    pub(super) moment: Vec<f64>,
+    /// φ(l/2), φ'(0), φ'(l).
+    pub(super) middle: Vec<f64>,
+    pub(super) slope: [Vec<f64>; 2],
+    /// B(l).
+    pub(super) end: Vec<f64>,
+    /// [kg] Modal masses of η.
+    pub(super) modal_mass: Vec<f64>,
+    /// [rad/s] Frequencies of η.
+    pub frequency: Vec<f64>,
+    pub(super) damping_ratio: f64,
+}
+
+impl Rod {
+    /// Of a scene; `None` of a rigid rod.
+    pub fn new(scene: &Scene) -> Option<Self> {
+        let Flexible { bending_modes, axial_modes, damping_ratio, geometric_stiffness, table, .. } =
+            &scene.rod.flexible;
+        let count = |modes: i32| usize::try_from(modes).unwrap_or(0).min(MOST_MODES);
+        let (bending, axial) = (count(*bending_modes), count(*axial_modes));
+        if bending + axial == 0 {
+            return None;
+        }
+        let built_in;
+        let table = match table {
+            Some(table) => table,
+            None => {
+                built_in = beam::table(scene);
+                &built_in
+            }
+        };
+        Some(Self::of(table, bending, axial, scene.rod.length, *damping_ratio, *geometric_stiffness))
+    }
+
+    /// The first `bending` and `axial` modes of a table.
+    fn of(table: &ModalTable, bending: usize, axial: usize, length: f64, damping_ratio: f64, shortens: bool) -> Self {
+        let all = table.bending.len();
+        let mut kept: Vec<usize> = (0..=axial).collect();
+        let mut place = 1 + table.axial.len();
+        for i in 0..all {
+            for j in i..all {
+                if shortens && j < bending {
+                    kept.push(place);
+                }
+                place += 1;
+            }
+        }
+        let (bend, stretch) = (&table.bending[..bending], &table.axial[..axial]);
+        let mut end = vec![length];
+        end.extend(stretch.iter().map(|mode| mode.end));
+        end.extend(kept[1 + axial..].iter().map(|&k| table.shortening[k - 1 - table.axial.len()]));
+        let of_modes = |of_bending: &dyn Fn(usize) -> f64, of_axial: &dyn Fn(usize) -> f64| {
+            (0..bending).map(of_bending).chain((0..axial).map(of_axial)).collect::<Vec<f64>>()
+        };
+        Self {
+            counts: Counts { bending, axial, shortening: if shortens { bending } else { 0 } },
+            length,
+            mass: table.mass,
+            first: kept.iter().map(|&k| table.first[k]).collect(),
+            second: kept.iter().flat_map(|&k| kept.iter().map(move |&m| table.second[k][m])).collect(),
+            coupling: kept.iter().flat_map(|&k| table.coupling[k][..bending].iter().copied()).collect(),
+            moment: bend.iter().map(|mode| mode.moment).collect(),
+            middle: bend.iter().map(|mode| mode.middle).collect(),
+            slope: [
+                bend.iter().map(|mode| mode.slope_start).collect(),
+                bend.iter().map(|mode| mode.slope_end).collect(),
+            ],
+            end,
+            modal_mass: of_modes(&|i| bend[i].mass, &|j| stretch[j].mass),
+            frequency: of_modes(&|i| bend[i].frequency, &|j| stretch[j].frequency),
+            damping_ratio,
+        }
+    }
+
+    /// The rod as a rigid body.
+    pub fn undeformed(&self) -> Body {
+        let com = Vec2::new(self.first[0] / self.mass, 0.0);
+        let inertia = self.second[0] - self.mass * com.x * com.x;
+        Body { mass: self.mass, inertia, com, length: self.length }
+    }
+
+    /// Number of modal coordinates.
+    pub fn modes(&self) -> usize {
+        self.counts.modes()
+    }
+
+    /// [kg]
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+}
