@@ -31,7 +31,7 @@ pub struct Modes {
 
 /// The same modes in arrays of `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::model) struct Arrays<'a, const K: usize, const F: usize> {
+pub(crate) struct Arrays<'a, const K: usize, const F: usize> {
     /// How many there are.
     pub counts: Counts,
     pub(super) length: f64,
@@ -79,7 +79,7 @@ impl Modes {
 
     /// In the arrays of its room.
     #[inline(always)]
-    pub(in crate::model) fn arrays<const K: usize, const F: usize>(&self) -> Arrays<'_, K, F> {
+    pub(crate) fn arrays<const K: usize, const F: usize>(&self) -> Arrays<'_, K, F> {
         Arrays {
             counts: self.counts,
             length: self.length,
