@@ -150,16 +150,19 @@ fn fall(before: EventFunction, after: EventFunction, h: f64, inside: impl Fn(f64
         if before.value > 0.0 {
             return Some(root::falling(0.0, 1.0, before.value, after.value, RESOLUTION, value));
         }
-        // It starts from zero: upward first, or down at once.
+        // It starts from zero, or from where it was crossed together with another one, a little below.
         if before.rate <= 0.0 {
             return Some(0.0);
+        }
+        if after.rate >= 0.0 {
+            return None; // on its way up
         }
         let top = root::falling(0.0, 1.0, before.rate, after.rate, RESOLUTION, |s| inside(s).rate);
         let highest = value(top);
         return if highest > 0.0 {
             Some(root::falling(top, 1.0, highest, after.value, RESOLUTION, value))
         } else {
-            Some(0.0)
+            Some(top)
         };
     }
     let dips = before.rate < 0.0 && after.rate > 0.0;
@@ -171,4 +174,37 @@ fn fall(before: EventFunction, after: EventFunction, h: f64, inside: impl Fn(f64
     let bottom = root::falling(0.0, 1.0, -before.rate, -after.rate, RESOLUTION, |s| -inside(s).rate);
     let lowest = value(bottom);
     (lowest < 0.0).then(|| root::falling(0.0, bottom, before.value, lowest, RESOLUTION, value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where a function of the share of a step, and its rate, falls.
+    fn falls(of: impl Fn(f64) -> [f64; 2]) -> Option<f64> {
+        let function = |s: f64| {
+            let [value, rate] = of(s);
+            EventFunction { value, rate }
+        };
+        fall(function(0.0), function(1.0), 1.0, function)
+    }
+
+    #[test]
+    fn what_was_crossed_a_little_early_is_not_crossed_again_on_its_way_up() {
+        // Two contacts that opened and closed together at a tolerable distance from zero changed places for ever.
+        assert_eq!(falls(|s| [-1e-3 + 1e-4 * s, 1e-4]), None);
+    }
+
+    #[test]
+    fn what_turns_back_below_zero_falls_where_it_turns() {
+        let share = falls(|s| [-1e-3 + 1e-4 * (s - s * s), 1e-4 * (1.0 - 2.0 * s)]);
+        assert!(share.is_some_and(|share| (share - 0.5).abs() < 1e-9), "{share:?}");
+    }
+
+    #[test]
+    fn what_starts_from_zero_falls_at_once_or_where_it_comes_back() {
+        assert_eq!(falls(|s| [-s, -1.0]), Some(0.0));
+        let share = falls(|s| [s * (0.5 - s), 0.5 - 2.0 * s]);
+        assert!(share.is_some_and(|share| (share - 0.5).abs() < 1e-9), "{share:?}");
+    }
 }
