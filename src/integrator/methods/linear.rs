@@ -1,10 +1,12 @@
 //! Systems of linear equations, solved without a new allocation.
 
+use nalgebra::{DMatrixView, DMatrixViewMut, DVectorViewMut};
+
 /// L·U factors of a square matrix with rows exchanged (Gaussian elimination with partial pivoting).
 #[derive(Clone, Debug, Default)]
 pub struct Factors {
     size: usize,
-    /// Row by row.
+    /// L below the diagonal, whose own diagonal is 1, and U; column by column.
     elements: Vec<f64>,
     /// The row that was exchanged with row k.
     pivot: Vec<usize>,
@@ -20,51 +22,41 @@ impl Factors {
     /// are not finite.
     pub fn of(&mut self, size: usize, element: impl Fn(usize, usize) -> f64) {
         self.size = size;
-        let Self { elements, pivot, .. } = self;
-        for i in 0..size {
-            for (j, place) in elements[i * size..][..size].iter_mut().enumerate() {
+        let mut matrix = DMatrixViewMut::from_slice(&mut self.elements[..size * size], size, size);
+        for (j, mut column) in matrix.column_iter_mut().enumerate() {
+            for (i, place) in column.iter_mut().enumerate() {
                 *place = element(i, j);
             }
         }
         for k in 0..size {
-            let by_size = |i: &usize, j: &usize| elements[i * size + k].abs().total_cmp(&elements[j * size + k].abs());
-            let largest = (k..size).max_by(by_size).unwrap_or(k);
-            pivot[k] = largest;
-            if largest > k {
-                let (above, below) = elements.split_at_mut(largest * size);
-                above[k * size..][..size].swap_with_slice(&mut below[..size]);
-            }
-            let (above, below) = elements.split_at_mut((k + 1) * size);
-            let top = &above[k * size..];
-            for row in below.chunks_exact_mut(size).take(size - k - 1) {
-                let factor = row[k] / top[k];
-                row[k] = factor;
-                if factor != 0.0 {
-                    for (element, top) in row[k + 1..].iter_mut().zip(&top[k + 1..]) {
-                        *element -= factor * top;
-                    }
-                }
+            let largest = k + matrix.view_range(k.., k).iamax();
+            self.pivot[k] = largest;
+            matrix.swap_rows(k, largest);
+            let (mut left, mut right) = matrix.columns_range_pair_mut(k, k + 1..);
+            let diagonal = left[k];
+            let mut factors = left.rows_range_mut(k + 1..);
+            factors /= diagonal;
+            for mut column in right.column_iter_mut() {
+                let top = column[k];
+                column.rows_range_mut(k + 1..).axpy(-top, &factors, 1.0);
             }
         }
-    }
-
-    fn row(&self, i: usize) -> &[f64] {
-        &self.elements[i * self.size..][..self.size]
     }
 
     /// Replaces the right side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
-        for k in 0..self.size {
-            x.swap(k, self.pivot[k]);
+        if self.size == 0 {
+            return; // nalgebra asks for an equation at least
         }
-        for i in 0..self.size {
-            let (known, rest) = x.split_at_mut(i);
-            rest[0] -= self.row(i).iter().zip(&*known).map(|(l, x)| l * x).sum::<f64>();
+        for (k, &pivot) in self.pivot[..self.size].iter().enumerate() {
+            x.swap(k, pivot);
         }
-        for i in (0..self.size).rev() {
-            let (rest, known) = x.split_at_mut(i + 1);
-            let sum = self.row(i)[i + 1..].iter().zip(&*known).map(|(u, x)| u * x).sum::<f64>();
-            rest[i] = (rest[i] - sum) / self.row(i)[i];
+        let matrix = DMatrixView::from_slice(&self.elements[..self.size * self.size], self.size, self.size);
+        let mut x = DVectorViewMut::from_slice(x, self.size);
+        let solved =
+            matrix.solve_lower_triangular_with_diag_mut(&mut x, 1.0) && matrix.solve_upper_triangular_mut(&mut x);
+        if !solved {
+            x.fill(f64::NAN);
         }
     }
 }
@@ -88,5 +80,21 @@ mod tests {
         for (found, exact) in x.iter().zip(&exact) {
             assert!((found - exact).abs() < 1e-11, "{found} is not {exact}");
         }
+    }
+
+    #[test]
+    fn a_singular_matrix_has_no_finite_solution() {
+        let mut factors = Factors::with_capacity(3);
+        factors.of(3, |i, j| (i + j) as f64);
+        let mut x = [1.0, 2.0, 4.0];
+        factors.solve(&mut x);
+        assert!(!x.iter().all(|x| x.is_finite() && x.abs() < 1e12), "{x:?}");
+    }
+
+    #[test]
+    fn no_equations_have_no_solution() {
+        let mut factors = Factors::with_capacity(0);
+        factors.of(0, |_, _| 1.0);
+        factors.solve(&mut []);
     }
 }
