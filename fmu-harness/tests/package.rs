@@ -89,8 +89,9 @@ mod code {
     use object::endian::Endianness;
     use object::read::elf::{FileHeader, SectionHeader};
 
-    /// [bytes] Most machine code of one packaged library. What a step runs through has to stay in a processor's caches.
-    const MOST: u64 = 2_500_000;
+    /// [bytes] Most machine code of one packaged library: little above what the portable one has. The goal is 2 MB, which
+    /// the one for x86-64-v3 nearly meets.
+    const MOST: u64 = 2_800_000;
 
     /// [bytes] Sections of a library that hold instructions.
     fn size(library: &[u8]) -> u64 {

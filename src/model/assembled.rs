@@ -71,6 +71,12 @@ impl Model {
         }
     }
 
+    /// The same by the code for every structure: it has the same motion, and takes longer.
+    pub fn general(mut self) -> Self {
+        self.compiled = Compiled::general(&self.mechanism);
+        self
+    }
+
     /// The same with a flexible rod's modes in arrays that have room for more of them: it has the same motion.
     pub fn in_room(mut self, room: Room) -> Self {
         if let Some(FlexibleRod { rod, modes, .. }) = &mut self.mechanism.rod {

@@ -1,11 +1,11 @@
 //! The number types, and the constant structures, that get code of their own.
 //!
 //! The equations of motion are compiled once a number, for every structure: one state, eight states, a state with
-//! derivatives. With one play in a pin, or none, that is not enough: there is little to compute, and asking what hangs on
-//! what takes as long. In contact, an evaluation at a worn slider pin takes 36 ns for one state and 14 for each of eight, and
-//! with the structure a constant, of which nothing is left to ask, 22 and 8 (AVX2, one core of a Xeon); the closed loop 37
-//! and 11, and 17 and 6. With several plays, whose contacts take most of the time, runs would gain less than a tenth. So
-//! for these seven structures the same source is compiled again.
+//! derivatives; with a flexible rod, for three sizes of arrays. Where there is little to compute, asking what hangs on what
+//! takes as long, and where numbers of modes are not known, arrays stay in memory. So for the structures listed here, those
+//! of the usual studies, the same source is compiled again, with nothing left to ask. `cargo bench --bench compiled` shows
+//! what that saves: a structure stays in the list while it takes less than nine tenths of the time so. Code for eight states
+//! is compiled again where steps in blocks are the usual ones.
 //!
 //! What a step's stages hand on to one another must not pass through memory in other portions than it is read in; so the
 //! loop over them is compiled with the equations in it.
@@ -72,7 +72,17 @@ const fn suits_rows(structure: &Structure) -> bool {
 }
 
 impl Compiled {
-    /// Of a mechanism.
+    /// The code for every structure.
+    pub fn general(mechanism: &Mechanism) -> Self {
+        Self {
+            rates: Mechanism::rates_of_one,
+            rates_of_eight: Mechanism::rates_of_eight,
+            ends: Mechanism::ends,
+            stages: stages_of_all(2 * mechanism.positions()),
+        }
+    }
+
+    /// The code for a mechanism: that for its structure, if there is such.
     pub fn of(mechanism: &Mechanism) -> Self {
         let structure = &mechanism.structure;
         macro_rules! own {
@@ -97,12 +107,7 @@ impl Compiled {
                 }
             };
         }
-        let all = Self {
-            rates: Mechanism::rates_of_one,
-            rates_of_eight: Mechanism::rates_of_eight,
-            ends: Mechanism::ends,
-            stages: stages_of_all(2 * mechanism.positions()),
-        };
+        let all = Self::general(mechanism);
         if let Some(rod) = &mechanism.rod {
             return flexible(mechanism, rod, all);
         }

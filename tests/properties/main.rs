@@ -4,6 +4,7 @@ mod audit;
 mod chance;
 mod change_point;
 mod clearance_to_zero;
+mod compiled;
 mod conservation;
 mod consistency;
 mod differences;
@@ -11,7 +12,7 @@ mod elasticity;
 mod finite_elements;
 mod first_impact;
 mod flexible;
-mod flexible_arrays;
+
 mod foundation_guide;
 mod foundation_law;
 mod foundation_motion;

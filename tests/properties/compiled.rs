@@ -1,5 +1,5 @@
-//! A flexible rod's motion does not depend on what it is compiled for: the number of modes and the joints, any of them
-//! in larger arrays, or any in numbers with derivatives.
+//! A motion does not depend on what it is compiled for: a constant structure and a flexible rod's number of modes, any of
+//! them, any in larger arrays, or any in numbers with derivatives.
 
 use super::chance::Chance;
 use super::scenes::{all_plays, contacts, crooked, letters, with_play};
@@ -64,16 +64,22 @@ fn differ(name: &str, one: &[f64], other: &[f64]) {
     }
 }
 
-/// All numbers and all rooms that are large enough move `scenes` alike.
+/// All numbers, code for every structure, and all rooms that are large enough move `scenes` alike.
 fn move_alike(scenes: Vec<(String, Scene)>, rooms: &[Room]) {
     for (name, scene) in scenes {
         let [own, tangent] = rates(&scene, &Model::assemble(&scene, 0.0));
         differ(&name, &own, &tangent);
+        differ(&name, &own, &rates(&scene, &Model::assemble(&scene, 0.0).general())[0]);
         for room in rooms {
             let model = Model::assemble(&scene, 0.0).in_room(*room);
             differ(&format!("{name}, {room:?}"), &own, &rates(&scene, &model)[0]);
         }
     }
+}
+
+#[test]
+fn a_rigid_rod_moves_alike_by_code_of_its_own_structure_and_of_all() {
+    move_alike(scenes(0, 0, true), &[]);
 }
 
 #[test]
