@@ -1,7 +1,7 @@
 //! A mechanism: its parts, its inputs, and its equations of motion.
 //!
 //! The equations are written once, for every [`Structure`] and every number: [`Mechanism::rates`] with a rigid rod and
-//! [`Mechanism::flexible_rates`] with a flexible one, which differ in the rod's inertia and in what is solved. They are
+//! `flexible_rates` with a flexible one, which differ in the rod's inertia and in what is solved. They are
 //! compiled once for each kind of number, with the structure as data, and again for some constant structures
 //! ([`compiled`](super::compiled)). What else is asked about an instant is made from the same three steps: the pose,
 //! outwards; the loads; the accelerations, by forces inwards.

@@ -79,7 +79,10 @@ fn move_alike(scenes: Vec<(String, Scene)>, rooms: &[Room]) {
 
 #[test]
 fn a_rigid_rod_moves_alike_by_code_of_its_own_structure_and_of_all() {
-    move_alike(scenes(0, 0, true), &[]);
+    let mut scenes = scenes(0, 0, true);
+    // A prescribed crank without any play leaves nothing that moves by itself.
+    scenes.retain(|(_, scene)| Model::assemble(scene, 0.0).extent().states > 0);
+    move_alike(scenes, &[]);
 }
 
 #[test]
