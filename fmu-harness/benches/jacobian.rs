@@ -1,8 +1,7 @@
 //! Nanoseconds per Jacobian, and per evaluation of the right-hand side, at states along a run:
 //! `cargo bench --bench jacobian`.
 
-use cpu_time::ThreadTime;
-use fmu_harness::effects::inputs_at_start;
+use fmu_harness::effects::{fastest, inputs_at_start};
 use fmu_harness::scenes::{Scenario, directory, ladder, names};
 use slidercrank::simulation::{Simulation, Size};
 
@@ -24,22 +23,12 @@ fn main() -> anyhow::Result<()> {
         let (mut evaluation, mut jacobian) = (0.0, 0.0);
         for state in 1..=STATES {
             simulation.advance_to(span * state as f64 / STATES as f64)?;
-            evaluation += least(|| simulation.evaluate(CALLS));
-            jacobian += least(|| simulation.differentiate(CALLS));
+            evaluation += fastest(MEASUREMENTS, || simulation.evaluate(CALLS));
+            jacobian += fastest(MEASUREMENTS, || simulation.differentiate(CALLS));
         }
         let per = 1e9 / (STATES * CALLS) as f64;
         let ratio = jacobian / evaluation;
         println!("{name:22} {states:6}  {:17.1}  {:15.0}  {ratio:5.1}", evaluation * per, jacobian * per);
     }
     Ok(())
-}
-
-/// [s] The fastest of some runs of `work`.
-fn least(work: impl Fn()) -> f64 {
-    let measure = |_| {
-        let start = ThreadTime::now();
-        work();
-        start.elapsed().as_secs_f64()
-    };
-    (0..MEASUREMENTS).map(measure).fold(f64::INFINITY, f64::min)
 }

@@ -80,14 +80,20 @@ pub fn evaluation(mut simulation: Simulation, span: f64) -> Result<f64> {
     for state in 1..=STATES {
         simulation.advance_to(span * state as f64 / STATES as f64)?;
         let before = std::mem::replace(&mut done, simulation.outputs().solver.evaluations);
-        let least = (0..MEASUREMENTS).map(|_| {
-            let start = ThreadTime::now();
-            simulation.evaluate(EVALUATIONS);
-            start.elapsed().as_secs_f64() / EVALUATIONS as f64
-        });
-        spent += f64::from(done - before) * least.fold(f64::INFINITY, f64::min);
+        let least = fastest(MEASUREMENTS, || simulation.evaluate(EVALUATIONS)) / EVALUATIONS as f64;
+        spent += f64::from(done - before) * least;
     }
     Ok(spent / f64::from(done))
+}
+
+/// [s] CPU time of the fastest of so many runs of `work`.
+pub fn fastest(runs: usize, mut work: impl FnMut()) -> f64 {
+    let measure = |_| {
+        let start = ThreadTime::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    (0..runs).map(measure).fold(f64::INFINITY, f64::min)
 }
 
 /// The scene's inputs where it starts.

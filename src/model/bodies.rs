@@ -121,18 +121,20 @@ pub struct RodInChain {
     pub first: f64,
     /// [kg] |κ|, that of its moment of inertia: J + 2·big_end·L·D_x + |κ|·L².
     pub second: f64,
+    /// [m] Length of the crank.
+    throw: f64,
 }
 
 impl RodInChain {
     /// In a mechanism.
     pub fn new(bodies: &Bodies, structure: &Structure) -> Self {
-        let Topology { b, c, .. } = structure.topology;
+        let (Topology { b, c, .. }, throw) = (structure.topology, bodies[CRANK].length);
         if structure.rod == Link::After {
             let second = bodies[ROD].mass + if b { bodies[CRANK].mass } else { 0.0 };
-            Self { far: -1.0, big_end: -1.0, first: -second, second }
+            Self { far: -1.0, big_end: -1.0, first: -second, second, throw }
         } else {
             let second = if c { bodies[SLIDER].mass } else { 0.0 };
-            Self { far: 1.0, big_end: 0.0, first: second, second }
+            Self { far: 1.0, big_end: 0.0, first: second, second, throw }
         }
     }
 
@@ -143,7 +145,6 @@ impl RodInChain {
         &self,
         of: &Structure,
         constant: &AugmentedBodies,
-        throw: f64,
         length: R,
         first: Vec2<R>,
         inertia: R,
@@ -165,7 +166,7 @@ impl RodInChain {
             (all.cos[0], all.sin[0]) = (length * -crank.x, length * -crank.y);
         } else {
             let slider = constant.moment[SLIDER];
-            (all.cos[0], all.sin[0]) = (own.x * throw, own.y * -throw);
+            (all.cos[0], all.sin[0]) = (own.x * self.throw, own.y * -self.throw);
             (all.cos[1], all.sin[1]) = (length * slider.x, length * -slider.y);
         }
         all

@@ -4,8 +4,8 @@
 //! derivatives; with a flexible rod, for three sizes of arrays. Where there is little to compute, asking what hangs on what
 //! takes as long, and where numbers of modes are not known, arrays stay in memory. So for the structures listed here, those
 //! of the usual studies, the same source is compiled again, with nothing left to ask. `cargo bench --bench compiled` shows
-//! what that saves: a structure stays in the list while it takes less than nine tenths of the time so. Code for eight states
-//! is compiled again where steps in blocks are the usual ones.
+//! what that saves in a stage of a step: about a tenth with four plays, half with one, and half with a flexible rod. A
+//! structure for which it saves less has no place here. Code for eight states is compiled again where steps in blocks are the usual ones.
 //!
 //! What a step's stages hand on to one another must not pass through memory in other portions than it is read in; so the
 //! loop over them is compiled with the equations in it.
@@ -42,24 +42,51 @@ pub struct Compiled {
     pub stages: Stages,
 }
 
-/// Chooses what `$own!` makes of the structure as a constant, or `$all` where that does not pay. A line has the ideal joints
+/// The code of a constant structure with so many states: what these methods of a mechanism do, with a flexible rod for its
+/// counts.
+macro_rules! code {
+    ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {
+        Compiled {
+            rates: |mechanism, contacts, t, y, rates| {
+                mechanism.$rates$(::<_, $counts>)?(&$structure, contacts, t, y, rates);
+            },
+            rates_of_eight: if const { suits_rows(&$structure) } {
+                |mechanism, contacts, t, y, rates| {
+                    mechanism.$rates$(::<_, $counts>)?(&$structure, contacts, t, y, rates);
+                }
+            } else {
+                Mechanism::rates_of_eight
+            },
+            ends: |mechanism, contacts, t, y, rates, guards| {
+                mechanism.$ends$(::<$counts>)?(&$structure, contacts, t, y, rates, guards);
+            },
+            stages: |mechanism, tableau, contacts, t, y, h, k| {
+                of_so_many::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
+                    mechanism.$rates$(::<_, $counts>)?(&$structure, contacts, t, y, rates);
+                })
+            },
+        }
+    };
+}
+
+/// Chooses the code of the structure as a constant, or `$all` where that does not pay. A line has the ideal joints
 /// (main bearing, crank pin, slider pin, guide), and whether the crank's angle is prescribed.
 macro_rules! by_structure {
-    ($structure:expr, $own:ident, $all:expr) => {
+    ($structure:expr, $all:expr) => {
         by_structure!(
-            @ $structure, $own, $all,
-            (true true true true false)
+            @ $structure, $all,
+            (true true true true false)  (true true true true true)
             (true true false true false) (true false true true false) (false true true true false)
             (true true false true true)  (true false true true true)  (false true true true true)
             (true true true false false) (true true true false true)
             (false false false true false) (false false false false false) (false false false false true)
         )
     };
-    (@ $structure:expr, $own:ident, $all:expr, $(($a:literal $b:literal $c:literal $t:literal $speed:literal))*) => {
+    (@ $structure:expr, $all:expr, $(($a:literal $b:literal $c:literal $t:literal $speed:literal))*) => {
         match $structure.topology {
             $(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed } => {
                 const OWN: Structure = Structure::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-                $own!(OWN)
+                code!(OWN, 2 * OWN.positions, rates, rates_and_guards)
             })*
             _ => $all,
         }
@@ -84,69 +111,26 @@ impl Compiled {
 
     /// The code for a mechanism: that for its structure, if there is such.
     pub fn of(mechanism: &Mechanism) -> Self {
-        let structure = &mechanism.structure;
-        macro_rules! own {
-            ($structure:ident) => {
-                Self {
-                    rates: |mechanism, contacts, t, y, rates| {
-                        mechanism.rates(&$structure, contacts, t, y, rates);
-                    },
-                    rates_of_eight: if const { suits_rows(&$structure) } {
-                        |mechanism, contacts, t, y, rates| mechanism.rates(&$structure, contacts, t, y, rates)
-                    } else {
-                        Mechanism::rates_of_eight
-                    },
-                    ends: |mechanism, contacts, t, y, rates, guards| {
-                        mechanism.rates_and_guards(&$structure, contacts, t, y, rates, guards);
-                    },
-                    stages: |mechanism, tableau, contacts, t, y, h, k| {
-                        of_so_many::<{ 2 * $structure.positions }>(tableau, t, y, h, k, |t, y, rates| {
-                            mechanism.rates(&$structure, contacts, t, y, rates);
-                        })
-                    },
-                }
-            };
-        }
         let all = Self::general(mechanism);
-        if let Some(rod) = &mechanism.rod {
-            return flexible(mechanism, rod, all);
+        match &mechanism.rod {
+            Some(rod) => flexible(&mechanism.structure, rod, all),
+            None => by_structure!(mechanism.structure, all),
         }
-        by_structure!(structure, own, all)
     }
 }
 
 /// The code for a flexible rod: for some structures and numbers of modes of its own, in which nothing is left to ask and
 /// loops over modes are written out. A line has the ideal joints, whether the crank's angle is prescribed, and the numbers of
 /// bending and axial modes.
-fn flexible(mechanism: &Mechanism, rod: &FlexibleRod, all: Compiled) -> Compiled {
+fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled {
     macro_rules! own {
         ($(($a:literal $b:literal $c:literal $t:literal $speed:literal, $bending:literal $axial:literal))*) => {
             $({
                 type Own = Exactly<$bending, $axial>;
                 const TOPOLOGY: Topology = Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed };
                 const OWN: Structure = Structure::with_rod(TOPOLOGY, true);
-                if mechanism.structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
-                    return Compiled {
-                        rates: |mechanism, contacts, t, y, rates| {
-                            mechanism.counted_rates::<f64, Own>(&OWN, contacts, t, y, rates);
-                        },
-                        rates_of_eight: if const { suits_rows(&OWN) } {
-                            |mechanism, contacts, t, y, rates| {
-                                mechanism.counted_rates::<Row, Own>(&OWN, contacts, t, y, rates);
-                            }
-                        } else {
-                            Mechanism::rates_of_eight
-                        },
-                        ends: |mechanism, contacts, t, y, rates, guards| {
-                            mechanism.counted_rates::<f64, Own>(&OWN, contacts, t, y, rates);
-                            mechanism.guards(contacts, t, y, guards);
-                        },
-                        stages: |mechanism, tableau, contacts, t, y, h, k| {
-                            of_so_many::<{ 2 * (OWN.positions + $bending + $axial) }>(tableau, t, y, h, k, |t, y, rates| {
-                                mechanism.counted_rates::<f64, Own>(&OWN, contacts, t, y, rates);
-                            })
-                        },
-                    };
+                if structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
+                    return code!(OWN, 2 * (OWN.positions + Own::MODES), counted_rates, counted_rates_and_guards, Own);
                 }
             })*
         };
@@ -177,8 +161,8 @@ fn stages_of_all(states: usize) -> Stages {
     of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// `in_room!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the arrays that the rod has room in: of `K` modes and `F`
-/// functions along the rod.
+/// `in_room!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the arrays that the rod has room in: of `K` modes
+/// and `F` functions along the rod.
 macro_rules! in_room {
     ($rod:expr, $own:ident . $name:ident $(:: <$number:ty>)? ($($argument:expr),*)) => {
         match $rod.modes.room {
@@ -195,7 +179,6 @@ impl Mechanism {
     #[inline(never)]
     pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
-            _ if y.is_empty() => {}
             None => self.rates(&self.structure, contacts, t, y, rates),
             Some(rod) => in_room!(rod, self.drop_flexible_motion::<f64>(rod, contacts, t, y, rates)),
         }
@@ -224,10 +207,7 @@ impl Mechanism {
     pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut EventFunctions) {
         match &self.rod {
             None => self.rates_and_guards(&self.structure, contacts, t, y, rates, guards),
-            Some(_) => {
-                self.rates_of_one(contacts, t, y, rates);
-                self.guards(contacts, t, y, guards);
-            }
+            Some(rod) => in_room!(rod, self.flexible_ends(rod, contacts, t, y, rates, guards)),
         }
     }
 
@@ -283,6 +263,37 @@ impl Mechanism {
         }
     }
 
+    /// The same, and the event functions.
+    #[inline(always)]
+    fn counted_rates_and_guards<C: Counted>(
+        &self,
+        of: &Structure,
+        contacts: &Contacts,
+        t: f64,
+        y: &[f64],
+        rates: &mut [f64],
+        guards: &mut EventFunctions,
+    ) {
+        if let Some(rod) = &self.rod {
+            let motion = self.flexible_rates::<f64, C, 4, 12>(of, rod, contacts, t, y, rates);
+            motion.guards(self, of, contacts, guards);
+        }
+    }
+
+    #[inline(never)]
+    fn flexible_ends<const K: usize, const F: usize>(
+        &self,
+        rod: &FlexibleRod,
+        contacts: &Contacts,
+        t: f64,
+        y: &[f64],
+        rates: &mut [f64],
+        guards: &mut EventFunctions,
+    ) {
+        let motion = self.flexible_motion::<f64, K, F>(rod, contacts, t, y, rates);
+        motion.guards(self, &self.structure, contacts, guards);
+    }
+
     #[inline(never)]
     fn flexible_rates_of_eight<const K: usize, const F: usize>(
         &self,
@@ -307,6 +318,7 @@ impl Mechanism {
         self.flexible_rates::<R, Any, K, F>(&self.structure, rod, contacts, t, y, rates)
     }
 
+    /// Rates alone, by the same code.
     #[inline(never)]
     fn drop_flexible_motion<R: Scalar, const K: usize, const F: usize>(
         &self,

@@ -120,7 +120,7 @@ impl Mechanism {
         guards: &mut EventFunctions,
     ) {
         let (stance, ..) = self.motion(of, contacts, t, y, rates);
-        self.guards_at(of, contacts, &stance.pose, guards);
+        self.guards_at(of, contacts, &stance.pose, [self.ideal.rod, 0.0], guards);
     }
 
     /// The same, and everything else about this instant.
@@ -180,10 +180,8 @@ impl Mechanism {
         let Stance { pose, arms, closing } = &stance;
         let inertia = modes.inertia::<R, C>(&shape, eta, rate, pose.turning.speed[ROD]);
         let bent = Bent { modes, chain: rod.chain, shape: &shape, inertia: &inertia, eta, rate };
-        let bodies = bent.augmented(of, &self.augmented, self.ideal.crank);
         let accelerations = bent.accelerate::<C>(
             of,
-            &bodies,
             &self.augmented,
             self.gravity,
             &pose.turning,
@@ -309,35 +307,28 @@ impl Mechanism {
         accelerate(of, &self.augmented, self.gravity, &pose.turning, arms, closing, loads)
     }
 
-    /// Writes the event functions at this pose.
+    /// Writes the event functions at this pose, with a rod or a chord of `length` [m] that grows at `rate` [m/s].
     #[inline(always)]
-    fn guards_at(&self, of: &Structure, contacts: &Contacts, pose: &Pose, guards: &mut EventFunctions) {
-        if of.closed {
-            if self.ideal.has_change_point() {
-                let Turning { rotation, speed, .. } = &pose.turning;
-                guards[0] = self.ideal.change_point(rotation[CRANK], speed[CRANK], self.ideal.rod, 0.0);
-            }
-        } else {
-            self.clearances.guards(of.play, contacts, pose, guards);
-        }
-    }
-
-    /// The same with a flexible rod: it may stretch until it passes the change point.
-    #[inline(always)]
-    fn flexible_guards_at(
+    fn guards_at(
         &self,
         of: &Structure,
         contacts: &Contacts,
         pose: &Pose,
-        chord: &Chord<f64>,
+        [length, rate]: [f64; 2],
         guards: &mut EventFunctions,
     ) {
-        if of.closed {
-            let Turning { rotation, speed, .. } = &pose.turning;
-            guards[0] = self.ideal.change_point(rotation[CRANK], speed[CRANK], chord.length, chord.rate);
-        } else {
+        if !of.closed {
             self.clearances.guards(of.play, contacts, pose, guards);
+        } else if self.has_change_point(of) {
+            let Turning { rotation, speed, .. } = &pose.turning;
+            guards[0] = self.ideal.change_point(rotation[CRANK], speed[CRANK], length, rate);
         }
+    }
+
+    /// A closed loop may come to its change point; a flexible rod may shorten until it does.
+    #[inline(always)]
+    fn has_change_point(&self, of: &Structure) -> bool {
+        of.flexible || self.ideal.has_change_point()
     }
 
     /// Poses, outwards, with a flexible rod, and its chord.
@@ -414,6 +405,15 @@ impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
     }
 }
 
+impl<const K: usize, const F: usize> FlexibleMotion<f64, K, F> {
+    /// Writes the event functions.
+    #[inline(always)]
+    pub fn guards(&self, mechanism: &Mechanism, of: &Structure, contacts: &Contacts, guards: &mut EventFunctions) {
+        let Chord { length, rate, .. } = self.shape.chord;
+        mechanism.guards_at(of, contacts, &self.stance.pose, [length, rate], guards);
+    }
+}
+
 /// Writes velocities and accelerations.
 #[inline(always)]
 pub(super) fn write<R: Scalar>(of: &Structure, accelerations: &Accelerations<R>, y: &[R], rates: &mut [R]) {
@@ -450,7 +450,7 @@ impl Mechanism {
     /// How many event functions there are.
     pub fn guard_count(&self) -> usize {
         if self.structure.closed {
-            usize::from(self.structure.flexible || self.ideal.has_change_point())
+            usize::from(self.has_change_point(&self.structure))
         } else {
             self.clearances.guard_count(self.structure.play)
         }
@@ -458,13 +458,14 @@ impl Mechanism {
 
     /// Writes the event functions.
     pub fn guards(&self, contacts: &Contacts, t: f64, y: &[f64], guards: &mut EventFunctions) {
-        match &self.rod {
+        let (pose, chord) = match &self.rod {
             Some(rod) => {
                 let (pose, chord) = self.bent_pose(rod, t, y);
-                self.flexible_guards_at(&self.structure, contacts, &pose, &chord, guards);
+                (pose, [chord.length, chord.rate])
             }
-            None => self.guards_at(&self.structure, contacts, &self.place(t, y).pose, guards),
-        }
+            None => (self.place(t, y).pose, [self.ideal.rod, 0.0]),
+        };
+        self.guards_at(&self.structure, contacts, &pose, chord, guards);
     }
 
     /// Angles, places and velocities.

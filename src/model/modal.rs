@@ -98,21 +98,13 @@ impl Root {
 }
 
 impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
-    /// The augmented bodies of its chain as it is.
-    #[inline(always)]
-    pub fn augmented(&self, of: &Structure, constant: &AugmentedBodies, throw: f64) -> AugmentedBodies<R> {
-        let Inertia { first, about_origin, .. } = *self.inertia;
-        self.chain.augmented(of, constant, throw, self.shape.chord.length, first, about_origin)
-    }
-
     /// Solves the equations of motion: accelerations of roots and angles, and of the modal coordinates, which are written
-    /// into `modal` [m/s²]. `bodies` are those of [`Bent::augmented`].
+    /// into `modal` [m/s²]. `constant` are the augmented bodies with the rod as it is undeformed.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "inlined")]
     pub fn accelerate<C: Counted>(
         &self,
         of: &Structure,
-        bodies: &AugmentedBodies<R>,
         constant: &AugmentedBodies,
         gravity: f64,
         turning: &Turning<R>,
@@ -123,8 +115,10 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
     ) -> Accelerations<R> {
         let Self { modes, chain, shape, inertia, eta, rate } = self;
         let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
-        let RodInChain { far, big_end, first: kappa, second } = *chain; // see the module
-        let mut equations = Equations::new(of, bodies, gravity, turning, loads, |number| number);
+        let RodInChain { far, big_end, first: kappa, second, .. } = *chain;
+        let length = shape.chord.length;
+        let bodies = chain.augmented(of, constant, length, inertia.first, inertia.about_origin);
+        let mut equations = Equations::new(of, &bodies, gravity, turning, loads, |number| number);
         let forces = equations.gather(of, arms, loads);
         let mut roots = forces.fall(of, constant, gravity);
         let Equations { m, q1, q2, q3, .. } = &mut equations;
@@ -144,7 +138,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         }
 
         // What the modes' motion asks of the chain.
-        let (length, stretching) = (shape.chord.length, shape.chord.bias);
+        let stretching = shape.chord.bias;
         let sliding = w2 * shape.chord.rate * 2.0; // Coriolis
         let first = inertia.first;
         let own = inertia.force + first * s2;
