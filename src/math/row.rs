@@ -15,13 +15,12 @@ pub const ROW: usize = REGISTERS * LANES;
 const REGISTERS: usize = 2;
 
 /// Eight numbers side by side: two registers of four, where the processor has such, so that one half computes while the
-/// other waits for a result. Or, of one register, four: where much is to be kept at hand, as for a flexible rod, eight
-/// numbers do not find room.
+/// other waits for a result.
 ///
 /// Each has the bits that `f64` would have. Two rows are equal, or one is greater, where that holds of all their numbers; where
 /// they are not alike in that, no comparison holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row<const R: usize = REGISTERS>([f64x4; R]);
+pub struct Row([f64x4; REGISTERS]);
 
 impl Row {
     /// These.
@@ -50,21 +49,9 @@ impl Row {
         let [a, b, c, d] = (self.0[0] + self.0[1]).to_array();
         (a + b) + (c + d)
     }
-
-    /// Its first four (0) or its last four (1).
-    #[inline(always)]
-    pub fn half(&self, half: usize) -> Row<1> {
-        Row([self.0[half]])
-    }
-
-    /// Puts others in place of its first four (0) or its last four (1).
-    #[inline(always)]
-    pub fn set_half(&mut self, half: usize, numbers: Row<1>) {
-        self.0[half] = numbers.0[0];
-    }
 }
 
-impl<const R: usize> Row<R> {
+impl Row {
     #[inline(always)]
     fn each(self, of: impl Fn(f64x4) -> f64x4) -> Self {
         Self(self.0.map(of))
@@ -81,20 +68,20 @@ impl<const R: usize> Row<R> {
     }
 }
 
-impl<const R: usize> Default for Row<R> {
+impl Default for Row {
     fn default() -> Self {
         Self::ZERO
     }
 }
 
-impl<const R: usize> PartialEq<f64> for Row<R> {
+impl PartialEq<f64> for Row {
     #[inline(always)]
     fn eq(&self, other: &f64) -> bool {
         self.0.iter().all(|four| four.to_array().iter().all(|number| number == other))
     }
 }
 
-impl<const R: usize> PartialOrd for Row<R> {
+impl PartialOrd for Row {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         let pairs = self.0.iter().zip(&other.0).flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array()));
         let mut compared = pairs.map(|(a, b)| a.partial_cmp(&b));
@@ -103,13 +90,13 @@ impl<const R: usize> PartialOrd for Row<R> {
     }
 }
 
-impl<const R: usize> PartialOrd<f64> for Row<R> {
+impl PartialOrd<f64> for Row {
     fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
         self.partial_cmp(&Self::constant(*other))
     }
 }
 
-impl<const R: usize> Neg for Row<R> {
+impl Neg for Row {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -117,7 +104,7 @@ impl<const R: usize> Neg for Row<R> {
     }
 }
 
-impl<const R: usize> Add for Row<R> {
+impl Add for Row {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -125,7 +112,7 @@ impl<const R: usize> Add for Row<R> {
     }
 }
 
-impl<const R: usize> Sub for Row<R> {
+impl Sub for Row {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -133,7 +120,7 @@ impl<const R: usize> Sub for Row<R> {
     }
 }
 
-impl<const R: usize> Mul for Row<R> {
+impl Mul for Row {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -141,7 +128,7 @@ impl<const R: usize> Mul for Row<R> {
     }
 }
 
-impl<const R: usize> Div for Row<R> {
+impl Div for Row {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -149,7 +136,7 @@ impl<const R: usize> Div for Row<R> {
     }
 }
 
-impl<const R: usize> Add<f64> for Row<R> {
+impl Add<f64> for Row {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: f64) -> Self {
@@ -157,7 +144,7 @@ impl<const R: usize> Add<f64> for Row<R> {
     }
 }
 
-impl<const R: usize> Sub<f64> for Row<R> {
+impl Sub<f64> for Row {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: f64) -> Self {
@@ -165,7 +152,7 @@ impl<const R: usize> Sub<f64> for Row<R> {
     }
 }
 
-impl<const R: usize> Mul<f64> for Row<R> {
+impl Mul<f64> for Row {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
@@ -173,7 +160,7 @@ impl<const R: usize> Mul<f64> for Row<R> {
     }
 }
 
-impl<const R: usize> Div<f64> for Row<R> {
+impl Div<f64> for Row {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: f64) -> Self {
@@ -181,7 +168,7 @@ impl<const R: usize> Div<f64> for Row<R> {
     }
 }
 
-impl<const R: usize> Mul<Vec2<Self>> for Row<R> {
+impl Mul<Vec2<Self>> for Row {
     type Output = Vec2<Self>;
     #[inline(always)]
     fn mul(self, v: Vec2<Self>) -> Vec2<Self> {
@@ -189,45 +176,44 @@ impl<const R: usize> Mul<Vec2<Self>> for Row<R> {
     }
 }
 
-impl<const R: usize> AddAssign for Row<R> {
+impl AddAssign for Row {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<const R: usize> SubAssign for Row<R> {
+impl SubAssign for Row {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl<const R: usize> Fused for Row<R> {
+impl Fused for Row {
     #[inline(always)]
     fn times_plus(self, factor: Self, term: Self) -> Self {
         Self(std::array::from_fn(|k| times_plus(self.0[k], factor.0[k], term.0[k])))
     }
 }
 
-impl<const R: usize> Fused<f64> for Row<R> {
+impl Fused<f64> for Row {
     #[inline(always)]
     fn times_plus(self, factor: f64, term: Self) -> Self {
         self.times_plus(Self::constant(factor), term)
     }
 }
 
-impl<const R: usize> Real for Row<R> {
-    const PLAIN: bool = R == 1;
+impl Real for Row {
     const MANY: bool = true;
     type Lanes = [Self; LANES];
 
-    const ZERO: Self = Self([f64x4::ZERO; R]);
-    const ONE: Self = Self([f64x4::ONE; R]);
+    const ZERO: Self = Self([f64x4::ZERO; REGISTERS]);
+    const ONE: Self = Self([f64x4::ONE; REGISTERS]);
 
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        Self([f64x4::splat(value); R])
+        Self([f64x4::splat(value); REGISTERS])
     }
     /// The first one.
     #[inline(always)]

@@ -5,7 +5,7 @@ use crate::math::{Fused, each};
 
 /// Up to so many states, what one stage hands on to the next stays in registers, or in places of its own. In an array it
 /// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
-pub const IN_REGISTERS: usize = 14;
+const IN_REGISTERS: usize = 14;
 
 /// [`Ode::stages`](crate::integrator::Ode::stages) of a mechanism of `N` states with these `rates`, in registers or not;
 /// `false` for one that may have fewer states than that.
@@ -47,7 +47,7 @@ pub fn of_so_many<const N: usize>(
 
 /// The same of a mechanism of at most [`IN_REGISTERS`] states; `false` for others.
 #[inline(always)]
-pub fn in_registers<const N: usize>(
+fn in_registers<const N: usize>(
     tableau: &Tableau,
     t: f64,
     y: &[f64],

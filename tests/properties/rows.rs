@@ -31,7 +31,7 @@ fn agree<P: Plant>(name: &str, scene: &Scene, plant: P, chance: &mut Chance) {
     let modes = plant.start_contacts(0.0, &states[0]);
     let times: [f64; ROW] = std::array::from_fn(|k| 1e-4 * k as f64);
     let y: Vec<Row> = (0..n).map(|i| Row::of(std::array::from_fn(|k| states[k][i]))).collect();
-    let mut together = vec![Row::<2>::ZERO; n];
+    let mut together = vec![Row::ZERO; n];
     plant.rates_in_row(&modes, &Row::of(times), &y, &mut together);
     for k in 0..ROW {
         let mut alone = vec![0.0; n];

@@ -68,7 +68,7 @@ struct BlockHistory {
 
 impl BlockHistory {
     fn new(states: usize) -> Self {
-        Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![Row::<2>::ZERO; states] }
+        Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![Row::ZERO; states] }
     }
 
     /// There is one.
@@ -115,7 +115,7 @@ pub struct Cong8 {
 impl Cong8 {
     /// For so many states.
     pub fn new(states: usize) -> Self {
-        let rows = || vec![Row::<2>::ZERO; states];
+        let rows = || vec![Row::ZERO; states];
         Self { history: BlockHistory::new(states), nodes: rows(), y: rows() }
     }
 }
