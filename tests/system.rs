@@ -63,22 +63,22 @@ fn an_event_closes_its_contact_and_a_restart_opens_it() {
     system.write_start(&mut y);
     // The journal at a hundredth of the clearance beyond its bearing, moving outward.
     (y[0], y[2]) = (y[0] + 1.01 * scene.joint.c.clearance, 3.0);
-    let guard = |system: &System, y: &[f64]| {
-        let mut guards = [0.0];
-        system.write_guards(0.0, y, &mut guards);
-        guards[0]
+    let event = |system: &System, y: &[f64]| {
+        let mut functions = [0.0];
+        system.write_event_functions(0.0, y, &mut functions);
+        functions[0]
     };
     let slider_acceleration = |system: &System, y: &[f64]| {
         let mut rates = [0.0; 4];
         system.write_rates(0.0, y, &mut rates);
         rates[2]
     };
-    assert!(guard(&system, &y) < 0.0);
+    assert!(event(&system, &y) < 0.0);
     assert_eq!(slider_acceleration(&system, &y), 0.0, "an open contact exerts nothing");
     // Named by nobody: it is below zero and falls.
     system.cross(0.0, &mut y, &[false]);
-    assert!(guard(&system, &y) > 0.0);
+    assert!(event(&system, &y) > 0.0);
     assert!(slider_acceleration(&system, &y) < 0.0);
     system.restart();
-    assert!(guard(&system, &y) < 0.0);
+    assert!(event(&system, &y) < 0.0);
 }

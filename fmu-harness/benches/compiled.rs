@@ -7,9 +7,9 @@ use slidercrank::integrator::method::Attempt;
 use slidercrank::integrator::methods::VERNER7;
 use slidercrank::integrator::methods::explicit::Explicit;
 use slidercrank::integrator::{Method, Ode, SeveralInstants, StepPoint};
-use slidercrank::math::{ROW, Real, Row};
+use slidercrank::math::{F64x8, ROW, Real};
 use slidercrank::model::Model;
-use slidercrank::model::plant::Plant;
+use slidercrank::model::mechanism_model::MechanismModel;
 use slidercrank::simulation::Simulation;
 use std::hint::black_box;
 
@@ -60,9 +60,9 @@ fn of_stage(model: &Model, time: f64, states: &[f64]) -> f64 {
 
 fn of_eight(model: &Model, time: f64, states: &[f64]) -> f64 {
     let contacts = model.start_contacts(time, states);
-    let time = Row::constant(time);
-    let states: Vec<Row> = states.iter().map(|state| Row::constant(*state)).collect();
-    let mut rates = vec![Row::ZERO; states.len()];
+    let time = F64x8::constant(time);
+    let states: Vec<F64x8> = states.iter().map(|state| F64x8::constant(*state)).collect();
+    let mut rates = vec![F64x8::ZERO; states.len()];
     repeated(|| model.rates_in_row(&contacts, &time, black_box(&states), &mut rates))
 }
 

@@ -3,7 +3,7 @@
 use crate::trajectory::Trajectory;
 use anyhow::Result;
 use slidercrank::model::signals::Inputs;
-use slidercrank::scene::profile::{Against, Profile, Profiles};
+use slidercrank::scene::profile::{Profile, ProfileArgument, Profiles};
 
 /// One input variable and its profile.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl Input {
 
     /// Whether it needs the crank's angle.
     pub fn wants_angle(&self) -> bool {
-        matches!(self.profile, Profile::Points { against: Against::CrankAngle, .. })
+        matches!(self.profile, Profile::Points { against: ProfileArgument::CrankAngle, .. })
     }
 
     /// Whether it never changes.
@@ -45,7 +45,7 @@ pub fn of_scene(profiles: &Profiles) -> Vec<Input> {
 pub fn of_table(table: &Trajectory) -> Result<Vec<Input>> {
     let input = |name: &String| {
         let points = table.times().iter().zip(table.column(name)?).map(|(time, value)| [*time, *value]).collect();
-        Ok(Input { name: name.clone(), profile: Profile::Points { against: Against::Time, points } })
+        Ok(Input { name: name.clone(), profile: Profile::Points { against: ProfileArgument::Time, points } })
     };
     table.names().iter().map(input).collect()
 }

@@ -9,7 +9,7 @@
 //! First-order states follow the cubic through value and rate at both ends, always corrected to degree
 //! five by their rates at the same quarters: z(s) = cubic(s) + (s·(1 − s))²·(e0 + e1·x).
 
-use super::system::{Extent, Ode};
+use super::system::{Ode, StateLayout};
 
 /// A quintic's error this many times a step's tolerance goes unseen.
 const SLACK: f64 = 30.0;
@@ -30,7 +30,7 @@ pub struct Step<'a> {
     /// Rates at its end.
     pub f1: &'a [f64],
     /// How many states there are.
-    pub extent: Extent,
+    pub layout: StateLayout,
 }
 
 /// What is added to the curves through the ends of a step where they are not accurate enough.
@@ -92,7 +92,7 @@ impl Correction {
         tolerance: f64,
     ) -> bool {
         let Self { coefficients: e, defects: [half, before, after], y, rates, .. } = self;
-        let Extent { positions: p, states, .. } = step.extent;
+        let StateLayout { positions: p, states, .. } = step.layout;
         let mut miss = |s: f64, e: Option<&[[f64; 3]]>, defect: &mut [f64]| {
             step.state(s, e, y);
             system.rates(discrete, step.t + s * step.h, y, rates);
@@ -136,7 +136,7 @@ impl Correction {
 impl Step<'_> {
     /// Writes the state at the share `s` of the step, 0 to 1, with the coefficients of a [`Correction`].
     pub fn state(&self, s: f64, correction: Option<&[[f64; 3]]>, y: &mut [f64]) {
-        let Extent { positions: p, states, .. } = self.extent;
+        let StateLayout { positions: p, states, .. } = self.layout;
         for i in 0..p {
             let (q, v, _) = self.quintic(i, s);
             y[i] = q;
@@ -163,7 +163,7 @@ impl Step<'_> {
     /// Position, velocity and h²·acceleration of the quintic.
     #[inline]
     fn quintic(&self, i: usize, s: f64) -> (f64, f64, f64) {
-        let (h, p) = (self.h, self.extent.positions);
+        let (h, p) = (self.h, self.layout.positions);
         let q0 = self.y0[i];
         let (v0, v1) = (h * self.f0[i], h * self.f1[i]);
         let (a0, a1) = (h * h * self.f0[p + i], h * h * self.f1[p + i]);
@@ -193,7 +193,7 @@ impl Step<'_> {
     /// h²·(acceleration of the system − acceleration of the quintic) at the share `s`, and h·(rate − rate
     /// of the cubic) of first-order states; the system's are those of the corrected state.
     fn write_defect(&self, s: f64, rates: &[f64], defect: &mut [f64]) {
-        let Extent { positions: p, states, .. } = self.extent;
+        let StateLayout { positions: p, states, .. } = self.layout;
         for i in 0..p {
             defect[i] = self.h * self.h * rates[p + i] - self.quintic(i, s).2;
         }

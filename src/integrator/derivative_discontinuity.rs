@@ -1,8 +1,8 @@
-//! Where in a step that failed the rates have a derivative discontinuity: a kink.
+//! Where in a step that failed the rates have a derivative discontinuity (their slope jumps).
 //!
-//! Past a kink the stages of a step follow another branch of the rates than those before it. The error estimate notices
-//! and the step fails, but it does not tell where: to halve steps towards a kink takes ten attempts. The functions that
-//! have their zeros there tell: one attempt then ends at the kink, and the next begins behind it. Discontinuities keep company: a
+//! Past a discontinuity the stages of a step follow another branch of the rates than those before it. The error estimate notices
+//! and the step fails, but it does not tell where: to halve steps towards a discontinuity takes ten attempts. The functions that
+//! have their zeros there tell: one attempt then ends at the discontinuity, and the next begins behind it. Discontinuities keep company: a
 //! friction law has one at every corner, and sliding that turns round passes them all. So after a step that was cut at
 //! one, the next is looked for before anything has failed.
 //!
@@ -13,14 +13,14 @@ use super::system::{Discontinuities, EventFunctions, MAX_STATES, System};
 
 /// [share of the step] How far the start is followed along its rates to see how the functions change.
 const AHEAD: f64 = 1e-6;
-/// [share of the step] Where a shorter step may end: a kink before that is where this one starts, and one after that
+/// [share of the step] Where a shorter step may end: a discontinuity before that is where this one starts, and one after that
 /// hardly weighs in its error.
 const WITHIN: std::ops::Range<f64> = 1e-5..0.96;
-/// A kink far from the start is located on a curve that is bent by what follows it: the step ends before it, and the
+/// A discontinuity far from the start is located on a curve that is bent by what follows it: the step ends before it, and the
 /// next one sees it from near.
 const FAR: f64 = 0.1;
 const SHORT_OF: f64 = 0.95;
-/// A near kink, or an event, is passed by this factor of its share: a step that ends just before it gains nothing.
+/// A near discontinuity, or an event, is passed by this factor of its share: a step that ends just before it gains nothing.
 const PAST_DISCONTINUITY: f64 = 1.01;
 const PAST_EVENT: f64 = 1.001;
 

@@ -27,14 +27,14 @@ pub enum IntegrationError {
         /// [s] Time reached.
         time: f64,
         /// The event function that is lowest.
-        guard: usize,
+        event: usize,
     },
     /// The motion has come to where its equations have no meaning.
     DeadEnd {
         /// [s] Time reached.
         time: f64,
         /// The event function that fell.
-        guard: usize,
+        event: usize,
     },
     /// One advance takes more evaluations of the rates than it may.
     TooMuchWork {
@@ -56,7 +56,7 @@ impl IntegrationError {
     /// Events without end at `time`: the event function that is lowest stands for all.
     pub(super) fn events_accumulate(time: f64, functions: &[EventFunction]) -> Self {
         let lowest = |i: &usize, j: &usize| functions[*i].value.total_cmp(&functions[*j].value);
-        Self::EventsAccumulate { time, guard: (0..functions.len()).min_by(lowest).unwrap_or_default() }
+        Self::EventsAccumulate { time, event: (0..functions.len()).min_by(lowest).unwrap_or_default() }
     }
 
     /// [s] Time reached.
@@ -81,11 +81,11 @@ impl fmt::Display for IntegrationError {
             Self::NotFinite { component, .. } => {
                 write!(f, "the rate of component {component} is not finite, or too large to go on with")
             }
-            Self::EventsAccumulate { guard, .. } => {
-                write!(f, "events accumulate; guard {guard} is lowest")
+            Self::EventsAccumulate { event, .. } => {
+                write!(f, "events accumulate; event function {event} is lowest")
             }
-            Self::DeadEnd { guard, .. } => {
-                write!(f, "no motion leads beyond the fall of guard {guard}")
+            Self::DeadEnd { event, .. } => {
+                write!(f, "no motion leads beyond the fall of event function {event}")
             }
             Self::TooMuchWork { evaluations, .. } => {
                 write!(f, "{evaluations} evaluations do not reach the communication point")

@@ -34,8 +34,8 @@ pub fn settle<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = 
     let near = LANDED * system.event_scale();
     let events = &stepper.events;
     let ended = |i: &usize| events[*i].value <= near && events[*i].rate < 0.0 && system.is_dead_end(*i);
-    if let Some(guard) = (0..count).find(ended) {
-        return Err(IntegrationError::DeadEnd { time: stepper.state.front().t, guard });
+    if let Some(event) = (0..count).find(ended) {
+        return Err(IntegrationError::DeadEnd { time: stepper.state.front().t, event });
     }
     for _ in 0..STANDSTILL {
         let Some(event) = (0..count).find(|&i| has_fallen(&stepper.events[i])) else {
@@ -62,7 +62,7 @@ pub fn first<D: Copy>(
     system: &dyn System<Discrete = D>,
     before: &EventFunctions,
 ) -> Option<(f64, usize)> {
-    let step = stepper.state.last_step(stepper.extent);
+    let step = stepper.state.last_step(stepper.layout);
     let discrete = &stepper.state.start().discrete;
     (0..system.event_count())
         .filter_map(|i| {
@@ -75,7 +75,7 @@ pub fn first<D: Copy>(
 /// The event functions within a step.
 fn inside<D: Copy>(system: &dyn System<Discrete = D>, discrete: &D, step: &Step<'_>, s: f64) -> EventFunctions {
     let mut y = [0.0; MAX_STATES];
-    let y = &mut y[..step.extent.states];
+    let y = &mut y[..step.layout.states];
     let mut functions = [EventFunction::default(); MAX_EVENTS];
     step.state(s, None, y);
     system.event_functions(discrete, step.t + s * step.h, y, &mut functions);

@@ -60,7 +60,7 @@ pub struct Attempt {
     /// A second estimate, where the method has one.
     pub coarse_error: Vec<f64>,
     /// What early stages saw that no error estimate weighs: by how much h times their rates leaves
-    /// the line between the first stage and the first that is weighed, beyond half of those.
+    /// the line between the first stage and the first that is weighted, beyond half of those.
     pub unseen: Vec<f64>,
     /// The event functions at the end, where the method gives them; otherwise once they are computed.
     pub events: EventFunctions,
@@ -76,14 +76,14 @@ impl Attempt {
 
 /// What a method says after a step of it has been accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Advice {
+pub struct StepAdvice {
     /// [s] The next step should not be longer.
     pub longest_step: f64,
     /// How many evaluations it took to find out.
     pub evaluations: u64,
 }
 
-impl Advice {
+impl StepAdvice {
     /// None.
     pub const NONE: Self = Self { longest_step: f64::INFINITY, evaluations: 0 };
 }
@@ -117,8 +117,13 @@ pub trait Method<D: Copy>: Send {
     fn forget(&mut self) {}
 
     /// To be called after the last attempt has become the step from `start` to `end`.
-    fn accepted(&mut self, _system: &dyn System<Discrete = D>, _start: &StepPoint<D>, _end: &StepPoint<D>) -> Advice {
-        Advice::NONE
+    fn accepted(
+        &mut self,
+        _system: &dyn System<Discrete = D>,
+        _start: &StepPoint<D>,
+        _end: &StepPoint<D>,
+    ) -> StepAdvice {
+        StepAdvice::NONE
     }
 
     /// How attempts are made.

@@ -34,10 +34,10 @@ pub use methods::moreau::Moreau;
 pub use snapshot::{Reader, Snapshot};
 pub use state::{SolverState, StepPoint};
 pub use statistics::Statistics;
-pub use step_control::{Effort, Settings};
+pub use step_control::{Settings, WorkLimit};
 pub use system::{
-    Discontinuities, EventFunction, EventFunctions, Events, Extent, Jacobian, Linearizable, MAX_EVENTS, MAX_STATES,
-    Ode, Reset, SeveralInstants, System, Triggered,
+    Discontinuities, EventFunction, EventFunctions, Events, Jacobian, Linearizable, MAX_EVENTS, MAX_STATES, Ode, Reset,
+    SeveralInstants, StateLayout, System, Triggered,
 };
 pub use tableau::{MAX_STAGES, Tableau};
 pub use unilateral::{ContactLaw, Impulses, Relative, Unilateral};

@@ -2,7 +2,7 @@
 
 use super::dense_output::Step;
 use super::statistics::Statistics;
-use super::system::Extent;
+use super::system::StateLayout;
 
 /// No run counts as far as this.
 const MOST: u64 = 1 << 62;
@@ -192,9 +192,9 @@ impl<D: Copy> SolverState<D> {
     }
 
     /// The last step, up to the events at its end.
-    pub fn last_step(&self, extent: Extent) -> Step<'_> {
+    pub fn last_step(&self, layout: StateLayout) -> Step<'_> {
         let (start, end) = (self.start(), self.end());
-        Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates, extent }
+        Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates, layout }
     }
 
     /// Whether a run at `time` can have come to this: a last step around it, no longer than any, between states that

@@ -157,9 +157,9 @@ fn judged<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, 
     }
     let start = stepper.state.start();
     let t = start.t + h;
-    let weighed = stepper.extent.weighed;
+    let weighted = stepper.layout.weighted;
     let error =
-        control::norm(&stepper.attempt, &start.y, &system.scales()[..weighed], stepper.properties.coarse, tolerance);
+        control::norm(&stepper.attempt, &start.y, &system.scales()[..weighted], stepper.properties.coarse, tolerance);
     if error <= 1.0 {
         stepper.look_at_end_if_due(system, t);
         if stepper.properties.adaptive && lost_state(&stepper.state.attempt().rates).is_some() {

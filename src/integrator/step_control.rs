@@ -14,19 +14,19 @@ pub struct Settings {
     /// [s] Step of a method without an error estimate.
     pub fixed_step: f64,
     /// How much one advance may cost.
-    pub effort: Effort,
+    pub effort: WorkLimit,
 }
 
 /// The most evaluations of the rates that one advance may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
+pub struct WorkLimit {
     /// However short it is.
     pub base: u64,
     /// And more for each second of it.
     pub per_second: u64,
 }
 
-impl Effort {
+impl WorkLimit {
     /// No bound.
     pub const ANY: Self = Self { base: u64::MAX, per_second: 0 };
 
@@ -95,7 +95,7 @@ pub fn worst_component<D: Copy>(attempt: &Attempt, system: &dyn System<Discrete 
         let e = (attempt.error[*i] / scales[*i]).abs();
         if e.is_nan() { f64::INFINITY } else { e }
     };
-    (0..system.extent().weighed).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
+    (0..system.layout().weighted).max_by(|i, j| share(i).total_cmp(&share(j))).unwrap_or(0)
 }
 
 /// By how much the next step is longer after an accepted one, whose error falls with this `power` of the step: the
@@ -124,7 +124,7 @@ pub fn error_power([longer, shorter]: [(f64, f64); 2], full: f64) -> f64 {
 
 /// A first step over which the rates move the state by a hundredth of its scales.
 pub fn first_step<D: Copy>(system: &dyn System<Discrete = D>, front: &StepPoint<D>) -> f64 {
-    let weighed = front.rates.iter().zip(system.scales()).take(system.extent().weighed);
-    let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
+    let weighted = front.rates.iter().zip(system.scales()).take(system.layout().weighted);
+    let fastest = weighted.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
     (0.01 / fastest).min(FIRST_STEP).min(system.longest_step())
 }

@@ -4,7 +4,7 @@ use super::dense_output::Correction;
 use super::method::{Attempt, Method, MethodKind, Properties};
 use super::state::{SolverState, StepPoint, lost_state};
 use super::step_control::Settings;
-use super::system::{EventFunctions, Extent, System};
+use super::system::{EventFunctions, StateLayout, System};
 
 /// A method, its last step, and its attempt at the next.
 pub struct Stepper<D> {
@@ -12,7 +12,7 @@ pub struct Stepper<D> {
     pub(super) method: Box<dyn Method<D>>,
     /// Of the method, and of its present kind.
     pub(super) properties: Properties,
-    pub(super) extent: Extent,
+    pub(super) layout: StateLayout,
     pub(super) state: SolverState<D>,
     /// The event functions at the front.
     pub(super) events: EventFunctions,
@@ -33,9 +33,9 @@ impl<D: Copy> Stepper<D> {
         let n = state.front().y.len();
         let (attempt, correction) = (Attempt::new(n), Correction::new(n));
         let events = attempt.events;
-        let (properties, extent) = (*method.properties(), system.extent());
+        let (properties, layout) = (*method.properties(), system.layout());
         let mut stepper =
-            Self { settings, method, properties, extent, state, events, attempt, correction, inside: vec![0.0; n] };
+            Self { settings, method, properties, layout, state, events, attempt, correction, inside: vec![0.0; n] };
         stepper.find_events(system);
         stepper
     }
@@ -162,7 +162,7 @@ impl<D: Copy> Stepper<D> {
 
     /// Writes the state at `t` within the last step as it is interpolated.
     fn interpolate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
-        let step = self.state.last_step(self.extent);
+        let step = self.state.last_step(self.layout);
         self.correction.find(&step, system, &self.state.start().discrete, self.settings.tolerance);
         step.state((t - step.t) / step.h, self.correction.coefficients(), &mut self.inside);
     }

@@ -1,9 +1,9 @@
 //! What the integrator asks of a hybrid system: traits, each with one duty.
 //!
-//! States are slices of [`Extent::states`] numbers, at most [`MAX_STATES`].
+//! States are slices of [`StateLayout::states`] numbers, at most [`MAX_STATES`].
 
 use super::tableau::Tableau;
-use crate::math::Row;
+use crate::math::F64x8;
 
 /// Most states that a system may have.
 pub const MAX_STATES: usize = 64;
@@ -63,19 +63,19 @@ impl Discontinuities {
 
 /// How many states a system has, and of which kinds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Extent {
+pub struct StateLayout {
     /// Positions, which come first; as many rates of the positions follow, and then first-order states.
     pub positions: usize,
-    /// Leading states that the error norm weighs; the others follow from the weighed ones.
-    pub weighed: usize,
+    /// Leading states that the error norm weighs; the others follow from the weighted ones.
+    pub weighted: usize,
     /// All states.
     pub states: usize,
 }
 
-impl Extent {
+impl StateLayout {
     /// `states` states: positions and their rates.
     pub const fn second_order(states: usize) -> Self {
-        Self { positions: states / 2, weighed: states, states }
+        Self { positions: states / 2, weighted: states, states }
     }
 
     /// There are no states but positions and their rates.
@@ -116,7 +116,7 @@ pub trait Ode {
     type Discrete: Copy;
 
     /// How many states there are.
-    fn extent(&self) -> Extent;
+    fn layout(&self) -> StateLayout;
 
     /// Writes the rates of the state `y` at time `t`: the velocities, then the accelerations, then the
     /// rates of first-order states.
@@ -209,7 +209,7 @@ pub trait Linearizable: Ode {
 /// A system that computes the rates of several instants together. The default computes one after the other.
 pub trait SeveralInstants: Ode {
     /// Writes the rates of eight states at their times.
-    fn rates_in_row(&self, discrete: &Self::Discrete, t: &Row, y: &[Row], rates: &mut [Row]) {
+    fn rates_in_row(&self, discrete: &Self::Discrete, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         one_by_one(self, discrete, t, y, rates);
     }
 
@@ -226,7 +226,7 @@ pub trait System: Events + Linearizable + SeveralInstants {}
 impl<S: Events + Linearizable + SeveralInstants + ?Sized> System for S {}
 
 /// [`SeveralInstants::rates_in_row`] by the rates of each state.
-pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &Row, y: &[Row], rates: &mut [Row]) {
+pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
     let n = y.len();
     let (mut at, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
     for (node, t) in t.numbers().into_iter().enumerate() {
@@ -237,7 +237,7 @@ pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &Row, 
         for (rates, found) in rates.iter_mut().zip(&found) {
             let mut numbers = rates.numbers();
             numbers[node] = *found;
-            *rates = Row::of(numbers);
+            *rates = F64x8::of(numbers);
         }
     }
 }

@@ -1,10 +1,10 @@
 //! What time stepping asks of a system whose contacts are rigid.
 
-use super::complementarity::{MOST_CONTACTS, NORMAL, Pairs};
+use super::complementarity::{MAX_CONTACTS, NORMAL, Pairs};
 use super::system::System;
 
 /// Most states of a system with rigid contacts.
-pub const MOST_STATES: usize = 20;
+pub const MAX_RIGID_CONTACT_STATES: usize = 20;
 
 /// Restitution and friction of a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,7 +19,7 @@ pub struct ContactLaw {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relative {
     /// [m] Gaps, negative in penetration; +∞ where there is no contact.
-    pub gap: [f64; MOST_CONTACTS],
+    pub gap: [f64; MAX_CONTACTS],
     /// [m/s] Rates of the gaps, and sliding speeds.
     pub velocity: Pairs,
 }
@@ -31,13 +31,13 @@ pub struct Relative {
 /// motion without contacts.
 pub trait Unilateral: System {
     /// Of every contact.
-    fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
-        [ContactLaw::default(); MOST_CONTACTS]
+    fn contact_laws(&self) -> [ContactLaw; MAX_CONTACTS] {
+        [ContactLaw::default(); MAX_CONTACTS]
     }
 
     /// Gaps and relative velocities in the state `y`. Velocities are affine in the rates of `y`.
     fn contacts(&self, _t: f64, _y: &[f64]) -> Relative {
-        Relative { gap: [f64::INFINITY; MOST_CONTACTS], velocity: Pairs::default() }
+        Relative { gap: [f64::INFINITY; MAX_CONTACTS], velocity: Pairs::default() }
     }
 
     /// Writes by how much the rates of every state change under a unit impulse in one part of one contact, M⁻¹·W:
@@ -53,18 +53,18 @@ pub struct Impulses {
     /// [s] Middle of the step, where they act.
     pub t: f64,
     /// State there, and zeros.
-    pub y: [f64; MOST_STATES],
+    pub y: [f64; MAX_RIGID_CONTACT_STATES],
     /// [N] Impulses over the length of the step.
     pub forces: Pairs,
     /// Which contacts were closed in the step that led to the present state. It is the step of `forces` but for an
     /// interrupted one, whose forces are those of the whole step.
-    pub closed: [bool; MOST_CONTACTS],
+    pub closed: [bool; MAX_CONTACTS],
 }
 
 impl Impulses {
     /// Before the first step.
     pub fn none(t: f64, y: &[f64]) -> Self {
-        Self { t, y: padded(y), forces: Pairs::default(), closed: [false; MOST_CONTACTS] }
+        Self { t, y: padded(y), forces: Pairs::default(), closed: [false; MAX_CONTACTS] }
     }
 
     /// The contact exerts a force.
@@ -74,8 +74,8 @@ impl Impulses {
 }
 
 /// A state in an array with room, behind which there are zeros.
-pub fn padded(y: &[f64]) -> [f64; MOST_STATES] {
-    let mut array = [0.0; MOST_STATES];
+pub fn padded(y: &[f64]) -> [f64; MAX_RIGID_CONTACT_STATES] {
+    let mut array = [0.0; MAX_RIGID_CONTACT_STATES];
     array[..y.len()].copy_from_slice(y);
     array
 }

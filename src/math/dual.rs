@@ -102,16 +102,16 @@ impl<const D: usize> Mul for Dual<D> {
 
 impl<const D: usize> Fused for Dual<D> {
     #[inline(always)]
-    fn times_plus(self, factor: Self, term: Self) -> Self {
+    fn multiply_add(self, factor: Self, term: Self) -> Self {
         let product = self.joined(factor, 0.0, factor.value, self.value);
-        Self { value: self.value.times_plus(factor.value, term.value), ..product + term }
+        Self { value: self.value.multiply_add(factor.value, term.value), ..product + term }
     }
 }
 
 impl<const D: usize> Fused<f64> for Dual<D> {
     #[inline(always)]
-    fn times_plus(self, factor: f64, term: Self) -> Self {
-        Self { value: self.value.times_plus(factor, term.value), ..self * factor + term }
+    fn multiply_add(self, factor: f64, term: Self) -> Self {
+        Self { value: self.value.multiply_add(factor, term.value), ..self * factor + term }
     }
 }
 

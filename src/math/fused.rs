@@ -7,12 +7,12 @@
 /// the same expression has the same bits wherever it stands.
 pub trait Fused<F = Self>: Sized {
     /// `self`·`factor` + `term`.
-    fn times_plus(self, factor: F, term: Self) -> Self;
+    fn multiply_add(self, factor: F, term: Self) -> Self;
 }
 
 impl Fused for f64 {
     #[inline(always)]
-    fn times_plus(self, factor: f64, term: f64) -> f64 {
+    fn multiply_add(self, factor: f64, term: f64) -> f64 {
         if cfg!(target_feature = "fma") { self.mul_add(factor, term) } else { self * factor + term }
     }
 }

@@ -43,7 +43,7 @@ impl<R: Copy + Fused<f64>> Lanes<R> for [R; LANES] {
 
     #[inline(always)]
     fn add(&mut self, factor: R, numbers: &[f64; LANES]) {
-        *self = array::from_fn(|i| factor.times_plus(numbers[i], self[i]));
+        *self = array::from_fn(|i| factor.multiply_add(numbers[i], self[i]));
     }
 
     #[inline(always)]

@@ -5,20 +5,20 @@
 //! by IEEE 754 everywhere and stay `f64::sqrt`.
 
 mod dual;
-mod each;
+mod f64x8;
 mod fused;
 mod lanes;
 mod real;
-mod row;
 mod sin_cos;
+mod unroll;
 mod vec2;
 
 pub use dual::Dual;
-pub(crate) use each::each;
+pub use f64x8::{F64x8, ROW};
 pub use fused::Fused;
 pub use lanes::{LANES, Lanes};
 pub use real::Real;
-pub use row::{ROW, Row};
+pub(crate) use unroll::unroll;
 pub use vec2::Vec2;
 
 /// (sin x, cos x).

@@ -7,7 +7,7 @@ use super::vec2::Vec2;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along, or a [`Row`](super::Row) of numbers.
+/// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along, or a [`F64x8`](super::F64x8) of numbers.
 ///
 /// Code that is generic over it computes with `f64` what code for `f64` would. Parameters stay `f64`
 /// and stand on the right of an operator. Comparisons look at values alone.

@@ -1,9 +1,9 @@
 //! Sine and cosine together, without a branch and without a call: from a table of the circle and short series for the
 //! rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
 
-use super::each::each;
 use super::fused::Fused;
 use super::lanes::LANES;
+use super::unroll::unroll;
 use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
@@ -73,15 +73,15 @@ const fn series(part: usize) -> (f64, f64) {
 pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
     let mut found = [(0.0, 0.0); K];
     let mut within_reach = true;
-    each!(true, k < K => {
+    unroll!(true, k < K => {
         within_reach &= x[k].abs() < GREATEST;
     });
     if within_reach {
-        each!(true, k < K => {
+        unroll!(true, k < K => {
             found[k] = reduced(x[k]);
         });
     } else {
-        each!(true, k < K => {
+        unroll!(true, k < K => {
             found[k] = one_by_one(x[k]);
         });
     }
@@ -93,25 +93,25 @@ pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
 pub fn of_four(x: f64x4) -> (f64x4, f64x4) {
     let angles = x.to_array();
     let mut within_reach = true;
-    each!(true, k < LANES => {
+    unroll!(true, k < LANES => {
         within_reach &= angles[k].abs() < GREATEST;
     });
     if !within_reach {
         return far(angles);
     }
-    let shifted = times_plus(x, f64x4::splat(PARTS as f64 / TAU), f64x4::splat(ROUNDER));
+    let shifted = multiply_add(x, f64x4::splat(PARTS as f64 / TAU), f64x4::splat(ROUNDER));
     let k = shifted - f64x4::splat(ROUNDER);
     let (places, mut sin_k, mut cos_k) = (shifted.to_array(), [0.0; LANES], [0.0; LANES]);
-    each!(true, k < LANES => {
+    unroll!(true, k < LANES => {
         (sin_k[k], cos_k[k]) = CIRCLE[places[k].to_bits() as usize % PARTS];
     });
     let (sin_k, cos_k) = (f64x4::new(sin_k), f64x4::new(cos_k));
-    let r = times_plus(k, f64x4::splat(-STEP[1]), times_plus(k, f64x4::splat(-STEP[0]), x));
+    let r = multiply_add(k, f64x4::splat(-STEP[1]), multiply_add(k, f64x4::splat(-STEP[0]), x));
     let z = r * r;
-    let series = |first: f64, second: f64| times_plus(z, f64x4::splat(first), f64x4::splat(second));
-    let sin_r = times_plus(r * z, series(1.0 / 120.0, -1.0 / 6.0), r);
-    let less = z * times_plus(z, series(-1.0 / 720.0, 1.0 / 24.0), f64x4::splat(-0.5));
-    (sin_k + times_plus(cos_k, sin_r, sin_k * less), cos_k + times_plus(cos_k, less, -(sin_k * sin_r)))
+    let series = |first: f64, second: f64| multiply_add(z, f64x4::splat(first), f64x4::splat(second));
+    let sin_r = multiply_add(r * z, series(1.0 / 120.0, -1.0 / 6.0), r);
+    let less = z * multiply_add(z, series(-1.0 / 720.0, 1.0 / 24.0), f64x4::splat(-0.5));
+    (sin_k + multiply_add(cos_k, sin_r, sin_k * less), cos_k + multiply_add(cos_k, less, -(sin_k * sin_r)))
 }
 
 #[cold]
@@ -122,7 +122,7 @@ fn far(x: [f64; LANES]) -> (f64x4, f64x4) {
 
 /// a·b + c, as [`Fused`] for each.
 #[inline(always)]
-pub fn times_plus(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+pub fn multiply_add(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
@@ -134,14 +134,14 @@ fn one_by_one(x: f64) -> (f64, f64) {
 #[inline(always)]
 fn reduced(x: f64) -> (f64, f64) {
     // x = k·STEP + r, |r| ≤ π/PARTS.
-    let shifted = x.times_plus(PARTS as f64 / TAU, ROUNDER);
+    let shifted = x.multiply_add(PARTS as f64 / TAU, ROUNDER);
     let k = shifted - ROUNDER;
     let (sin_k, cos_k) = CIRCLE[shifted.to_bits() as usize % PARTS];
-    let r = k.times_plus(-STEP[1], k.times_plus(-STEP[0], x));
+    let r = k.multiply_add(-STEP[1], k.multiply_add(-STEP[0], x));
     // sin r and cos r − 1; the first terms left out are below 1e-17.
     const { assert!((PI / PARTS as f64) < 0.0062) };
     let z = r * r;
-    let sin_r = (r * z).times_plus(z.times_plus(1.0 / 120.0, -1.0 / 6.0), r);
-    let less = z * z.times_plus(z.times_plus(-1.0 / 720.0, 1.0 / 24.0), -0.5);
-    (sin_k + cos_k.times_plus(sin_r, sin_k * less), cos_k + cos_k.times_plus(less, -(sin_k * sin_r)))
+    let sin_r = (r * z).multiply_add(z.multiply_add(1.0 / 120.0, -1.0 / 6.0), r);
+    let less = z * z.multiply_add(z.multiply_add(-1.0 / 720.0, 1.0 / 24.0), -0.5);
+    (sin_k + cos_k.multiply_add(sin_r, sin_k * less), cos_k + cos_k.multiply_add(less, -(sin_k * sin_r)))
 }

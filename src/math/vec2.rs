@@ -24,16 +24,16 @@ impl<R: Copy + Fused + Mul<Output = R>> Vec2<R> {
     /// x·x' + y·y'.
     #[inline(always)]
     pub fn dot(self, other: Self) -> R {
-        self.x.times_plus(other.x, self.y * other.y)
+        self.x.multiply_add(other.x, self.y * other.y)
     }
 
     /// So many times as long, and `other` added.
     #[inline(always)]
-    pub fn times_plus<S: Copy>(self, factor: S, other: Self) -> Self
+    pub fn multiply_add<S: Copy>(self, factor: S, other: Self) -> Self
     where
         R: Fused<S>,
     {
-        Self { x: self.x.times_plus(factor, other.x), y: self.y.times_plus(factor, other.y) }
+        Self { x: self.x.multiply_add(factor, other.x), y: self.y.multiply_add(factor, other.y) }
     }
 
     /// x² + y².

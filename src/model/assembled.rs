@@ -2,25 +2,25 @@
 
 use super::bristles::bristled_contacts;
 use super::compiled::Compiled;
-use super::contact::Account;
+use super::contact::ContactEnergy;
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
 use super::joint::rectangle::CORNERS;
 use super::mechanism::{FlexibleRod, Mechanism};
-use super::plant::Plant;
-use super::rod::{Modes, Room};
+use super::mechanism_model::MechanismModel;
+use super::rod::{Modes, RodCapacity};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
-use super::state::{Contacts, Instant, Pose};
-use super::unilateral::Acting;
-use crate::integrator::complementarity::MOST_CONTACTS;
+use super::state::{Contacts, Evaluation, Pose};
+use super::unilateral::StepForces;
+use crate::integrator::complementarity::MAX_CONTACTS;
 use crate::integrator::{
-    ContactLaw, Discontinuities, EventFunctions, Events, Extent, Impulses, Jacobian, Linearizable, MAX_STATES, Ode,
-    Relative, Reset, SeveralInstants, Tableau, Triggered, Unilateral,
+    ContactLaw, Discontinuities, EventFunctions, Events, Impulses, Jacobian, Linearizable, MAX_STATES, Ode, Relative,
+    Reset, SeveralInstants, StateLayout, Tableau, Triggered, Unilateral,
 };
-use crate::math::{Real, Row};
+use crate::math::{F64x8, Real};
 use crate::scene::Scene;
 
 /// The model of a scene: a mechanism, and the code that its steps are made of.
@@ -78,9 +78,9 @@ impl Model {
     }
 
     /// The same with a flexible rod's modes in arrays that have room for more of them: it has the same motion.
-    pub fn in_room(mut self, room: Room) -> Self {
+    pub fn with_capacity(mut self, room: RodCapacity) -> Self {
         if let Some(FlexibleRod { rod, modes, .. }) = &mut self.mechanism.rod {
-            *modes = Modes::in_room(rod, room);
+            *modes = Modes::with_capacity(rod, room);
         }
         self.compiled = Compiled::of(&self.mechanism);
         self
@@ -90,9 +90,9 @@ impl Model {
 impl Ode for Model {
     type Discrete = Contacts;
 
-    fn extent(&self) -> Extent {
+    fn layout(&self) -> StateLayout {
         let states = self.scales.len();
-        Extent { positions: self.mechanism.positions(), weighed: states, states }
+        StateLayout { positions: self.mechanism.positions(), weighted: states, states }
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
@@ -115,7 +115,7 @@ impl Ode for Model {
 }
 
 impl SeveralInstants for Model {
-    fn rates_in_row(&self, contacts: &Contacts, t: &Row, y: &[Row], rates: &mut [Row]) {
+    fn rates_in_row(&self, contacts: &Contacts, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         (self.compiled.rates_of_eight)(&self.mechanism, contacts, *t, y, rates);
     }
 
@@ -135,11 +135,11 @@ impl Linearizable for Model {
 
 impl Events for Model {
     fn event_count(&self) -> usize {
-        self.mechanism.guard_count()
+        self.mechanism.event_count()
     }
 
     fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
-        self.mechanism.guards(contacts, t, y, functions);
+        self.mechanism.event_functions(contacts, t, y, functions);
     }
 
     fn rates_and_event_functions(
@@ -155,7 +155,7 @@ impl Events for Model {
 
     fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
         let Mechanism { structure, clearances, .. } = &self.mechanism;
-        clearances.kinks(structure.play, contacts, &self.mechanism.pose(t, y), functions);
+        clearances.discontinuities(structure.play, contacts, &self.mechanism.pose(t, y), functions);
     }
 
     fn is_dead_end(&self, _: usize) -> bool {
@@ -177,7 +177,7 @@ impl Events for Model {
 }
 
 impl Unilateral for Model {
-    fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
+    fn contact_laws(&self) -> [ContactLaw; MAX_CONTACTS] {
         self.mechanism.clearances.laws
     }
 
@@ -192,12 +192,12 @@ impl Unilateral for Model {
 }
 
 /// What the contacts do in a step.
-fn acting(impulses: &Impulses, states: usize) -> Acting<'_> {
+fn acting(impulses: &Impulses, states: usize) -> StepForces<'_> {
     let acts = std::array::from_fn(|contact| impulses.acts(contact));
-    Acting { t: impulses.t, y: &impulses.y[..states], forces: &impulses.forces, acts }
+    StepForces { t: impulses.t, y: &impulses.y[..states], forces: &impulses.forces, acts }
 }
 
-impl Plant for Model {
+impl MechanismModel for Model {
     fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
         self.mechanism.start(pose, y);
     }
@@ -222,35 +222,40 @@ impl Plant for Model {
         self.mechanism.rotor.start_time = time;
     }
 
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant {
-        self.mechanism.instant(contacts, t, y, &mut [0.0; MAX_STATES][..y.len()])
+    fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Evaluation {
+        self.mechanism.evaluation(contacts, t, y, &mut [0.0; MAX_STATES][..y.len()])
     }
 
-    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
-        self.mechanism.instant(contacts, t, y, rates)
+    fn rates_and_evaluation(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
+        self.mechanism.evaluation(contacts, t, y, rates)
     }
 
-    fn instant_under(&self, impulses: &Impulses, t: f64, y: &[f64]) -> Instant {
-        self.mechanism.instant_under(&acting(impulses, y.len()), t, y, &mut [0.0; MAX_STATES][..y.len()])
+    fn evaluation_under(&self, impulses: &Impulses, t: f64, y: &[f64]) -> Evaluation {
+        self.mechanism.evaluation_under(&acting(impulses, y.len()), t, y, &mut [0.0; MAX_STATES][..y.len()])
     }
 
     fn rates_under(&self, impulses: &Impulses, t: f64, y: &[f64], rates: &mut [f64]) {
-        self.mechanism.instant_under(&acting(impulses, y.len()), t, y, rates);
+        self.mechanism.evaluation_under(&acting(impulses, y.len()), t, y, rates);
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
         self.mechanism.clearances.depths(self.mechanism.structure.play, pose)
     }
 
-    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> Account {
-        self.mechanism.account(contacts, pose, y)
+    fn contact_energy(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> ContactEnergy {
+        self.mechanism.contact_energy(contacts, pose, y)
     }
 
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         self.mechanism.tangent_rates(contacts, t, y, rates);
     }
 
-    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
-        self.mechanism.tangent_instant(contacts, t, y, &mut [Tangent::ZERO; MAX_STATES][..y.len()])
+    fn tangent_evaluation(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent],
+    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
+        self.mechanism.tangent_evaluation(contacts, t, y, &mut [Tangent::ZERO; MAX_STATES][..y.len()])
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! An audited mechanism has seven first-order states more: the works of torque, load and normal
 //! forces, the losses of friction, viscous and modal damping, and, constant, the energy that it started
-//! with. They follow from the motion and are not weighed by the error norm: an audit changes no bit of it.
+//! with. They follow from the motion and are not weighted by the error norm: an audit changes no bit of it.
 //!
 //! What contacts lose is the work that normal forces take less the elastic energy that it leaves in them.
 //! That power is 0 while a contact that has no adhesion lets go, where the loss itself has corners that
@@ -10,21 +10,21 @@
 
 use super::bodies::bodies;
 use super::body::Bodies;
-use super::contact::Account;
+use super::contact::ContactEnergy;
 use super::drive::InputSignal;
 use super::jacobian::differentiate;
 use super::joint::rectangle::CORNERS;
+use super::mechanism_model::MechanismModel;
 use super::plane::perp;
-use super::plant::Plant;
 use super::reactions::reactions;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
-use super::state::{Contacts, Instant, Pose};
+use super::state::{Contacts, Evaluation, Pose};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::integrator::{
-    Discontinuities, EventFunctions, Events, Extent, Jacobian, Linearizable, MAX_STATES, Ode, Reset, SeveralInstants,
-    Triggered, Unilateral,
+    Discontinuities, EventFunctions, Events, Jacobian, Linearizable, MAX_STATES, Ode, Reset, SeveralInstants,
+    StateLayout, Triggered, Unilateral,
 };
 use crate::math::Real;
 use crate::scene::Scene;
@@ -36,7 +36,7 @@ const NORMAL_WORK: usize = 2;
 
 /// A mechanism whose energy is reckoned up.
 pub struct Audited {
-    plant: Box<dyn Plant>,
+    model: Box<dyn MechanismModel>,
     /// Of its own states 0: the error norm does not weigh them.
     scales: Vec<f64>,
     topology: Topology,
@@ -56,9 +56,12 @@ struct Viscous {
 impl Viscous {
     /// [W]
     fn loss<R: Real>(&self, pose: &Pose<R>) -> R {
-        let Pose { turning, section_speed, velocity, .. } = pose;
-        let relative =
-            [turning.speed[CRANK], turning.speed[CRANK] - section_speed[0], turning.speed[SLIDER] - section_speed[1]];
+        let Pose { rotations, section_speed, velocity, .. } = pose;
+        let relative = [
+            rotations.speed[CRANK],
+            rotations.speed[CRANK] - section_speed[0],
+            rotations.speed[SLIDER] - section_speed[1],
+        ];
         let mut loss = R::ZERO;
         for (&damping, speed) in self.revolute.iter().zip(relative) {
             loss += speed * damping * speed;
@@ -68,14 +71,14 @@ impl Viscous {
 }
 
 impl Audited {
-    /// `plant` of a scene, which must have room for the audit.
-    pub fn new(scene: &Scene, plant: Box<dyn Plant>) -> Self {
+    /// `model` of a scene, which must have room for the audit.
+    pub fn new(scene: &Scene, model: Box<dyn MechanismModel>) -> Self {
         let joint = &scene.joint;
-        let states = plant.extent().states;
+        let states = model.layout().states;
         let mut scales = vec![0.0; states + STATES];
-        scales[..states].copy_from_slice(&plant.scales()[..states]);
+        scales[..states].copy_from_slice(&model.scales()[..states]);
         Self {
-            plant,
+            model,
             scales,
             topology: Topology::of(scene),
             bodies: bodies(scene),
@@ -86,23 +89,23 @@ impl Audited {
 
     /// Where the audit's states begin.
     fn first(&self) -> usize {
-        self.plant.extent().states
+        self.model.layout().states
     }
 
     /// [J] Kinetic energy, and Σ m·g·y.
-    fn mechanical(&self, instant: &Instant) -> (f64, f64) {
-        let Pose { turning, place, velocity, .. } = &instant.pose;
+    fn mechanical(&self, evaluation: &Evaluation) -> (f64, f64) {
+        let Pose { rotations, place, velocity, .. } = &evaluation.pose;
         let points = [(place.crank, velocity.crank), (place.big_end, velocity.big_end), (place.pin, velocity.pin)];
         let (mut kinetic, mut moment) = (0.0, 0.0);
         for k in [CRANK, ROD, SLIDER] {
-            if let (ROD, Some(flexible)) = (k, &instant.flexible) {
+            if let (ROD, Some(flexible)) = (k, &evaluation.flexible) {
                 kinetic += flexible.kinetic;
                 moment += flexible.mass_height;
                 continue;
             }
             let body = &self.bodies[k];
-            let arm = turning.rotation[k].apply(body.com);
-            let speed = turning.speed[k];
+            let arm = rotations.rotation[k].apply(body.com);
+            let speed = rotations.speed[k];
             let moving = points[k].1 + speed * perp(arm);
             kinetic += 0.5 * (body.mass * moving.norm_squared() + body.inertia * speed * speed);
             moment += body.mass * (points[k].0.y + arm.y);
@@ -111,18 +114,18 @@ impl Audited {
     }
 
     /// [W] Rates of the audit's states.
-    fn powers<R: Real>(&self, t: R, instant: &Instant<R>, account: &Account<R>) -> [R; STATES] {
-        let Instant { pose, loads, flexible, .. } = instant;
+    fn powers<R: Real>(&self, t: R, evaluation: &Evaluation<R>, contact_energy: &ContactEnergy<R>) -> [R; STATES] {
+        let Evaluation { pose, loads, flexible, .. } = evaluation;
         let torque = if self.topology.speed {
-            reactions(self.topology, &self.bodies, self.gravity, instant).torque
+            reactions(self.topology, &self.bodies, self.gravity, evaluation).torque
         } else {
-            self.plant.signal().at(t).crank_torque
+            self.model.signal().at(t).crank_torque
         };
         [
-            torque * pose.turning.speed[CRANK],
+            torque * pose.rotations.speed[CRANK],
             loads.slider_load * pose.velocity.pin.x,
-            account.normal_power,
-            account.friction_loss,
+            contact_energy.normal_power,
+            contact_energy.friction_loss,
             self.viscous.loss(pose),
             flexible.map_or(R::ZERO, |flexible| flexible.elastic.modal_loss),
             R::ZERO,
@@ -130,10 +133,10 @@ impl Audited {
     }
 
     /// Kinetic and potential energies alone.
-    fn stored(&self, instant: &Instant, account: &Account) -> EnergyOutputs {
-        let (kinetic, gravity) = self.mechanical(instant);
-        let elastic = instant.flexible.map_or(0.0, |flexible| flexible.elastic.energy);
-        let contact = account.energy;
+    fn stored(&self, evaluation: &Evaluation, contact_energy: &ContactEnergy) -> EnergyOutputs {
+        let (kinetic, gravity) = self.mechanical(evaluation);
+        let elastic = evaluation.flexible.map_or(0.0, |flexible| flexible.elastic.energy);
+        let contact = contact_energy.energy;
         EnergyOutputs {
             kinetic,
             gravity,
@@ -148,16 +151,16 @@ impl Audited {
 impl Ode for Audited {
     type Discrete = Contacts;
 
-    fn extent(&self) -> Extent {
-        let Extent { positions, weighed, states } = self.plant.extent();
-        Extent { positions, weighed, states: states + STATES }
+    fn layout(&self) -> StateLayout {
+        let StateLayout { positions, weighted, states } = self.model.layout();
+        StateLayout { positions, weighted, states: states + STATES }
     }
 
     fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         let first = self.first();
-        let instant = self.plant.rates_and_instant(contacts, t, &y[..first], &mut rates[..first]);
-        let account = self.plant.account(contacts, &instant.pose, &y[..first]);
-        rates[first..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
+        let evaluation = self.model.rates_and_evaluation(contacts, t, &y[..first], &mut rates[..first]);
+        let contact_energy = self.model.contact_energy(contacts, &evaluation.pose, &y[..first]);
+        rates[first..][..STATES].copy_from_slice(&self.powers(t, &evaluation, &contact_energy));
     }
 
     fn scales(&self) -> &[f64] {
@@ -165,14 +168,14 @@ impl Ode for Audited {
     }
 
     fn longest_step(&self) -> f64 {
-        self.plant.longest_step()
+        self.model.longest_step()
     }
 }
 
 impl SeveralInstants for Audited {
     /// As without the audit, whose steps these are.
     fn suits_blocks(&self) -> bool {
-        self.plant.suits_blocks()
+        self.model.suits_blocks()
     }
 }
 
@@ -188,92 +191,97 @@ impl Linearizable for Audited {
 
 impl Events for Audited {
     fn event_count(&self) -> usize {
-        self.plant.event_count()
+        self.model.event_count()
     }
 
     fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
-        self.plant.event_functions(contacts, t, &y[..self.first()], functions);
+        self.model.event_functions(contacts, t, &y[..self.first()], functions);
     }
 
     fn is_dead_end(&self, event: usize) -> bool {
-        self.plant.is_dead_end(event)
+        self.model.is_dead_end(event)
     }
 
     fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
-        self.plant.discontinuities(contacts, t, &y[..self.first()], functions);
+        self.model.discontinuities(contacts, t, &y[..self.first()], functions);
     }
 
     fn event_scale(&self) -> f64 {
-        self.plant.event_scale()
+        self.model.event_scale()
     }
 
     fn reset(&self, contacts: &Contacts, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Contacts> {
         let first = self.first();
-        self.plant.reset(contacts, t, &mut y[..first], triggered)
+        self.model.reset(contacts, t, &mut y[..first], triggered)
     }
 }
 
 impl Unilateral for Audited {}
 
-impl Plant for Audited {
+impl MechanismModel for Audited {
     fn write_start(&self, pose: &StartPose, y: &mut [f64]) {
         let first = self.first();
         let (own, sums) = y.split_at_mut(first);
-        self.plant.write_start(pose, own);
-        let t = self.plant.start_time();
-        let contacts = self.plant.start_contacts(t, own);
-        let instant = self.plant.instant(&contacts, t, own);
-        let stored = self.stored(&instant, &self.plant.account(&contacts, &instant.pose, own));
+        self.model.write_start(pose, own);
+        let t = self.model.start_time();
+        let contacts = self.model.start_contacts(t, own);
+        let evaluation = self.model.evaluation(&contacts, t, own);
+        let stored = self.stored(&evaluation, &self.model.contact_energy(&contacts, &evaluation.pose, own));
         sums[NORMAL_WORK] = stored.contact;
         sums[STATES - 1] = stored.kinetic + stored.potential;
     }
 
     fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts {
-        self.plant.start_contacts(t, &y[..self.first()])
+        self.model.start_contacts(t, &y[..self.first()])
     }
 
     fn set_signal(&mut self, signal: InputSignal) {
-        self.plant.set_signal(signal);
+        self.model.set_signal(signal);
     }
 
     fn signal(&self) -> &InputSignal {
-        self.plant.signal()
+        self.model.signal()
     }
 
     fn start_time(&self) -> f64 {
-        self.plant.start_time()
+        self.model.start_time()
     }
 
     fn set_start_time(&mut self, time: f64) {
-        self.plant.set_start_time(time);
+        self.model.set_start_time(time);
     }
 
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant {
-        self.plant.instant(contacts, t, &y[..self.first()])
+    fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Evaluation {
+        self.model.evaluation(contacts, t, &y[..self.first()])
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
-        self.plant.penetration(pose)
+        self.model.penetration(pose)
     }
 
-    fn account(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> Account {
-        self.plant.account(contacts, pose, &y[..self.first()])
+    fn contact_energy(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> ContactEnergy {
+        self.model.contact_energy(contacts, pose, &y[..self.first()])
     }
 
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         let first = self.first();
-        self.plant.tangent_rates(contacts, t, &y[..first], &mut rates[..first]);
-        let (instant, account) = self.plant.tangent_instant(contacts, t, &y[..first]);
-        rates[first..][..STATES].copy_from_slice(&self.powers(t, &instant, &account));
+        self.model.tangent_rates(contacts, t, &y[..first], &mut rates[..first]);
+        let (evaluation, contact_energy) = self.model.tangent_evaluation(contacts, t, &y[..first]);
+        rates[first..][..STATES].copy_from_slice(&self.powers(t, &evaluation, &contact_energy));
     }
 
-    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>) {
-        self.plant.tangent_instant(contacts, t, &y[..self.first()])
+    fn tangent_evaluation(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent],
+    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
+        self.model.tangent_evaluation(contacts, t, &y[..self.first()])
     }
 
-    fn energies(&self, contacts: &Contacts, instant: &Instant, y: &[f64]) -> EnergyOutputs {
-        let account = self.plant.account(contacts, &instant.pose, &y[..self.first()]);
-        let stored = self.stored(instant, &account);
+    fn energies(&self, contacts: &Contacts, evaluation: &Evaluation, y: &[f64]) -> EnergyOutputs {
+        let contact_energy = self.model.contact_energy(contacts, &evaluation.pose, &y[..self.first()]);
+        let stored = self.stored(evaluation, &contact_energy);
         let first = self.first();
         let mut sums = [0.0; STATES];
         sums.copy_from_slice(&y[first..first + STATES]);

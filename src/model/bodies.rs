@@ -157,10 +157,10 @@ impl RodInChain {
             anchor: constant.anchor,
             per_mass: constant.per_mass,
         };
-        let own = Vec2::new(length.times_plus(self.first, first.x), first.y);
+        let own = Vec2::new(length.multiply_add(self.first, first.x), first.y);
         all.moment[ROD] = own;
-        let by_length = (length * self.second).times_plus(length, inertia);
-        all.diagonal[ROD] = (first.x * (2.0 * self.big_end)).times_plus(length, by_length);
+        let by_length = (length * self.second).multiply_add(length, inertia);
+        all.diagonal[ROD] = (first.x * (2.0 * self.big_end)).multiply_add(length, by_length);
         if of.rod == Link::After {
             let crank = constant.moment[CRANK];
             (all.cos[0], all.sin[0]) = (length * -crank.x, length * -crank.y);

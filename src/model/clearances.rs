@@ -5,7 +5,7 @@
 
 use super::bodies::bodies;
 use super::bristles::bristled_contacts;
-use super::contact::{Account, ContactMode, ContactParameters};
+use super::contact::{ContactEnergy, ContactParameters, ContactState};
 use super::joint::guide::{GUIDE_CONTACTS, Guide};
 use super::joint::rectangle::CORNERS;
 use super::joint::revolute::Revolute;
@@ -109,11 +109,11 @@ impl Clearances {
         deflection_rates: &mut [R],
         loads: &mut Loads<R>,
     ) {
-        let mode = &contacts[pin as usize];
-        if play.contains(pin) && mode.closed {
+        let state = &contacts[pin as usize];
+        if play.contains(pin) && state.closed {
             let place = self.bristle[pin as usize];
             let z = place.map_or(R::ZERO, |place| deflections[place]);
-            let load = self.revolute[pin as usize].load(mode, &pose.play(pin), z);
+            let load = self.revolute[pin as usize].load(state, &pose.journal(pin), z);
             loads.add_contact(pin, &load);
             if let Some(place) = place {
                 deflection_rates[place] = load.bristle_rate;
@@ -122,25 +122,26 @@ impl Clearances {
     }
 
     /// Elastic energy of the closed contacts, and the powers that they take.
-    pub fn account<R: Scalar>(
+    pub fn contact_energy<R: Scalar>(
         &self,
         play: JointSet,
         contacts: &Contacts,
         pose: &Pose<R>,
         deflections: &[R],
-    ) -> Account<R> {
-        let mut account = Account::default();
+    ) -> ContactEnergy<R> {
+        let mut contact_energy = ContactEnergy::default();
         for pin in play.pins() {
-            let mode = &contacts[pin as usize];
-            if mode.closed {
+            let state = &contacts[pin as usize];
+            if state.closed {
                 let z = self.bristle[pin as usize].map_or(R::ZERO, |place| deflections[place]);
-                account += self.revolute[pin as usize].account(mode, &pose.play(pin), z);
+                contact_energy += self.revolute[pin as usize].contact_energy(state, &pose.journal(pin), z);
             }
         }
         if play.guide {
-            account += self.guide.account(&contacts[3..], &pose.slider(), &self.guide_deflections(deflections));
+            contact_energy +=
+                self.guide.contact_energy(&contacts[3..], &pose.slider(), &self.guide_deflections(deflections));
         }
-        account
+        contact_energy
     }
 
     /// Those of the guide's contacts; 0 for those that have none.
@@ -160,7 +161,7 @@ impl Clearances {
     pub fn penetrations(&self, play: JointSet, pose: &Pose) -> [(f64, f64); CONTACTS] {
         let mut all = [(f64::NEG_INFINITY, 0.0); CONTACTS];
         for pin in play.pins() {
-            let (revolute, journal) = (&self.revolute[pin as usize], pose.play(pin));
+            let (revolute, journal) = (&self.revolute[pin as usize], pose.journal(pin));
             all[pin as usize] = (revolute.penetration(&journal), revolute.penetration_rate(&journal));
         }
         if play.guide {
@@ -180,48 +181,62 @@ impl Clearances {
 
     /// How many event functions there are; an ideal joint has none.
     #[inline(always)]
-    pub fn guard_count(&self, play: JointSet) -> usize {
+    pub fn event_count(&self, play: JointSet) -> usize {
         play.pins().count() + if play.guide { CORNERS } else { 0 }
     }
 
     /// Writes the event functions.
     #[inline(always)]
-    pub fn guards(&self, play: JointSet, contacts: &Contacts, pose: &Pose, guards: &mut EventFunctions) {
+    pub fn event_functions(
+        &self,
+        play: JointSet,
+        contacts: &Contacts,
+        pose: &Pose,
+        event_functions: &mut EventFunctions,
+    ) {
         let mut place = 0;
-        self.add_guard(Pin::MainBearing, play, contacts, pose, guards, &mut place);
-        self.add_guard(Pin::CrankPin, play, contacts, pose, guards, &mut place);
-        self.add_guard(Pin::SliderPin, play, contacts, pose, guards, &mut place);
+        self.add_event_function(Pin::MainBearing, play, contacts, pose, event_functions, &mut place);
+        self.add_event_function(Pin::CrankPin, play, contacts, pose, event_functions, &mut place);
+        self.add_event_function(Pin::SliderPin, play, contacts, pose, event_functions, &mut place);
         if play.guide {
-            guards[place..place + CORNERS].copy_from_slice(&self.guide.guards(&contacts[3..], &pose.slider()));
+            event_functions[place..place + CORNERS]
+                .copy_from_slice(&self.guide.event_functions(&contacts[3..], &pose.slider()));
         }
     }
 
     #[inline(always)]
-    fn add_guard(
+    fn add_event_function(
         &self,
         pin: Pin,
         play: JointSet,
         contacts: &Contacts,
         pose: &Pose,
-        guards: &mut EventFunctions,
+        event_functions: &mut EventFunctions,
         place: &mut usize,
     ) {
         if play.contains(pin) {
-            guards[*place] = self.revolute[pin as usize].guard(&contacts[pin as usize], &pose.play(pin));
+            event_functions[*place] =
+                self.revolute[pin as usize].event_function(&contacts[pin as usize], &pose.journal(pin));
             *place += 1;
         }
     }
 
-    /// Adds the kinks of the closed contacts' forces.
-    pub fn kinks(&self, play: JointSet, contacts: &Contacts, pose: &Pose, kinks: &mut Discontinuities) {
+    /// Adds the discontinuities of the closed contacts' forces.
+    pub fn discontinuities(
+        &self,
+        play: JointSet,
+        contacts: &Contacts,
+        pose: &Pose,
+        discontinuities: &mut Discontinuities,
+    ) {
         for pin in play.pins() {
-            let mode = &contacts[pin as usize];
-            if mode.closed {
-                self.revolute[pin as usize].kinks(mode, &pose.play(pin), kinks);
+            let state = &contacts[pin as usize];
+            if state.closed {
+                self.revolute[pin as usize].discontinuities(state, &pose.journal(pin), discontinuities);
             }
         }
         if play.guide {
-            self.guide.kinks(&contacts[3..], &pose.slider(), kinks);
+            self.guide.discontinuities(&contacts[3..], &pose.slider(), discontinuities);
         }
     }
 
@@ -238,17 +253,17 @@ impl Clearances {
         let penetrations = self.penetrations(play, pose);
         let mut reset = Reset { discrete: *contacts, impact: None };
         let crossed = self.guide.contacts_of(&by_contact(play, crossed));
-        for (index, mode) in reset.discrete.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
-            if mode.closed {
-                *mode = ContactMode::default();
+        for (index, state) in reset.discrete.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
+            if state.closed {
+                *state = ContactState::default();
                 for (deflection, _) in bristles.iter_mut().zip(&self.bristles).filter(|(_, c)| **c == index) {
                     *deflection = 0.0;
                 }
                 continue;
             }
             let contact = self.contact(index);
-            *mode = ContactMode::closing(penetrations[index].1, contact.speed_floor);
-            let time = contact.contact_time(self.lighter_mass(index), mode.approach);
+            *state = ContactState::closing(penetrations[index].1, contact.speed_floor);
+            let time = contact.contact_time(self.lighter_mass(index), state.approach);
             reset.impact = Some(reset.impact.map_or(time, |shorter: f64| shorter.min(time)));
         }
         reset
@@ -257,9 +272,9 @@ impl Clearances {
     /// The contacts of a pose that no motion has led to: those that penetrate are closed.
     pub fn start(&self, play: JointSet, pose: &Pose) -> Contacts {
         let mut contacts = Contacts::default();
-        for (index, (mode, (depth, rate))) in contacts.iter_mut().zip(self.penetrations(play, pose)).enumerate() {
+        for (index, (state, (depth, rate))) in contacts.iter_mut().zip(self.penetrations(play, pose)).enumerate() {
             if depth > 0.0 {
-                *mode = ContactMode::closing(rate, self.contact(index).speed_floor);
+                *state = ContactState::closing(rate, self.contact(index).speed_floor);
             }
         }
         contacts

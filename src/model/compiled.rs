@@ -10,20 +10,20 @@
 //! What a step's stages hand on to one another must not pass through memory in other portions than it is read in; so the
 //! loop over them is compiled with the equations in it.
 
-use super::contact::Account;
-use super::mechanism::{FlexibleMotion, FlexibleRod, Mechanism, Stance};
-use super::rod::{Any, Chord, Counted, Exactly, Room};
+use super::contact::ContactEnergy;
+use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
+use super::rod::{Chord, CompiledCounts, FixedCounts, RodCapacity, RuntimeCounts};
 use super::scalar::{Scalar, Tangent};
 use super::stages::of_so_many;
-use super::state::{Contacts, Instant, Pose};
+use super::state::{Contacts, Evaluation, Pose};
 use super::structure::{Structure, Topology};
 use crate::integrator::{EventFunctions, Tableau};
-use crate::math::Row;
+use crate::math::F64x8;
 
 /// Writes the rates of a state.
 type Rates = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64]);
 /// Writes the rates of eight states at their times.
-type RatesOfEight = fn(&Mechanism, &Contacts, Row, &[Row], &mut [Row]);
+type RatesOfEight = fn(&Mechanism, &Contacts, F64x8, &[F64x8], &mut [F64x8]);
 /// Writes the rates of a state, and the event functions.
 type Ends = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64], &mut EventFunctions);
 /// See [`Ode::stages`](crate::integrator::Ode::stages).
@@ -57,8 +57,8 @@ macro_rules! code {
             } else {
                 Mechanism::rates_of_eight
             },
-            ends: |mechanism, contacts, t, y, rates, guards| {
-                mechanism.$ends$(::<$counts>)?(&$structure, contacts, t, y, rates, guards);
+            ends: |mechanism, contacts, t, y, rates, event_functions| {
+                mechanism.$ends$(::<$counts>)?(&$structure, contacts, t, y, rates, event_functions);
             },
             stages: |mechanism, tableau, contacts, t, y, h, k| {
                 of_so_many::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
@@ -86,7 +86,7 @@ macro_rules! by_structure {
         match $structure.topology {
             $(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed } => {
                 const OWN: Structure = Structure::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-                code!(OWN, 2 * OWN.positions, rates, rates_and_guards)
+                code!(OWN, 2 * OWN.positions, rates, rates_and_event_functions)
             })*
             _ => $all,
         }
@@ -126,7 +126,7 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
     macro_rules! own {
         ($(($a:literal $b:literal $c:literal $t:literal $speed:literal, $bending:literal $axial:literal))*) => {
             $({
-                type Own = Exactly<$bending, $axial>;
+                type Own = FixedCounts<$bending, $axial>;
                 const TOPOLOGY: Topology = Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed };
                 const OWN: Structure = Structure::with_rod(TOPOLOGY, true);
                 if structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
@@ -135,7 +135,7 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
             })*
         };
     }
-    if rod.modes.room == Room::Few {
+    if rod.modes.room == RodCapacity::Few {
         own! {
             (true true false true true, 3 1)
             (true false false false true, 3 1)
@@ -161,14 +161,14 @@ fn stages_of_all(states: usize) -> Stages {
     of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// `in_room!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the arrays that the rod has room in: of `K` modes
+/// `with_capacity!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the arrays that the rod has room in: of `K` modes
 /// and `F` functions along the rod.
-macro_rules! in_room {
+macro_rules! with_capacity {
     ($rod:expr, $own:ident . $name:ident $(:: <$number:ty>)? ($($argument:expr),*)) => {
         match $rod.modes.room {
-            Room::Few => $own.$name::<$($number,)? 4, 12>($($argument),*),
-            Room::Many => $own.$name::<$($number,)? 8, 40>($($argument),*),
-            Room::All => $own.$name::<$($number,)? 16, 48>($($argument),*),
+            RodCapacity::Few => $own.$name::<$($number,)? 4, 12>($($argument),*),
+            RodCapacity::Many => $own.$name::<$($number,)? 8, 40>($($argument),*),
+            RodCapacity::All => $own.$name::<$($number,)? 16, 48>($($argument),*),
         }
     };
 }
@@ -180,16 +180,16 @@ impl Mechanism {
     pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
             None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.drop_flexible_motion::<f64>(rod, contacts, t, y, rates)),
+            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<f64>(rod, contacts, t, y, rates)),
         }
     }
 
     /// Rates of eight states at their times.
     #[inline(never)]
-    pub fn rates_of_eight(&self, contacts: &Contacts, t: Row, y: &[Row], rates: &mut [Row]) {
+    pub fn rates_of_eight(&self, contacts: &Contacts, t: F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         match &self.rod {
             None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.flexible_rates_of_eight(rod, contacts, t, y, rates)),
+            Some(rod) => with_capacity!(rod, self.flexible_rates_of_eight(rod, contacts, t, y, rates)),
         }
     }
 
@@ -198,59 +198,66 @@ impl Mechanism {
     pub fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
             None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.drop_flexible_motion::<Tangent>(rod, contacts, t, y, rates)),
+            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<Tangent>(rod, contacts, t, y, rates)),
         }
     }
 
     /// Rates and event functions.
     #[inline(never)]
-    pub fn ends(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64], guards: &mut EventFunctions) {
+    pub fn ends(
+        &self,
+        contacts: &Contacts,
+        t: f64,
+        y: &[f64],
+        rates: &mut [f64],
+        event_functions: &mut EventFunctions,
+    ) {
         match &self.rod {
-            None => self.rates_and_guards(&self.structure, contacts, t, y, rates, guards),
-            Some(rod) => in_room!(rod, self.flexible_ends(rod, contacts, t, y, rates, guards)),
+            None => self.rates_and_event_functions(&self.structure, contacts, t, y, rates, event_functions),
+            Some(rod) => with_capacity!(rod, self.flexible_ends(rod, contacts, t, y, rates, event_functions)),
         }
     }
 
     #[inline(never)]
-    pub(super) fn place(&self, t: f64, y: &[f64]) -> Stance<f64> {
-        self.stance(&self.structure, t, y)
+    pub(super) fn place(&self, t: f64, y: &[f64]) -> Configuration<f64> {
+        self.configuration(&self.structure, t, y)
     }
 
     /// Angles, places and velocities with a flexible rod, and its chord.
     #[inline(never)]
     pub(super) fn bent_pose(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
-        in_room!(rod, self.flexible_pose(rod, t, y))
+        with_capacity!(rod, self.flexible_pose(rod, t, y))
     }
 
     /// Everything about an instant, and its rates.
     #[inline(never)]
-    pub fn instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
+    pub fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
         match &self.rod {
-            None => self.rates_and_instant(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.flexible_instant::<f64>(rod, contacts, t, y, rates)),
+            None => self.rates_and_evaluation(&self.structure, contacts, t, y, rates),
+            Some(rod) => with_capacity!(rod, self.flexible_instant::<f64>(rod, contacts, t, y, rates)),
         }
     }
 
     /// Everything about an instant with derivatives, and what its contacts hold and take.
     #[inline(never)]
-    pub fn tangent_instant(
+    pub fn tangent_evaluation(
         &self,
         contacts: &Contacts,
         t: Tangent,
         y: &[Tangent],
         rates: &mut [Tangent],
-    ) -> (Instant<Tangent>, Account<Tangent>) {
-        let instant = match &self.rod {
-            None => self.rates_and_instant(&self.structure, contacts, t, y, rates),
-            Some(rod) => in_room!(rod, self.flexible_instant::<Tangent>(rod, contacts, t, y, rates)),
+    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
+        let evaluation = match &self.rod {
+            None => self.rates_and_evaluation(&self.structure, contacts, t, y, rates),
+            Some(rod) => with_capacity!(rod, self.flexible_instant::<Tangent>(rod, contacts, t, y, rates)),
         };
-        let account = self.account(contacts, &instant.pose, y);
-        (instant, account)
+        let contact_energy = self.contact_energy(contacts, &evaluation.pose, y);
+        (evaluation, contact_energy)
     }
 
     /// Rates with a flexible rod of known counts.
     #[inline(always)]
-    fn counted_rates<R: Scalar, C: Counted>(
+    fn counted_rates<R: Scalar, C: CompiledCounts>(
         &self,
         of: &Structure,
         contacts: &Contacts,
@@ -265,18 +272,18 @@ impl Mechanism {
 
     /// The same, and the event functions.
     #[inline(always)]
-    fn counted_rates_and_guards<C: Counted>(
+    fn counted_rates_and_guards<C: CompiledCounts>(
         &self,
         of: &Structure,
         contacts: &Contacts,
         t: f64,
         y: &[f64],
         rates: &mut [f64],
-        guards: &mut EventFunctions,
+        event_functions: &mut EventFunctions,
     ) {
         if let Some(rod) = &self.rod {
             let motion = self.flexible_rates::<f64, C, 4, 12>(of, rod, contacts, t, y, rates);
-            motion.guards(self, of, contacts, guards);
+            motion.event_functions(self, of, contacts, event_functions);
         }
     }
 
@@ -288,10 +295,10 @@ impl Mechanism {
         t: f64,
         y: &[f64],
         rates: &mut [f64],
-        guards: &mut EventFunctions,
+        event_functions: &mut EventFunctions,
     ) {
         let motion = self.flexible_motion::<f64, K, F>(rod, contacts, t, y, rates);
-        motion.guards(self, &self.structure, contacts, guards);
+        motion.event_functions(self, &self.structure, contacts, event_functions);
     }
 
     #[inline(never)]
@@ -299,11 +306,11 @@ impl Mechanism {
         &self,
         rod: &FlexibleRod,
         contacts: &Contacts,
-        t: Row,
-        y: &[Row],
-        rates: &mut [Row],
+        t: F64x8,
+        y: &[F64x8],
+        rates: &mut [F64x8],
     ) {
-        self.flexible_rates::<Row, Any, K, F>(&self.structure, rod, contacts, t, y, rates);
+        self.flexible_rates::<F64x8, RuntimeCounts, K, F>(&self.structure, rod, contacts, t, y, rates);
     }
 
     #[inline(never)]
@@ -315,7 +322,7 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
     ) -> FlexibleMotion<R, K, F> {
-        self.flexible_rates::<R, Any, K, F>(&self.structure, rod, contacts, t, y, rates)
+        self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, contacts, t, y, rates)
     }
 
     /// Rates alone, by the same code.
@@ -339,7 +346,7 @@ impl Mechanism {
         t: R,
         y: &[R],
         rates: &mut [R],
-    ) -> Instant<R> {
-        self.flexible_motion::<R, K, F>(rod, contacts, t, y, rates).instant(self, rod, y, rates)
+    ) -> Evaluation<R> {
+        self.flexible_motion::<R, K, F>(rod, contacts, t, y, rates).evaluation(self, rod, y, rates)
     }
 }

@@ -11,8 +11,8 @@
 #![allow(clippy::needless_range_loop)] // triangles are read by their indices
 
 use super::dynamics::Equations;
-use super::rod::Counted;
-use crate::math::{Real, each};
+use super::rod::CompiledCounts;
+use crate::math::{Real, unroll};
 
 /// Equations of at most `K` modal coordinates.
 pub struct ModalEquations<R, const K: usize> {
@@ -40,13 +40,13 @@ impl<R: Real> Block<R> {
     #[inline(always)]
     fn adjugate(&self, [one, two]: [R; 2]) -> [R; 2] {
         let Self { a, b, d, .. } = *self;
-        [d.times_plus(one, -(b * two)), a.times_plus(two, -(b * one))]
+        [d.multiply_add(one, -(b * two)), a.multiply_add(two, -(b * one))]
     }
 
     /// What is left of an element after both have been eliminated.
     #[inline(always)]
     fn reduced(&self, [p, q]: [R; 2], [one, two]: [R; 2], element: R) -> R {
-        p.times_plus(one, q * two).times_plus(-self.per, element)
+        p.multiply_add(one, q * two).multiply_add(-self.per, element)
     }
 }
 
@@ -59,12 +59,12 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
 
     /// Takes them out of the equations of the angles.
     #[inline(always)]
-    pub(super) fn condense<C: Counted>(&mut self, angles: &mut Equations<R>) {
+    pub(super) fn condense<C: CompiledCounts>(&mut self, angles: &mut Equations<R>) {
         let size = self.size;
-        each!(C::KNOWN, half < size / 2, C::MODES.div_ceil(2) => {
+        unroll!(C::KNOWN, half < size / 2, C::MODES.div_ceil(2) => {
             let k = 2 * half;
             let block = self.block(k);
-            each!(C::KNOWN, i in k + 2..size, C::MODES => {
+            unroll!(C::KNOWN, i in k + 2..size, C::MODES => {
                 self.eliminate::<C>(&block, k, i);
             });
             angles.reduce(&block, self.with[k], self.with[k + 1], [self.right[k], self.right[k + 1]]);
@@ -81,9 +81,9 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
 
     /// Takes the block of `k` and `k` + 1 out of the equation of `i`.
     #[inline(always)]
-    fn eliminate<C: Counted>(&mut self, block: &Block<R>, k: usize, i: usize) {
+    fn eliminate<C: CompiledCounts>(&mut self, block: &Block<R>, k: usize, i: usize) {
         let own = block.adjugate([self.matrix[k][i], self.matrix[k + 1][i]]);
-        each!(C::KNOWN, j in i..self.size, C::MODES => {
+        unroll!(C::KNOWN, j in i..self.size, C::MODES => {
             let other = [self.matrix[k][j], self.matrix[k + 1][j]];
             self.matrix[i][j] = block.reduced(own, other, self.matrix[i][j]);
         });
@@ -98,23 +98,23 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
     #[inline(always)]
     fn block(&self, k: usize) -> Block<R> {
         let (a, b, d) = (self.matrix[k][k], self.matrix[k][k + 1], self.matrix[k + 1][k + 1]);
-        Block { a, b, d, per: a.times_plus(d, -(b * b)).recip() }
+        Block { a, b, d, per: a.multiply_add(d, -(b * b)).recip() }
     }
 
     /// The accelerations [m/s²] of the modal coordinates at those of the angles [rad/s²].
     #[inline(always)]
-    pub(super) fn accelerations<C: Counted>(self, angles: [R; 3]) -> [R; K] {
+    pub(super) fn accelerations<C: CompiledCounts>(self, angles: [R; 3]) -> [R; K] {
         let (size, mut found) = (self.size, self.right);
-        each!(C::KNOWN, k < size, C::MODES => {
+        unroll!(C::KNOWN, k < size, C::MODES => {
             let [with_crank, with_rod, with_slider] = self.with[k];
-            let known = with_crank.times_plus(angles[0], with_rod.times_plus(angles[1], with_slider * angles[2]));
+            let known = with_crank.multiply_add(angles[0], with_rod.multiply_add(angles[1], with_slider * angles[2]));
             found[k] -= known;
         });
         if !size.is_multiple_of(2) {
             let last = size - 1;
             found[last] = found[last] * self.matrix[last][last].recip();
         }
-        each!(C::KNOWN, done < size / 2, C::MODES.div_ceil(2) => {
+        unroll!(C::KNOWN, done < size / 2, C::MODES.div_ceil(2) => {
             self.substitute::<C>(2 * (size / 2 - 1 - done), &mut found);
         });
         found
@@ -122,10 +122,10 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
 
     /// Puts the coordinates `k` and `k` + 1 in place of their right sides, those after them being there.
     #[inline(always)]
-    fn substitute<C: Counted>(&self, k: usize, found: &mut [R; K]) {
-        each!(C::KNOWN, later in k + 2..self.size, C::MODES => {
-            found[k] = (-self.matrix[k][later]).times_plus(found[later], found[k]);
-            found[k + 1] = (-self.matrix[k + 1][later]).times_plus(found[later], found[k + 1]);
+    fn substitute<C: CompiledCounts>(&self, k: usize, found: &mut [R; K]) {
+        unroll!(C::KNOWN, later in k + 2..self.size, C::MODES => {
+            found[k] = (-self.matrix[k][later]).multiply_add(found[later], found[k]);
+            found[k + 1] = (-self.matrix[k + 1][later]).multiply_add(found[later], found[k + 1]);
         });
         let block = self.block(k);
         let [one, two] = block.adjugate([found[k], found[k + 1]]);
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
     use crate::model::dynamics::MassMatrix;
     use crate::model::plane::Vec2;
-    use crate::model::rod::{Any, Exactly};
+    use crate::model::rod::{FixedCounts, RuntimeCounts};
 
     const ROOM: usize = 12;
 
@@ -177,7 +177,7 @@ mod tests {
 
     /// The modal coordinates found with the angles', which come after them, at their solution; and what is left of the
     /// angles' equations there.
-    fn found<C: Counted>(size: usize) -> ([f64; ROOM], [f64; 3]) {
+    fn found<C: CompiledCounts>(size: usize) -> ([f64; ROOM], [f64; 3]) {
         let right = |i: usize| (0..size + 3).map(|j| element(i, j) * solution(j)).sum::<f64>();
         let mut modal = ModalEquations::<f64, ROOM>::new(size);
         for i in 0..size {
@@ -206,8 +206,8 @@ mod tests {
     #[test]
     fn what_is_condensed_has_the_solution_of_the_whole() {
         for size in 1..=ROOM {
-            let (modal, left) = found::<Any>(size);
-            assert_eq!((modal, left), found::<Exactly<ROOM, 0>>(size), "{size}");
+            let (modal, left) = found::<RuntimeCounts>(size);
+            assert_eq!((modal, left), found::<FixedCounts<ROOM, 0>>(size), "{size}");
             for (k, modal) in modal.iter().enumerate().take(size) {
                 assert!((modal - solution(k)).abs() < 1e-11, "{size}: {modal} for {}", solution(k));
             }

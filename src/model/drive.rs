@@ -26,8 +26,8 @@ impl InputSignal {
     pub fn at<R: Real>(&self, t: R) -> Inputs<R> {
         let passed = t - self.at;
         Inputs {
-            crank_torque: passed.times_plus(self.rate.crank_torque, R::constant(self.value.crank_torque)),
-            slider_load: passed.times_plus(self.rate.slider_load, R::constant(self.value.slider_load)),
+            crank_torque: passed.multiply_add(self.rate.crank_torque, R::constant(self.value.crank_torque)),
+            slider_load: passed.multiply_add(self.rate.slider_load, R::constant(self.value.slider_load)),
         }
     }
 
@@ -60,7 +60,7 @@ impl Rotor {
     /// [rad] at `t`.
     #[inline(always)]
     pub fn at<R: Real>(&self, t: R) -> R {
-        (t - self.start_time).times_plus(self.speed, R::constant(self.angle))
+        (t - self.start_time).multiply_add(self.speed, R::constant(self.angle))
     }
 }
 

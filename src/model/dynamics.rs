@@ -20,7 +20,7 @@
 
 use super::bodies::AugmentedBodies;
 use super::ideal::IdealMotion;
-use super::kinematics::{Arms, Turning};
+use super::kinematics::{Arms, BodyRotations};
 use super::loads::Loads;
 use super::plane::{Rotation, Vec2, cross};
 use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure};
@@ -73,7 +73,7 @@ pub(super) struct Equations<R> {
 }
 
 /// Forces [N], gathered inwards.
-pub(super) struct Gathered<R> {
+pub(super) struct AccumulatedForces<R> {
     /// On the chain that floats with the crank.
     pub crank: Vec2<R>,
     /// On the chain that floats and begins with the rod.
@@ -93,15 +93,15 @@ impl<R: Real> Equations<R> {
         of: &Structure,
         bodies: &AugmentedBodies<C>,
         gravity: f64,
-        turning: &Turning<R>,
+        rotations: &BodyRotations<R>,
         loads: &Loads<R>,
         number: impl Fn(C) -> R,
     ) -> Self
     where
         R: Mul<C, Output = R> + Fused<C>,
     {
-        let [r1, r2, r3] = turning.rotation;
-        let [w1, w2, w3] = turning.speed;
+        let [r1, r2, r3] = rotations.rotation;
+        let [w1, w2, w3] = rotations.speed;
         let (s1, s2, s3) = (w1 * w1, w2 * w2, w3 * w3);
         let [mut q1, mut q2, mut q3] = loads.couples();
 
@@ -122,26 +122,26 @@ impl<R: Real> Equations<R> {
         let (mut h1, mut h2) = (Vec2::<R>::ZERO, Vec2::<R>::ZERO);
         if of.weighs[CRANK] {
             h1 = r1.apply(bodies.moment[CRANK]);
-            q1 = h1.x.times_plus(-gravity, q1);
+            q1 = h1.x.multiply_add(-gravity, q1);
         }
         if of.weighs[ROD] {
             h2 = r2.apply(bodies.moment[ROD]);
-            q2 = h2.x.times_plus(-gravity, q2);
+            q2 = h2.x.multiply_add(-gravity, q2);
         }
         if of.weighs[SLIDER] {
             let h3: Vec2<R> = r3.apply(bodies.moment[SLIDER]);
-            q3 = h3.x.times_plus(-gravity, q3);
+            q3 = h3.x.multiply_add(-gravity, q3);
         }
         Self { m, q1, q2, q3, h1, h2 }
     }
 
     /// Forces, inwards to the roots: their moments go into Q.
     #[inline(always)]
-    pub fn gather(&mut self, of: &Structure, arms: &Arms<Vec2<R>>, loads: &Loads<R>) -> Gathered<R> {
+    pub fn gather(&mut self, of: &Structure, arms: &Arms<Vec2<R>>, loads: &Loads<R>) -> AccumulatedForces<R> {
         let Self { q1, q2, q3, .. } = self;
         let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
         let (none, slider) = (Vec2::ZERO, loads.pin);
-        let mut all = Gathered { crank: none, rod: none, slider, rail: loads.pin, far_end: loads.small_end };
+        let mut all = AccumulatedForces { crank: none, rod: none, slider, rail: loads.pin, far_end: loads.small_end };
         let mut on_crank_pin = loads.crank_pin;
         match of.slider {
             Link::Before => all.far_end = loads.pin,
@@ -194,38 +194,38 @@ pub fn accelerate<R: Real>(
     of: &Structure,
     bodies: &AugmentedBodies,
     gravity: f64,
-    turning: &Turning<R>,
+    rotations: &BodyRotations<R>,
     arms: &Arms<Vec2<R>>,
     closing: &IdealMotion<R>,
     loads: &Loads<R>,
 ) -> Accelerations<R> {
-    let mut equations = Equations::new(of, bodies, gravity, turning, loads, R::constant);
+    let mut equations = Equations::new(of, bodies, gravity, rotations, loads, R::constant);
     let forces = equations.gather(of, arms, loads);
     let Equations { mut m, mut q1, mut q2, q3, h1, h2 } = equations;
     let mut roots = forces.fall(of, bodies, gravity);
     if let Link::Rail(_) = of.slider {
-        let [w1, w2, _] = turning.speed;
+        let [w1, w2, _] = rotations.speed;
         let per_mass = bodies.per_mass[SLIDER];
         let mut along = forces.rail.x;
         if of.rod == Link::After {
-            along = (w2 * w2).times_plus(h2.x, along);
+            along = (w2 * w2).multiply_add(h2.x, along);
             let share2 = h2.y * per_mass;
             if of.crank == Link::After {
-                along = (w1 * w1).times_plus(h1.x, along);
+                along = (w1 * w1).multiply_add(h1.x, along);
                 let share1 = h1.y * per_mass;
-                q1 = share1.times_plus(along, q1);
-                m.d1 = (-share1).times_plus(h1.y, m.d1);
-                m.m12 = (-share1).times_plus(h2.y, m.m12);
+                q1 = share1.multiply_add(along, q1);
+                m.d1 = (-share1).multiply_add(h1.y, m.d1);
+                m.m12 = (-share1).multiply_add(h2.y, m.m12);
             }
-            q2 = share2.times_plus(along, q2);
-            m.d2 = (-share2).times_plus(h2.y, m.d2);
+            q2 = share2.multiply_add(along, q2);
+            m.d2 = (-share2).multiply_add(h2.y, m.d2);
         }
         let angle = m.solve_crank_and_rod(of, [q1, q2]);
         let [a1, a2, _] = angle;
         if of.rod == Link::After {
-            along = h2.y.times_plus(a2, along);
+            along = h2.y.multiply_add(a2, along);
             if of.crank == Link::After {
-                along = h1.y.times_plus(a1, along);
+                along = h1.y.multiply_add(a1, along);
             }
         }
         roots.slider.x = along * per_mass;
@@ -237,20 +237,20 @@ pub fn accelerate<R: Real>(
     }
 }
 
-impl<R: Real> Gathered<R> {
+impl<R: Real> AccumulatedForces<R> {
     /// Accelerations of the chains' centres of mass that float.
     #[inline(always)]
     pub fn fall(&self, of: &Structure, bodies: &AugmentedBodies, gravity: f64) -> Roots<Vec2<R>> {
         let fall = Vec2::constant(Vec2::new(0.0, -gravity));
         let mut roots = Roots::<Vec2<R>>::default();
         if let Link::Free(_) = of.crank {
-            roots.crank = self.crank.times_plus(bodies.per_mass[CRANK], fall);
+            roots.crank = self.crank.multiply_add(bodies.per_mass[CRANK], fall);
         }
         if let Link::Free(_) = of.rod {
-            roots.rod = self.rod.times_plus(bodies.per_mass[ROD], fall);
+            roots.rod = self.rod.multiply_add(bodies.per_mass[ROD], fall);
         }
         if let Link::Free(_) = of.slider {
-            roots.slider = self.slider.times_plus(bodies.per_mass[SLIDER], fall);
+            roots.slider = self.slider.multiply_add(bodies.per_mass[SLIDER], fall);
         }
         roots
     }
@@ -267,12 +267,12 @@ fn couple<R: Real + Mul<C, Output = R> + Fused<C>, C: Copy>(
     q_l: &mut R,
 ) -> R {
     let (alpha, beta) = (bodies.cos[pair], bodies.sin[pair]);
-    let cos = k.cos.times_plus(l.cos, k.sin * l.sin);
-    let sin = l.sin.times_plus(k.cos, -(l.cos * k.sin));
-    let centrifugal = sin.times_plus(alpha, -(cos * beta));
-    *q_k = centrifugal.times_plus(square_l, *q_k);
-    *q_l = (-centrifugal).times_plus(square_k, *q_l);
-    cos.times_plus(alpha, sin * beta)
+    let cos = k.cos.multiply_add(l.cos, k.sin * l.sin);
+    let sin = l.sin.multiply_add(k.cos, -(l.cos * k.sin));
+    let centrifugal = sin.multiply_add(alpha, -(cos * beta));
+    *q_k = centrifugal.multiply_add(square_l, *q_k);
+    *q_l = (-centrifugal).multiply_add(square_k, *q_l);
+    cos.multiply_add(alpha, sin * beta)
 }
 
 /// Right sides are known last: what is divided by is inverted before.
@@ -303,17 +303,17 @@ impl<R: Real> MassMatrix<R> {
             let [a2, a3] = solve_two([d2, d3], m23, [q2, q3]);
             [R::ZERO, a2, a3]
         } else {
-            let c11 = d2.times_plus(d3, -(m23 * m23));
-            let c22 = d1.times_plus(d3, -(m13 * m13));
-            let c33 = d1.times_plus(d2, -(m12 * m12));
-            let c12 = m13.times_plus(m23, -(m12 * d3));
-            let c13 = m12.times_plus(m23, -(m13 * d2));
-            let c23 = m12.times_plus(m13, -(m23 * d1));
-            let per_determinant = d1.times_plus(c11, m12.times_plus(c12, m13 * c13)).recip();
+            let c11 = d2.multiply_add(d3, -(m23 * m23));
+            let c22 = d1.multiply_add(d3, -(m13 * m13));
+            let c33 = d1.multiply_add(d2, -(m12 * m12));
+            let c12 = m13.multiply_add(m23, -(m12 * d3));
+            let c13 = m12.multiply_add(m23, -(m13 * d2));
+            let c23 = m12.multiply_add(m13, -(m23 * d1));
+            let per_determinant = d1.multiply_add(c11, m12.multiply_add(c12, m13 * c13)).recip();
             [
-                c11.times_plus(q1, c12.times_plus(q2, c13 * q3)) * per_determinant,
-                c12.times_plus(q1, c22.times_plus(q2, c23 * q3)) * per_determinant,
-                c13.times_plus(q1, c23.times_plus(q2, c33 * q3)) * per_determinant,
+                c11.multiply_add(q1, c12.multiply_add(q2, c13 * q3)) * per_determinant,
+                c12.multiply_add(q1, c22.multiply_add(q2, c23 * q3)) * per_determinant,
+                c13.multiply_add(q1, c23.multiply_add(q2, c33 * q3)) * per_determinant,
             ]
         }
     }
@@ -323,16 +323,16 @@ impl<R: Real> MassMatrix<R> {
     fn solve_closed(&self, of: &Structure, closing: &IdealMotion<R>, [q1, q2]: [R; 2]) -> [R; 3] {
         let Self { d1, d2, m12, .. } = *self;
         let (ratio, bias) = (closing.rod_ratio, closing.rod_bias);
-        let with_rod = ratio.times_plus(d2, m12);
-        let inertia = ratio.times_plus(with_rod + m12, d1);
-        let power = (-with_rod).times_plus(bias, ratio.times_plus(q2, q1));
+        let with_rod = ratio.multiply_add(d2, m12);
+        let inertia = ratio.multiply_add(with_rod + m12, d1);
+        let power = (-with_rod).multiply_add(bias, ratio.multiply_add(q2, q1));
         let a1 = if of.topology.speed { R::ZERO } else { power / inertia };
-        [a1, ratio.times_plus(a1, bias), R::ZERO]
+        [a1, ratio.multiply_add(a1, bias), R::ZERO]
     }
 }
 
 #[inline(always)]
 fn solve_two<R: Real>(d: [R; 2], m: R, q: [R; 2]) -> [R; 2] {
-    let per_determinant = d[0].times_plus(d[1], -(m * m)).recip();
-    [q[0].times_plus(d[1], -(m * q[1])) * per_determinant, q[1].times_plus(d[0], -(m * q[0])) * per_determinant]
+    let per_determinant = d[0].multiply_add(d[1], -(m * m)).recip();
+    [q[0].multiply_add(d[1], -(m * q[1])) * per_determinant, q[1].multiply_add(d[0], -(m * q[0])) * per_determinant]
 }

@@ -9,7 +9,7 @@
 //!
 //! Position, velocity and acceleration of a point are the same sum over arms that are fixed in bodies; only what becomes
 //! of an arm a differs: rot(θ)·a, ω·perp(rot(θ)·a), α·perp(rot(θ)·a) − ω²·rot(θ)·a. So the way through the mechanism is
-//! written once, in [`JointCentres::outwards`].
+//! written once, in [`JointVectors::outwards`].
 
 use super::bodies::AugmentedBodies;
 use super::plane::{Rotation, Vec2, perp};
@@ -19,7 +19,7 @@ use std::ops::{Add, Mul, Sub};
 
 /// Something for every joint centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Centres<V> {
+pub struct JointPoints<V> {
     /// The crank's main journal.
     pub crank: V,
     /// The crank's pin journal.
@@ -33,7 +33,7 @@ pub struct Centres<V> {
 }
 
 /// One vector (a position, velocity or acceleration) for every joint centre.
-pub type JointCentres<R = f64> = Centres<Vec2<R>>;
+pub type JointVectors<R = f64> = JointPoints<Vec2<R>>;
 
 /// Arms that turn with the bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,7 +52,7 @@ pub struct Arms<V> {
 
 /// Angles, rates and rotations of crank, rod and slider.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning<R = f64> {
+pub struct BodyRotations<R = f64> {
     /// [rad]
     pub angle: [R; 3],
     /// [rad/s]
@@ -63,14 +63,14 @@ pub struct Turning<R = f64> {
 
 /// A point's place and velocity, which are summed together.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Moving<R> {
+pub struct PointMotion<R> {
     /// [m]
     pub place: Vec2<R>,
     /// [m/s]
     pub velocity: Vec2<R>,
 }
 
-impl<R: Real> Add for Moving<R> {
+impl<R: Real> Add for PointMotion<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -78,7 +78,7 @@ impl<R: Real> Add for Moving<R> {
     }
 }
 
-impl<R: Real> Sub for Moving<R> {
+impl<R: Real> Sub for PointMotion<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -86,11 +86,11 @@ impl<R: Real> Sub for Moving<R> {
     }
 }
 
-impl<R: Copy> Centres<Moving<R>> {
+impl<R: Copy> JointPoints<PointMotion<R>> {
     /// Places.
     #[inline(always)]
-    pub fn places(&self) -> JointCentres<R> {
-        Centres {
+    pub fn places(&self) -> JointVectors<R> {
+        JointPoints {
             crank: self.crank.place,
             crank_pin: self.crank_pin.place,
             big_end: self.big_end.place,
@@ -101,8 +101,8 @@ impl<R: Copy> Centres<Moving<R>> {
 
     /// Velocities.
     #[inline(always)]
-    pub fn velocities(&self) -> JointCentres<R> {
-        Centres {
+    pub fn velocities(&self) -> JointVectors<R> {
+        JointPoints {
             crank: self.crank.velocity,
             crank_pin: self.crank_pin.velocity,
             big_end: self.big_end.velocity,
@@ -112,7 +112,7 @@ impl<R: Copy> Centres<Moving<R>> {
     }
 }
 
-impl<V: Copy + Default + Add<Output = V> + Sub<Output = V>> Centres<V> {
+impl<V: Copy + Default + Add<Output = V> + Sub<Output = V>> JointPoints<V> {
     /// Sums arms from the roots outwards. A pin on a rail comes with its root, and one that a closed loop guides is left to
     /// its rod.
     #[inline(always)]
@@ -164,9 +164,9 @@ impl<V: Copy + Default + Add<Output = V> + Sub<Output = V>> Centres<V> {
 }
 
 impl<V: Copy + Add<Output = V> + Sub<Output = V>> Roots<V> {
-    /// The roots of a mechanism whose joint centres are known: the way back from [`Centres::outwards`]. Those that it does
+    /// The roots of a mechanism whose joint centres are known: the way back from [`JointPoints::outwards`]. Those that it does
     /// not have mean nothing.
-    pub fn of(of: &Structure, centres: &Centres<V>, arms: &Arms<V>) -> Self {
+    pub fn of(of: &Structure, centres: &JointPoints<V>, arms: &Arms<V>) -> Self {
         let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
         let mut roots =
             Self { crank: centres.crank - arms.crank, rod: centres.big_end - arms.rod, slider: centres.pin };
@@ -189,11 +189,17 @@ impl<V: Copy + Add<Output = V> + Sub<Output = V>> Roots<V> {
 impl<R: Real> Arms<Vec2<R>> {
     /// As the bodies stand, with a crank of length `throw` [m] and a rod, or the chord of one, of length `reach` [m].
     #[inline(always)]
-    pub fn at<L: Copy>(of: &Structure, throw: f64, reach: L, augmented: &AugmentedBodies, turning: &Turning<R>) -> Self
+    pub fn at<L: Copy>(
+        of: &Structure,
+        throw: f64,
+        reach: L,
+        augmented: &AugmentedBodies,
+        rotations: &BodyRotations<R>,
+    ) -> Self
     where
         R: Mul<L, Output = R>,
     {
-        let [crank, rod, slider] = &turning.rotation;
+        let [crank, rod, slider] = &rotations.rotation;
         let mut arms = Self { throw: crank.axis(throw), reach: rod.axis(reach), ..Self::default() };
         if of.floats[CRANK] {
             arms.crank = crank.apply(augmented.anchor[CRANK]);
@@ -209,13 +215,13 @@ impl<R: Real> Arms<Vec2<R>> {
 
     /// With what they contribute to velocities.
     #[inline(always)]
-    pub fn moving(self, [crank, rod, slider]: [R; 3]) -> Arms<Moving<R>> {
+    pub fn moving(self, [crank, rod, slider]: [R; 3]) -> Arms<PointMotion<R>> {
         Arms {
-            throw: Moving::turning(self.throw, crank),
-            reach: Moving::turning(self.reach, rod),
-            crank: Moving::turning(self.crank, crank),
-            rod: Moving::turning(self.rod, rod),
-            slider: Moving::turning(self.slider, slider),
+            throw: PointMotion::rotations(self.throw, crank),
+            reach: PointMotion::rotations(self.reach, rod),
+            crank: PointMotion::rotations(self.crank, crank),
+            rod: PointMotion::rotations(self.rod, rod),
+            slider: PointMotion::rotations(self.slider, slider),
         }
     }
 
@@ -232,15 +238,15 @@ impl<R: Real> Arms<Vec2<R>> {
     }
 }
 
-impl<R: Real> Moving<R> {
+impl<R: Real> PointMotion<R> {
     /// An arm that turns at `speed` [rad/s].
     #[inline(always)]
-    fn turning(arm: Vec2<R>, speed: R) -> Self {
+    fn rotations(arm: Vec2<R>, speed: R) -> Self {
         Self { place: arm, velocity: perp(arm) * speed }
     }
 }
 
 #[inline(always)]
 fn accelerated<R: Real>(arm: Vec2<R>, speed: R, alpha: R) -> Vec2<R> {
-    arm.times_plus(-(speed * speed), alpha * perp(arm))
+    arm.multiply_add(-(speed * speed), alpha * perp(arm))
 }

@@ -8,22 +8,22 @@
 
 use super::bodies::{AugmentedBodies, RodInChain, bodies};
 use super::clearances::Clearances;
-use super::contact::Account;
-use super::demand::Demand;
+use super::contact::ContactEnergy;
 use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::{Accelerations, accelerate};
 use super::ideal::{IdealMechanism, IdealMotion};
-use super::kinematics::{Arms, Centres, Moving, Turning};
+use super::inertial_load::InertialLoad;
+use super::kinematics::{Arms, BodyRotations, JointPoints, PointMotion};
 use super::loads::Loads;
-use super::modal::Bent;
+use super::modal::BentRod;
 use super::plane::{Vec2, cross, perp};
-use super::rod::{Arrays, Chord, Counted, Inertia, Modes, Rod, Shape};
+use super::rod::{Arrays, Chord, CompiledCounts, Inertia, Modes, Rod, Shape};
 use super::scalar::Scalar;
 use super::start::StartPose;
-use super::state::{Contacts, FlexibleInstant, Instant, Pose, turning, turning_at};
+use super::state::{Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
 use super::structure::{CRANK, Link, ROD, Roots, Structure, Topology};
 use crate::integrator::EventFunctions;
-use crate::math::{self, each};
+use crate::math::{self, unroll};
 use crate::scene::Scene;
 
 /// A mechanism. Nothing but its inputs changes while time runs.
@@ -59,7 +59,7 @@ pub struct FlexibleRod {
 }
 
 /// Where the mechanism is at one instant, as its loads and accelerations need it.
-pub(super) struct Stance<R> {
+pub(super) struct Configuration<R> {
     /// Angles, places and velocities.
     pub pose: Pose<R>,
     /// The bodies' arms.
@@ -70,7 +70,7 @@ pub(super) struct Stance<R> {
 
 /// A mechanism with a flexible rod at one instant, in arrays of `K` modes and `F` functions along the rod.
 pub(super) struct FlexibleMotion<R, const K: usize, const F: usize> {
-    stance: Stance<R>,
+    configuration: Configuration<R>,
     shape: Shape<R, K, F>,
     inertia: Inertia<R, K>,
     loads: Loads<R>,
@@ -110,31 +110,31 @@ impl Mechanism {
 
     /// The same, and the event functions at this instant.
     #[inline(always)]
-    pub fn rates_and_guards(
+    pub fn rates_and_event_functions(
         &self,
         of: &Structure,
         contacts: &Contacts,
         t: f64,
         y: &[f64],
         rates: &mut [f64],
-        guards: &mut EventFunctions,
+        event_functions: &mut EventFunctions,
     ) {
-        let (stance, ..) = self.motion(of, contacts, t, y, rates);
-        self.guards_at(of, contacts, &stance.pose, [self.ideal.rod, 0.0], guards);
+        let (configuration, ..) = self.motion(of, contacts, t, y, rates);
+        self.event_functions_at(of, contacts, &configuration.pose, [self.ideal.rod, 0.0], event_functions);
     }
 
     /// The same, and everything else about this instant.
     #[inline(always)]
-    pub fn rates_and_instant<R: Scalar>(
+    pub fn rates_and_evaluation<R: Scalar>(
         &self,
         of: &Structure,
         contacts: &Contacts,
         t: R,
         y: &[R],
         rates: &mut [R],
-    ) -> Instant<R> {
-        let (stance, loads, accelerations) = self.motion(of, contacts, t, y, rates);
-        instant(of, stance, loads, &accelerations)
+    ) -> Evaluation<R> {
+        let (configuration, loads, accelerations) = self.motion(of, contacts, t, y, rates);
+        evaluation(of, configuration, loads, &accelerations)
     }
 
     /// Writes the rates, and returns what they were made of.
@@ -146,19 +146,19 @@ impl Mechanism {
         t: R,
         y: &[R],
         rates: &mut [R],
-    ) -> (Stance<R>, Loads<R>, Accelerations<R>) {
-        let stance = self.stance(of, t, y);
+    ) -> (Configuration<R>, Loads<R>, Accelerations<R>) {
+        let configuration = self.configuration(of, t, y);
         let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let loads = self.loads(of, contacts, t, &y[2 * of.positions..], &stance.pose, bristle_rates);
-        let accelerations = self.accelerations(of, &stance, &loads);
+        let loads = self.loads(of, contacts, t, &y[2 * of.positions..], &configuration.pose, bristle_rates);
+        let accelerations = self.accelerations(of, &configuration, &loads);
         write(of, &accelerations, y, moving);
-        (stance, loads, accelerations)
+        (configuration, loads, accelerations)
     }
 
     /// Writes the rates of the state `y` at `t`, of a mechanism with a flexible rod in arrays of `K` modes and `F`
     /// functions along the rod, with counts that are known or not; and returns what they were made of.
     #[inline(always)]
-    pub(super) fn flexible_rates<R: Scalar, C: Counted, const K: usize, const F: usize>(
+    pub(super) fn flexible_rates<R: Scalar, C: CompiledCounts, const K: usize, const F: usize>(
         &self,
         of: &Structure,
         rod: &FlexibleRod,
@@ -173,18 +173,18 @@ impl Mechanism {
         let (positions, speeds) = (&y[..p], &y[p..2 * p]);
         let (eta, rate) = (&positions[rigid..], &speeds[rigid..]);
         let shape = modes.shape::<R, C>(eta, rate);
-        let stance = self.flexible_stance(of, t, positions, speeds, &shape);
+        let configuration = self.flexible_configuration(of, t, positions, speeds, &shape);
         let (moving, bristle_rates) = rates.split_at_mut(2 * p);
         let (velocities, forced) = moving.split_at_mut(p);
-        let loads = self.loads(of, contacts, t, &y[2 * p..], &stance.pose, bristle_rates);
-        let Stance { pose, arms, closing } = &stance;
-        let inertia = modes.inertia::<R, C>(&shape, eta, rate, pose.turning.speed[ROD]);
-        let bent = Bent { modes, chain: rod.chain, shape: &shape, inertia: &inertia, eta, rate };
+        let loads = self.loads(of, contacts, t, &y[2 * p..], &configuration.pose, bristle_rates);
+        let Configuration { pose, arms, closing } = &configuration;
+        let inertia = modes.inertia::<R, C>(&shape, eta, rate, pose.rotations.speed[ROD]);
+        let bent = BentRod { modes, chain: rod.chain, shape: &shape, inertia: &inertia, eta, rate };
         let accelerations = bent.accelerate::<C>(
             of,
             &self.augmented,
             self.gravity,
-            &pose.turning,
+            &pose.rotations,
             arms,
             closing,
             &loads,
@@ -193,59 +193,59 @@ impl Mechanism {
         velocities.copy_from_slice(speeds);
         of.set_roots(&accelerations.roots, forced);
         of.set_angles(accelerations.angle, forced);
-        FlexibleMotion { stance, shape, inertia, loads, accelerations }
+        FlexibleMotion { configuration, shape, inertia, loads, accelerations }
     }
 
     /// Poses, outwards, with a rigid rod.
     #[inline(always)]
-    pub(super) fn stance<R: Scalar>(&self, of: &Structure, t: R, y: &[R]) -> Stance<R> {
+    pub(super) fn configuration<R: Scalar>(&self, of: &Structure, t: R, y: &[R]) -> Configuration<R> {
         let (positions, rates) = y[..2 * of.positions].split_at(of.positions);
-        let mut turning = turning_at(of, &self.rotor, t, positions, rates);
+        let mut rotations = rotations_at(of, &self.rotor, t, positions, rates);
         let mut closing = IdealMotion::default();
         if of.closed {
-            closing = self.ideal.motion(turning.rotation[CRANK], turning.speed[CRANK]);
-            turning.rotation[ROD] = closing.rod;
-            turning.speed[ROD] = closing.rod_ratio * turning.speed[CRANK];
+            closing = self.ideal.motion(rotations.rotation[CRANK], rotations.speed[CRANK]);
+            rotations.rotation[ROD] = closing.rod;
+            rotations.speed[ROD] = closing.rod_ratio * rotations.speed[CRANK];
         }
-        let arms = Arms::at(of, self.ideal.crank, self.ideal.rod, &self.augmented, &turning);
-        let mut centres = self.centres(of, positions, rates, &arms.moving(turning.speed));
+        let arms = Arms::at(of, self.ideal.crank, self.ideal.rod, &self.augmented, &rotations);
+        let mut centres = self.centres(of, positions, rates, &arms.moving(rotations.speed));
         if of.closed {
-            let pin = Moving {
+            let pin = PointMotion {
                 place: Vec2::new(closing.x, R::constant(self.ideal.height)),
-                velocity: Vec2::new(closing.x_ratio * turning.speed[CRANK], R::ZERO),
+                velocity: Vec2::new(closing.x_ratio * rotations.speed[CRANK], R::ZERO),
             };
             (centres.small_end, centres.pin) = (pin, pin);
         }
-        let section_speed = [turning.speed[ROD]; 2];
-        let pose = Pose { turning, place: centres.places(), velocity: centres.velocities(), section_speed };
-        Stance { pose, arms, closing }
+        let section_speed = [rotations.speed[ROD]; 2];
+        let pose = Pose { rotations, place: centres.places(), velocity: centres.velocities(), section_speed };
+        Configuration { pose, arms, closing }
     }
 
     /// The same with a flexible rod, at `positions` and their `rates`.
     #[inline(always)]
-    fn flexible_stance<R: Scalar, const K: usize, const F: usize>(
+    fn flexible_configuration<R: Scalar, const K: usize, const F: usize>(
         &self,
         of: &Structure,
         t: R,
         positions: &[R],
         rates: &[R],
         shape: &Shape<R, K, F>,
-    ) -> Stance<R> {
+    ) -> Configuration<R> {
         let chord = &shape.chord;
-        let mut turning = turning_at(of, &self.rotor, t, positions, rates);
+        let mut rotations = rotations_at(of, &self.rotor, t, positions, rates);
         let mut closing = IdealMotion::default();
         if of.closed {
-            closing = self.ideal.flexible_motion(turning.rotation[CRANK], turning.speed[CRANK], chord);
-            turning.rotation[ROD] = closing.rod;
-            turning.speed[ROD] = closing.rod_ratio * turning.speed[CRANK] + closing.rod_per_length * chord.rate;
+            closing = self.ideal.flexible_motion(rotations.rotation[CRANK], rotations.speed[CRANK], chord);
+            rotations.rotation[ROD] = closing.rod;
+            rotations.speed[ROD] = closing.rod_ratio * rotations.speed[CRANK] + closing.rod_per_length * chord.rate;
         }
-        let arms = Arms::at(of, self.ideal.crank, chord.length, &self.augmented, &turning);
-        let mut moving = arms.moving(turning.speed);
-        moving.reach.velocity += turning.rotation[ROD].axis(chord.rate);
+        let arms = Arms::at(of, self.ideal.crank, chord.length, &self.augmented, &rotations);
+        let mut moving = arms.moving(rotations.speed);
+        moving.reach.velocity += rotations.rotation[ROD].axis(chord.rate);
         let centres = self.centres(of, positions, rates, &moving);
-        let section_speed = shape.slope_rate.map(|rate| turning.speed[ROD] + rate);
-        let pose = Pose { turning, place: centres.places(), velocity: centres.velocities(), section_speed };
-        Stance { pose, arms, closing }
+        let section_speed = shape.slope_rate.map(|rate| rotations.speed[ROD] + rate);
+        let pose = Pose { rotations, place: centres.places(), velocity: centres.velocities(), section_speed };
+        Configuration { pose, arms, closing }
     }
 
     /// Places and velocities of the joint centres.
@@ -255,18 +255,18 @@ impl Mechanism {
         of: &Structure,
         positions: &[R],
         rates: &[R],
-        arms: &Arms<Moving<R>>,
-    ) -> Centres<Moving<R>> {
+        arms: &Arms<PointMotion<R>>,
+    ) -> JointPoints<PointMotion<R>> {
         let (mut roots, root_rates) = (of.roots(positions), of.roots(rates));
         if let Link::Rail(_) = of.slider {
             roots.slider.y = R::constant(self.ideal.height);
         }
         let roots = Roots {
-            crank: Moving { place: roots.crank, velocity: root_rates.crank },
-            rod: Moving { place: roots.rod, velocity: root_rates.rod },
-            slider: Moving { place: roots.slider, velocity: root_rates.slider },
+            crank: PointMotion { place: roots.crank, velocity: root_rates.crank },
+            rod: PointMotion { place: roots.rod, velocity: root_rates.rod },
+            slider: PointMotion { place: roots.slider, velocity: root_rates.slider },
         };
-        Centres::outwards(of, &roots, arms)
+        JointPoints::outwards(of, &roots, arms)
     }
 
     /// Loads from inputs, viscous friction and contacts; writes the rates of the contacts' `bristles`.
@@ -287,7 +287,7 @@ impl Mechanism {
             loads.crank_couple = inputs.crank_torque;
         }
         // Contact forces, which are known last, come last.
-        add_viscous(&self.rotary_dampers, &pose.turning.speed, &pose.section_speed, &mut loads);
+        add_viscous(&self.rotary_dampers, &pose.rotations.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
         }
@@ -300,28 +300,28 @@ impl Mechanism {
     pub(super) fn accelerations<R: Scalar>(
         &self,
         of: &Structure,
-        stance: &Stance<R>,
+        configuration: &Configuration<R>,
         loads: &Loads<R>,
     ) -> Accelerations<R> {
-        let Stance { pose, arms, closing } = stance;
-        accelerate(of, &self.augmented, self.gravity, &pose.turning, arms, closing, loads)
+        let Configuration { pose, arms, closing } = configuration;
+        accelerate(of, &self.augmented, self.gravity, &pose.rotations, arms, closing, loads)
     }
 
     /// Writes the event functions at this pose, with a rod or a chord of `length` [m] that grows at `rate` [m/s].
     #[inline(always)]
-    fn guards_at(
+    fn event_functions_at(
         &self,
         of: &Structure,
         contacts: &Contacts,
         pose: &Pose,
         [length, rate]: [f64; 2],
-        guards: &mut EventFunctions,
+        event_functions: &mut EventFunctions,
     ) {
         if !of.closed {
-            self.clearances.guards(of.play, contacts, pose, guards);
+            self.clearances.event_functions(of.play, contacts, pose, event_functions);
         } else if self.has_change_point(of) {
-            let Turning { rotation, speed, .. } = &pose.turning;
-            guards[0] = self.ideal.change_point(rotation[CRANK], speed[CRANK], length, rate);
+            let BodyRotations { rotation, speed, .. } = &pose.rotations;
+            event_functions[0] = self.ideal.change_point(rotation[CRANK], speed[CRANK], length, rate);
         }
     }
 
@@ -342,30 +342,30 @@ impl Mechanism {
         let (of, p) = (&self.structure, self.positions());
         let (positions, rates) = y[..2 * p].split_at(p);
         let modes: Arrays<'_, K, F> = rod.modes.arrays();
-        let shape = modes.shape::<f64, super::rod::Any>(&positions[of.positions..], &rates[of.positions..]);
-        (self.flexible_stance(of, t, positions, rates, &shape).pose, shape.chord)
+        let shape = modes.shape::<f64, super::rod::RuntimeCounts>(&positions[of.positions..], &rates[of.positions..]);
+        (self.flexible_configuration(of, t, positions, rates, &shape).pose, shape.chord)
     }
 }
 
 impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
     /// Everything about the instant of the motion through `y` whose accelerations are in `rates`.
-    pub fn instant(self, mechanism: &Mechanism, rod: &FlexibleRod, y: &[R], rates: &[R]) -> Instant<R> {
-        let Self { stance: Stance { pose, arms, .. }, shape, inertia, loads, accelerations } = self;
+    pub fn evaluation(self, mechanism: &Mechanism, rod: &FlexibleRod, y: &[R], rates: &[R]) -> Evaluation<R> {
+        let Self { configuration: Configuration { pose, arms, .. }, shape, inertia, loads, accelerations } = self;
         let (of, p) = (&mechanism.structure, mechanism.positions());
         let modal = of.positions..p;
         let (eta, rate) = (&y[modal.clone()], &y[p + modal.start..2 * p]);
         let forced = &rates[p + modal.start..2 * p];
         let Accelerations { roots, angle } = accelerations;
-        let turning = &pose.turning;
-        let (rotation, speed) = (turning.rotation[ROD], turning.speed[ROD]);
-        let mut arms = arms.accelerated(turning.speed, angle);
+        let rotations = &pose.rotations;
+        let (rotation, speed) = (rotations.rotation[ROD], rotations.speed[ROD]);
+        let mut arms = arms.accelerated(rotations.speed, angle);
         let mut stretching = shape.chord.bias;
         for (slope, forced) in shape.chord_slope.iter().zip(forced) {
             stretching += *slope * *forced;
         }
         let axis = rotation.axis(R::ONE);
         arms.reach += stretching * axis + shape.chord.rate * 2.0 * speed * perp(axis);
-        let acceleration = Centres::outwards(of, &roots, &arms);
+        let acceleration = JointPoints::outwards(of, &roots, &arms);
 
         // What the rod's motion needs of forces and of moments about its big end.
         let (mass, turn) = (rod.rod.mass(), angle[ROD]);
@@ -377,9 +377,9 @@ impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
         let (mut with_turning, mut modal_energy) = (R::ZERO, R::ZERO);
         for (a, (&forced, &rate_a)) in forced.iter().zip(rate).enumerate() {
             force += forced * rotation.apply(inertia.first_slope[a]);
-            moment += forced * inertia.turning[a];
+            moment += forced * inertia.with_angle[a];
             opening += rate_a * inertia.first_slope[a];
-            with_turning += rate_a * inertia.turning[a];
+            with_turning += rate_a * inertia.with_angle[a];
             let with = inertia.modal[a].iter().zip(rate).take(a);
             let row = with.fold(R::ZERO, |sum, (m, rate)| sum + *m * *rate);
             modal_energy += rate_a * (row * 2.0 + inertia.modal[a][a] * rate_a);
@@ -391,26 +391,32 @@ impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
             + inertia.about_origin * 0.5 * speed * speed
             + speed * with_turning
             + modal_energy * 0.5;
-        let flexible = FlexibleInstant {
-            demand: Demand { force, moment },
+        let flexible = FlexibleEvaluation {
+            demand: InertialLoad { force, moment },
             elastic: rod.rod.elastic(&shape, eta, rate),
             kinetic,
             mass_height: pose.place.big_end.y * mass + first.y,
         };
         let mut pose = pose;
         if of.closed {
-            pose.turning.angle[ROD] = math::atan2(rotation.sin, rotation.cos);
+            pose.rotations.angle[ROD] = math::atan2(rotation.sin, rotation.cos);
         }
-        Instant { pose, acceleration, angle_acceleration: angle, loads, flexible: Some(flexible) }
+        Evaluation { pose, acceleration, angle_acceleration: angle, loads, flexible: Some(flexible) }
     }
 }
 
 impl<const K: usize, const F: usize> FlexibleMotion<f64, K, F> {
     /// Writes the event functions.
     #[inline(always)]
-    pub fn guards(&self, mechanism: &Mechanism, of: &Structure, contacts: &Contacts, guards: &mut EventFunctions) {
+    pub fn event_functions(
+        &self,
+        mechanism: &Mechanism,
+        of: &Structure,
+        contacts: &Contacts,
+        event_functions: &mut EventFunctions,
+    ) {
         let Chord { length, rate, .. } = self.shape.chord;
-        mechanism.guards_at(of, contacts, &self.stance.pose, [length, rate], guards);
+        mechanism.event_functions_at(of, contacts, &self.configuration.pose, [length, rate], event_functions);
     }
 }
 
@@ -420,7 +426,7 @@ pub(super) fn write<R: Scalar>(of: &Structure, accelerations: &Accelerations<R>,
     let p = of.positions;
     let (velocities, forced) = rates.split_at_mut(p);
     let speeds = &y[p..2 * p];
-    each!(const { R::PLAIN || R::MANY }, k < p, 9 => {
+    unroll!(const { R::PLAIN || R::MANY }, k < p, 9 => {
         velocities[k] = speeds[k];
     });
     of.set_roots(&accelerations.roots, forced);
@@ -429,35 +435,35 @@ pub(super) fn write<R: Scalar>(of: &Structure, accelerations: &Accelerations<R>,
 
 /// Everything about an instant.
 #[inline(always)]
-pub(super) fn instant<R: Scalar>(
+pub(super) fn evaluation<R: Scalar>(
     of: &Structure,
-    stance: Stance<R>,
+    configuration: Configuration<R>,
     loads: Loads<R>,
     accelerations: &Accelerations<R>,
-) -> Instant<R> {
-    let Stance { mut pose, arms, closing } = stance;
+) -> Evaluation<R> {
+    let Configuration { mut pose, arms, closing } = configuration;
     let Accelerations { roots, angle } = accelerations;
-    let mut acceleration = Centres::outwards(of, roots, &arms.accelerated(pose.turning.speed, *angle));
+    let mut acceleration = JointPoints::outwards(of, roots, &arms.accelerated(pose.rotations.speed, *angle));
     if of.closed {
-        pose.turning.angle[ROD] = math::atan2(closing.rod.sin, closing.rod.cos);
-        let pin = Vec2::new(closing.x_ratio.times_plus(angle[CRANK], closing.x_bias), R::ZERO);
+        pose.rotations.angle[ROD] = math::atan2(closing.rod.sin, closing.rod.cos);
+        let pin = Vec2::new(closing.x_ratio.multiply_add(angle[CRANK], closing.x_bias), R::ZERO);
         (acceleration.small_end, acceleration.pin) = (pin, pin);
     }
-    Instant { pose, acceleration, angle_acceleration: *angle, loads, flexible: None }
+    Evaluation { pose, acceleration, angle_acceleration: *angle, loads, flexible: None }
 }
 
 impl Mechanism {
     /// How many event functions there are.
-    pub fn guard_count(&self) -> usize {
+    pub fn event_count(&self) -> usize {
         if self.structure.closed {
             usize::from(self.has_change_point(&self.structure))
         } else {
-            self.clearances.guard_count(self.structure.play)
+            self.clearances.event_count(self.structure.play)
         }
     }
 
     /// Writes the event functions.
-    pub fn guards(&self, contacts: &Contacts, t: f64, y: &[f64], guards: &mut EventFunctions) {
+    pub fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], event_functions: &mut EventFunctions) {
         let (pose, chord) = match &self.rod {
             Some(rod) => {
                 let (pose, chord) = self.bent_pose(rod, t, y);
@@ -465,7 +471,7 @@ impl Mechanism {
             }
             None => (self.place(t, y).pose, [self.ideal.rod, 0.0]),
         };
-        self.guards_at(&self.structure, contacts, &pose, chord, guards);
+        self.event_functions_at(&self.structure, contacts, &pose, chord, event_functions);
     }
 
     /// Angles, places and velocities.
@@ -477,8 +483,8 @@ impl Mechanism {
     }
 
     /// Elastic energy of the closed contacts, and the powers that they take.
-    pub fn account<R: Scalar>(&self, contacts: &Contacts, pose: &Pose<R>, y: &[R]) -> Account<R> {
-        self.clearances.account(self.structure.play, contacts, pose, &y[2 * self.positions()..])
+    pub fn contact_energy<R: Scalar>(&self, contacts: &Contacts, pose: &Pose<R>, y: &[R]) -> ContactEnergy<R> {
+        self.clearances.contact_energy(self.structure.play, contacts, pose, &y[2 * self.positions()..])
     }
 
     /// Number of positions, modal ones among them: that of degrees of freedom.
@@ -494,9 +500,9 @@ impl Mechanism {
     /// Writes the state of a start pose, whose rod and bristles are straight.
     pub fn start(&self, pose: &StartPose, y: &mut [f64]) {
         let of = &self.structure;
-        let turning = turning(pose.angle, pose.speed, of.slider_angle.is_some());
-        let arms = Arms::at(of, self.ideal.crank, self.ideal.rod, &self.augmented, &turning);
-        let still = arms.moving(turning.speed);
+        let rotations = rotations(pose.angle, pose.speed, of.slider_angle.is_some());
+        let arms = Arms::at(of, self.ideal.crank, self.ideal.rod, &self.augmented, &rotations);
+        let still = arms.moving(rotations.speed);
         let velocities = Arms {
             throw: still.throw.velocity,
             reach: still.reach.velocity,

@@ -16,7 +16,7 @@
 //! [`RodInChain`], h = D + κ·L·e, and per unit of η_a:
 //!
 //! - P_a = ∂D/∂η_a + κ·L_a·e is the momentum of the chain in the frame's axes;
-//! - M_θa = T_a + big_end·(L·∂D_y/∂η_a − D_y·L_a), T_a the rod's own moment of momentum (`turning`), with the rod's angle;
+//! - M_θa = T_a + big_end·(L·∂D_y/∂η_a − D_y·L_a), T_a the rod's own moment of momentum (`with_angle`), with the rod's angle;
 //! - M_ka = far·L_a·e·perp(h_k) with the angle of a body k beyond the far joint, and perp(throw)·P_a with that of a crank
 //!   on which the rod hangs;
 //! - M_ab = m_ab + big_end·(L_b·∂D_x/∂η_a + L_a·∂D_x/∂η_b) + |κ|·L_a·L_b.
@@ -35,15 +35,15 @@ use super::bodies::{AugmentedBodies, RodInChain};
 use super::condensation::ModalEquations;
 use super::dynamics::{Accelerations, Equations};
 use super::ideal::IdealMotion;
-use super::kinematics::{Arms, Turning};
+use super::kinematics::{Arms, BodyRotations};
 use super::loads::Loads;
 use super::plane::{Rotation, Vec2, cross, perp};
-use super::rod::{Arrays, Counted, FEW_MODES, Inertia, Shape};
+use super::rod::{Arrays, CompiledCounts, FEW_MODES, Inertia, Shape};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
-use crate::math::{Real, each};
+use crate::math::{Real, unroll};
 
 /// A flexible rod at one instant.
-pub(super) struct Bent<'a, R, const K: usize, const F: usize> {
+pub(super) struct BentRod<'a, R, const K: usize, const F: usize> {
     /// Its modes.
     pub modes: Arrays<'a, K, F>,
     /// How it hangs in its chain.
@@ -97,17 +97,17 @@ impl Root {
     }
 }
 
-impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
+impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
     /// Solves the equations of motion: accelerations of roots and angles, and of the modal coordinates, which are written
     /// into `modal` [m/s²]. `constant` are the augmented bodies with the rod as it is undeformed.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "inlined")]
-    pub fn accelerate<C: Counted>(
+    pub fn accelerate<C: CompiledCounts>(
         &self,
         of: &Structure,
         constant: &AugmentedBodies,
         gravity: f64,
-        turning: &Turning<R>,
+        rotations: &BodyRotations<R>,
         arms: &Arms<Vec2<R>>,
         closing: &IdealMotion<R>,
         loads: &Loads<R>,
@@ -118,13 +118,13 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         let RodInChain { far, big_end, first: kappa, second, .. } = *chain;
         let length = shape.chord.length;
         let bodies = chain.augmented(of, constant, length, inertia.first, inertia.about_origin);
-        let mut equations = Equations::new(of, &bodies, gravity, turning, loads, |number| number);
+        let mut equations = Equations::new(of, &bodies, gravity, rotations, loads, |number| number);
         let forces = equations.gather(of, arms, loads);
         let mut roots = forces.fall(of, constant, gravity);
         let Equations { m, q1, q2, q3, .. } = &mut equations;
 
-        let [r1, r2, r3] = turning.rotation;
-        let [w1, w2, w3] = turning.speed;
+        let [r1, r2, r3] = rotations.rotation;
+        let [w1, w2, w3] = rotations.speed;
         let (s1, s2, s3) = (w1 * w1, w2 * w2, w3 * w3);
         let [with_crank, with_slider] = [of.coupled[0], of.coupled[1]];
         let inwards = of.rod == Link::After;
@@ -142,15 +142,16 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         let sliding = w2 * shape.chord.rate * 2.0; // Coriolis
         let first = inertia.first;
         let own = inertia.force + first * s2;
-        let extra: Vec2<R> = r2.apply(Vec2::new(stretching.times_plus(kappa, own.x), sliding.times_plus(kappa, own.y)));
+        let extra: Vec2<R> =
+            r2.apply(Vec2::new(stretching.multiply_add(kappa, own.x), sliding.multiply_add(kappa, own.y)));
         let own_moment = first.x * sliding - first.y * stretching + length * own.y;
-        *q2 -= (sliding * second).times_plus(length, own_moment.times_plus(big_end, inertia.couple));
+        *q2 -= (sliding * second).multiply_add(length, own_moment.multiply_add(big_end, inertia.couple));
         let far_extra: Vec2<R> = r2.apply(Vec2::new(stretching * far, sliding * far));
         let mut hanging = Vec2::<R>::ZERO; // acceleration of the joint by which the rod hangs, against the root
         let mut beyond = Vec2::<R>::ZERO; // centrifugal force of bodies beyond the far joint
         let mut asked = extra - h2 * s2;
         if with_crank {
-            asked = h1.times_plus(-s1, asked);
+            asked = h1.multiply_add(-s1, asked);
             if inwards {
                 *q1 -= cross(h1, far_extra);
                 beyond = h1 * -s1;
@@ -162,7 +163,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         if with_slider {
             *q3 -= cross(h3, far_extra);
             beyond = h3 * -s3;
-            asked = h3.times_plus(-s3, asked);
+            asked = h3.multiply_add(-s3, asked);
         }
 
         // The root's own acceleration, and what it takes off the angles.
@@ -196,14 +197,14 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         // In a closed loop the rod's angle follows the crank's and the modes.
         let turns_crank = with_crank && !of.topology.speed;
         let (rod_inertia, rod_couple) = (m.d2, *q2);
-        let following = closing.rod_ratio.times_plus(m.d2, m.m12);
+        let following = closing.rod_ratio.multiply_add(m.d2, m.m12);
         if of.closed {
-            m.d1 = closing.rod_ratio.times_plus(m.m12 + following, m.d1);
-            *q1 = (-following).times_plus(closing.rod_bias, closing.rod_ratio.times_plus(*q2, *q1));
+            m.d1 = closing.rod_ratio.multiply_add(m.m12 + following, m.d1);
+            *q1 = (-following).multiply_add(closing.rod_bias, closing.rod_ratio.multiply_add(*q2, *q1));
             (m.m12, m.d2, *q2) = (R::ZERO, R::ONE, R::ZERO);
         }
 
-        let along = (-s2).times_plus(length, stretching); // of the far joint's acceleration, along the chord
+        let along = (-s2).multiply_add(length, stretching); // of the far joint's acceleration, along the chord
         let chain = Chain {
             root,
             closed: of.closed,
@@ -223,7 +224,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
             p1,
             p2,
             p3,
-            by_length: axis.dot(forces.far_end - beyond) * far - along.times_plus(second, inertia.force.x * big_end),
+            by_length: axis.dot(forces.far_end - beyond) * far - along.multiply_add(second, inertia.force.x * big_end),
             crank_by_length: axis.dot(p1) * far,
             slider_by_length: axis.dot(p3) * far,
             closing: *closing,
@@ -233,10 +234,10 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         };
         let mut all = ModalEquations::<R, K>::new(n);
         let (mut momentum, mut with_rod) = ([Vec2::<R>::ZERO; K], [R::ZERO; K]);
-        each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+        unroll!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
             let (slope, own) = (shape.chord_slope[a], inertia.first_slope[a]);
             momentum[a] = chain.momentum(slope, own);
-            with_rod[a] = chain.with_rod(slope, own, inertia.turning[a]);
+            with_rod[a] = chain.with_rod(slope, own, inertia.with_angle[a]);
             all.with[a] = chain.with_angles(slope, momentum[a], with_rod[a]);
             let elastic = modes.force(a, eta[a], rate[a], &loads.end_couple) - inertia.modal_force[a];
             all.right[a] = chain.force(slope, own, momentum[a], with_rod[a], elastic);
@@ -248,13 +249,13 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
             if of.slider_angle.is_some() { m.solve(of, [q1, q2, q3]) } else { m.solve_crank_and_rod(of, [q1, q2]) };
         let found = all.accelerations::<C>(angle);
         let mut lengthening = R::ZERO;
-        each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+        unroll!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
             modal[a] = found[a];
-            lengthening = found[a].times_plus(shape.chord_slope[a], lengthening);
+            lengthening = found[a].multiply_add(shape.chord_slope[a], lengthening);
         });
         if of.closed {
-            let turning = closing.rod_ratio.times_plus(angle[CRANK], closing.rod_bias);
-            angle[ROD] = closing.rod_per_length.times_plus(lengthening, turning);
+            let with_crank = closing.rod_ratio.multiply_add(angle[CRANK], closing.rod_bias);
+            angle[ROD] = closing.rod_per_length.multiply_add(lengthening, with_crank);
         }
         match of.slider {
             Link::Rail(_) if !inwards => roots.slider.x = forces.rail.x * constant.per_mass[SLIDER],
@@ -263,13 +264,13 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         if !matches!(root, Root::Ground) {
             let mut own = free - per2 * angle[ROD];
             if with_crank {
-                own = per1.times_plus(-angle[CRANK], own);
+                own = per1.multiply_add(-angle[CRANK], own);
             }
             if with_slider {
-                own = per3.times_plus(-angle[SLIDER], own);
+                own = per3.multiply_add(-angle[SLIDER], own);
             }
-            each!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
-                own = momentum[a].times_plus(-(found[a] * per_mass), own);
+            unroll!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+                own = momentum[a].multiply_add(-(found[a] * per_mass), own);
             });
             let falling = own - Vec2::new(0.0, gravity);
             match (root, of.rod) {
@@ -292,7 +293,7 @@ impl<R: Real, const K: usize, const F: usize> Bent<'_, R, K, F> {
         all: &mut ModalEquations<R, K>,
     ) {
         let (slope, own) = (&self.shape.chord_slope, &self.inertia.first_slope);
-        each!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
+        unroll!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
             let pair = self.inertia.modal[a][b];
             let pair = chain.inertia([slope[a], slope[b]], [own[a], own[b]], [momentum[a], momentum[b]], pair);
             all.matrix[b][a] = chain.closed_inertia([slope[a], slope[b]], [with_rod[a], with_rod[b]], pair);
@@ -346,13 +347,13 @@ impl<R: Real> Chain<R> {
     /// [kg] p_a = rot(θ2)·P_a.
     #[inline(always)]
     fn momentum(&self, slope: R, own: Vec2<R>) -> Vec2<R> {
-        self.rotation.apply(Vec2::new(slope.times_plus(self.rod.first, own.x), own.y))
+        self.rotation.apply(Vec2::new(slope.multiply_add(self.rod.first, own.x), own.y))
     }
 
     /// [kg·m] M_θa.
     #[inline(always)]
-    fn with_rod(&self, slope: R, own: Vec2<R>, turning: R) -> R {
-        (self.length * own.y - self.first.y * slope).times_plus(self.rod.big_end, turning)
+    fn with_rod(&self, slope: R, own: Vec2<R>, with_angle: R) -> R {
+        (self.length * own.y - self.first.y * slope).multiply_add(self.rod.big_end, with_angle)
     }
 
     /// [kg·m] With the angles of crank, rod and slider, as far as these are coordinates.
@@ -364,8 +365,8 @@ impl<R: Real> Chain<R> {
         if self.closed {
             if self.turns_crank {
                 let follows = closing.rod_per_length * slope;
-                let open = closing.rod_ratio.times_plus(with_rod, self.across.dot(momentum));
-                all[CRANK] = self.following.times_plus(follows, open);
+                let open = closing.rod_ratio.multiply_add(with_rod, self.across.dot(momentum));
+                all[CRANK] = self.following.multiply_add(follows, open);
             }
             return all;
         }
@@ -383,13 +384,13 @@ impl<R: Real> Chain<R> {
     /// [N] Q_a, of which `elastic` is what the mode alone has.
     #[inline(always)]
     fn force(&self, slope: R, own: Vec2<R>, momentum: Vec2<R>, with_rod: R, elastic: R) -> R {
-        let mut force = slope.times_plus(self.by_length, elastic);
-        force -= own.x.times_plus(self.along, own.y * self.sliding) * self.rod.big_end;
+        let mut force = slope.multiply_add(self.by_length, elastic);
+        force -= own.x.multiply_add(self.along, own.y * self.sliding) * self.rod.big_end;
         force -= momentum.dot(self.resting) + momentum.y * self.weight;
         if self.closed {
             let follows = self.closing.rod_per_length * slope;
-            let inertia = self.rod_inertia.times_plus(follows, with_rod);
-            force = (-inertia).times_plus(self.closing.rod_bias, follows.times_plus(self.rod_couple, force));
+            let inertia = self.rod_inertia.multiply_add(follows, with_rod);
+            force = (-inertia).multiply_add(self.closing.rod_bias, follows.multiply_add(self.rod_couple, force));
         }
         force
     }
@@ -398,11 +399,11 @@ impl<R: Real> Chain<R> {
     #[inline(always)]
     fn inertia(&self, slope: [R; 2], own: [Vec2<R>; 2], momentum: [Vec2<R>; 2], own_inertia: R) -> R {
         let [a, b] = slope;
-        let crossed = own[0].x.times_plus(b, own[1].x * a);
-        let both = crossed.times_plus(self.rod.big_end, (a * b).times_plus(self.rod.second, own_inertia));
+        let crossed = own[0].x.multiply_add(b, own[1].x * a);
+        let both = crossed.multiply_add(self.rod.big_end, (a * b).multiply_add(self.rod.second, own_inertia));
         match self.root {
             Root::Ground => both,
-            root => (-root.product(momentum[0], momentum[1])).times_plus(self.per_mass, both),
+            root => (-root.product(momentum[0], momentum[1])).multiply_add(self.per_mass, both),
         }
     }
 
@@ -413,7 +414,7 @@ impl<R: Real> Chain<R> {
             return open;
         }
         let [a, b] = slope.map(|slope| self.closing.rod_per_length * slope);
-        let crossed = a.times_plus(with_rod[1], b * with_rod[0]);
-        open + (a * b).times_plus(self.rod_inertia, crossed)
+        let crossed = a.multiply_add(with_rod[1], b * with_rod[0]);
+        open + (a * b).multiply_add(self.rod_inertia, crossed)
     }
 }

@@ -12,7 +12,7 @@ use super::rod::Elastic;
 use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
-use super::state::{Contacts, Instant};
+use super::state::{Contacts, Evaluation};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::scene::{Scene, Surface};
 
@@ -41,19 +41,19 @@ impl Observer {
     /// All outputs but the integrator's counters.
     pub fn outputs(
         &self,
-        instant: &Instant,
+        evaluation: &Evaluation,
         contacts: &Contacts,
         penetration: &[f64; 3 + CORNERS],
         torque_input: f64,
     ) -> Outputs {
-        let Instant { pose, acceleration, angle_acceleration, .. } = instant;
-        let turning = &pose.turning;
-        let r = reactions(self.topology, &self.bodies, self.gravity, instant);
-        let elastic = instant.flexible.map_or(Elastic::default(), |flexible| flexible.elastic);
+        let Evaluation { pose, acceleration, angle_acceleration, .. } = evaluation;
+        let rotations = &pose.rotations;
+        let r = reactions(self.topology, &self.bodies, self.gravity, evaluation);
+        let elastic = evaluation.flexible.map_or(Elastic::default(), |flexible| flexible.elastic);
         let Topology { a, b, c, t, speed } = self.topology;
         let joint = |pin: Pin, ideal: bool, force: Vec2| RevoluteOutputs {
             force: force.into(),
-            eccentricity: if ideal { [0.0; 2] } else { pose.play(pin).eccentricity.into() },
+            eccentricity: if ideal { [0.0; 2] } else { pose.journal(pin).eccentricity.into() },
             penetration: if ideal { 0.0 } else { penetration[pin as usize] },
             contact: contacts[pin as usize].closed,
         };
@@ -63,16 +63,16 @@ impl Observer {
                 v: pose.velocity.pin.x,
                 a: acceleration.pin.x,
                 y: pose.place.pin.y,
-                angle: turning.angle[SLIDER],
+                angle: rotations.angle[SLIDER],
             },
             crank: CrankOutputs {
-                angle: turning.angle[CRANK],
-                speed: turning.speed[CRANK],
+                angle: rotations.angle[CRANK],
+                speed: rotations.speed[CRANK],
                 acceleration: angle_acceleration[CRANK],
             },
             rod: RodOutputs {
-                angle: turning.angle[ROD],
-                speed: turning.speed[ROD],
+                angle: rotations.angle[ROD],
+                speed: rotations.speed[ROD],
                 deflection: elastic.deflection,
                 stretch: elastic.stretch,
             },
@@ -81,15 +81,15 @@ impl Observer {
             joint_c: joint(Pin::SliderPin, c, r.c),
             joint_t: self.guide(t, &r, contacts, penetration),
             drive_torque: if speed { r.torque } else { torque_input },
-            accuracy: self.accuracy(instant),
+            accuracy: self.accuracy(evaluation),
             ..Outputs::default()
         }
     }
 
     /// Sets those time derivatives of outputs that an instant knows without differences.
-    pub fn set_known_rates(&self, instant: &Instant, rates: &mut Outputs) {
-        let Instant { pose, acceleration, angle_acceleration, .. } = instant;
-        let speed = &pose.turning.speed;
+    pub fn set_known_rates(&self, evaluation: &Evaluation, rates: &mut Outputs) {
+        let Evaluation { pose, acceleration, angle_acceleration, .. } = evaluation;
+        let speed = &pose.rotations.speed;
         let Topology { a, b, c, .. } = self.topology;
         rates.slider.x = pose.velocity.pin.x;
         rates.slider.v = acceleration.pin.x;
@@ -102,10 +102,10 @@ impl Observer {
         let joints = [&mut rates.joint_a, &mut rates.joint_b, &mut rates.joint_c];
         for (pin, (joint, ideal)) in Pin::ALL.into_iter().zip(joints.into_iter().zip([a, b, c])) {
             if !ideal {
-                joint.eccentricity = pose.play(pin).rate.into();
+                joint.eccentricity = pose.journal(pin).rate.into();
             }
         }
-        let accuracy = self.accuracy(instant);
+        let accuracy = self.accuracy(evaluation);
         rates.accuracy.position = accuracy.velocity;
         rates.accuracy.velocity = accuracy.acceleration;
     }
@@ -125,19 +125,19 @@ impl Observer {
 
     /// The slider against the ideal mechanism at the same crank angle, speed and acceleration; zero
     /// where the ideal mechanism cannot be.
-    fn accuracy(&self, instant: &Instant) -> AccuracyOutputs {
-        let turning = &instant.pose.turning;
-        let speed = turning.speed[CRANK];
-        let ideal = self.ideal.motion(turning.rotation[CRANK], speed);
+    fn accuracy(&self, evaluation: &Evaluation) -> AccuracyOutputs {
+        let rotations = &evaluation.pose.rotations;
+        let speed = rotations.speed[CRANK];
+        let ideal = self.ideal.motion(rotations.rotation[CRANK], speed);
         let exists = ideal.rod.cos > 0.0; // not so where it is not a number
         if !exists {
             return AccuracyOutputs::default();
         }
-        let acceleration = ideal.x_ratio * instant.angle_acceleration[CRANK] + ideal.x_bias;
+        let acceleration = ideal.x_ratio * evaluation.angle_acceleration[CRANK] + ideal.x_bias;
         AccuracyOutputs {
-            position: instant.pose.place.pin.x - ideal.x,
-            velocity: instant.pose.velocity.pin.x - ideal.x_ratio * speed,
-            acceleration: instant.acceleration.pin.x - acceleration,
+            position: evaluation.pose.place.pin.x - ideal.x,
+            velocity: evaluation.pose.velocity.pin.x - ideal.x_ratio * speed,
+            acceleration: evaluation.acceleration.pin.x - acceleration,
         }
     }
 }

@@ -14,7 +14,7 @@ pub fn perp<R: Real>(v: Vec2<R>) -> Vec2<R> {
 /// a_x·b_y − a_y·b_x: the moment of the force `b` at the arm `a`.
 #[inline(always)]
 pub fn cross<R: Real>(a: Vec2<R>, b: Vec2<R>) -> R {
-    a.x.times_plus(b.y, -(a.y * b.x))
+    a.x.multiply_add(b.y, -(a.y * b.x))
 }
 
 /// rot(θ), as its cosine and sine.
@@ -49,7 +49,7 @@ impl<R: Real> Rotation<R> {
     where
         R: Mul<S, Output = R> + Fused<S>,
     {
-        Vec2::new(self.cos.times_plus(v.x, -(self.sin * v.y)), self.sin.times_plus(v.x, self.cos * v.y))
+        Vec2::new(self.cos.multiply_add(v.x, -(self.sin * v.y)), self.sin.multiply_add(v.x, self.cos * v.y))
     }
 
     /// `length` along the body's x axis, in inertial axes.

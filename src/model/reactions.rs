@@ -5,9 +5,9 @@
 //! closed loop needs an equation with two unknowns: the moments on the rod about its big end.
 
 use super::body::Bodies;
-use super::demand::Demand;
+use super::inertial_load::InertialLoad;
 use super::plane::{Vec2, cross};
-use super::state::Instant;
+use super::state::Evaluation;
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::math::Real;
 
@@ -29,12 +29,17 @@ pub struct Reactions<R = f64> {
     pub torque: R,
 }
 
-/// The joint forces at `instant`.
-pub fn reactions<R: Real>(topology: Topology, bodies: &Bodies, gravity: f64, instant: &Instant<R>) -> Reactions<R> {
-    let Instant { pose, acceleration, angle_acceleration, loads, flexible } = instant;
-    let turning = &pose.turning;
+/// The joint forces at `evaluation`.
+pub fn reactions<R: Real>(
+    topology: Topology,
+    bodies: &Bodies,
+    gravity: f64,
+    evaluation: &Evaluation<R>,
+) -> Reactions<R> {
+    let Evaluation { pose, acceleration, angle_acceleration, loads, flexible } = evaluation;
+    let rotations = &pose.rotations;
     let demand = |k: usize, point: Vec2<R>| {
-        Demand::new(&bodies[k], turning.rotation[k], turning.speed[k], angle_acceleration[k], point, gravity)
+        InertialLoad::new(&bodies[k], rotations.rotation[k], rotations.speed[k], angle_acceleration[k], point, gravity)
     };
     let of_crank = demand(CRANK, acceleration.crank);
     let of_rod = match flexible {
@@ -99,7 +104,7 @@ pub fn reactions<R: Real>(topology: Topology, bodies: &Bodies, gravity: f64, ins
 }
 
 /// [N] Rod on slider where all joints are ideal, from its component `x` along the guide.
-fn closed_loop_pin_force<R: Real>(rod: &Demand<R>, couple: R, x: R, arm: Vec2<R>) -> Vec2<R> {
+fn closed_loop_pin_force<R: Real>(rod: &InertialLoad<R>, couple: R, x: R, arm: Vec2<R>) -> Vec2<R> {
     // About the big end: what is needed = couple − arm × F_C.
     let moment = couple - rod.moment;
     Vec2::new(x, (moment + arm.y * x) / arm.x)

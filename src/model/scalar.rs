@@ -1,6 +1,6 @@
 //! The numbers that the equations of motion are compiled for.
 
-use crate::math::{Dual, Real, Row};
+use crate::math::{Dual, F64x8, Real};
 
 /// Derivatives along so many directions at a time: with 8 the Jacobian takes up to a fifth less time than with 4
 /// (`cargo bench --bench jacobian`), but twice as much stack and code.
@@ -13,5 +13,5 @@ pub type Tangent = Dual<DIRECTIONS>;
 pub trait Scalar: Real {}
 
 impl Scalar for f64 {}
-impl Scalar for Row {}
+impl Scalar for F64x8 {}
 impl Scalar for Tangent {}

@@ -2,7 +2,7 @@
 //!
 //! With clearance, micrometre penetrations decide the forces. Hertz's penetration at equal force grows
 //! with c^(1/3), so the length that the tolerance is relative to is 1 µm at c = 0.5 mm and follows
-//! that power. Rates are weighed with the frequency of the contact at that penetration, angles with the
+//! that power. Rates are weighted with the frequency of the contact at that penetration, angles with the
 //! length that turns them into displacements. Without clearance the crank's angle counts.
 
 use super::bodies::bodies;
@@ -17,7 +17,7 @@ const LENGTH: f64 = 1e-6;
 const CLEARANCE: f64 = 0.5e-3;
 /// [rad] Of a mechanism without clearance.
 const ANGLE: f64 = 0.01;
-/// [1/s] Slowest motion that is still weighed as motion.
+/// [1/s] Slowest motion that is still weighted as motion.
 const SLOWEST: f64 = 1.0;
 /// [rad] Most that a prescribed or started crank turns within a step, so that no touch is missed.
 const TURN: f64 = 0.1;

@@ -1,7 +1,7 @@
 //! The loop over a step's stages, compiled for a mechanism whose number of states is known, with its rates inside.
 
 use crate::integrator::Tableau;
-use crate::math::{Fused, each};
+use crate::math::{Fused, unroll};
 
 /// Up to so many states, what one stage hands on to the next stays in registers, or in places of its own. In an array it
 /// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
@@ -32,13 +32,13 @@ pub fn of_so_many<const N: usize>(
         for (weight, k) in weights.iter().zip(earlier) {
             if *weight != 0.0 {
                 for (slope, k) in at.iter_mut().zip(k) {
-                    *slope = weight.times_plus(*k, *slope);
+                    *slope = weight.multiply_add(*k, *slope);
                 }
             }
         }
         let weight_of_last = h * weights[i - 1];
         for ((at, y), last) in at.iter_mut().zip(y).zip(last) {
-            *at = y + weight_of_last.times_plus(*last, h * *at);
+            *at = y + weight_of_last.multiply_add(*last, h * *at);
         }
         rates(t + tableau.c[i] * h, &at, &mut later[0]);
     }
@@ -66,15 +66,15 @@ fn in_registers<const N: usize>(
         let weights = &tableau.a[i];
         let mut slope = [0.0; N];
         for (weight, k) in weights.iter().zip(k.iter()).take(i - 1) {
-            each!(true, m < N => {
-                slope[m] = weight.times_plus(k[m], slope[m]);
+            unroll!(true, m < N => {
+                slope[m] = weight.multiply_add(k[m], slope[m]);
             });
         }
         // The last rates are added last: what they wait for is theirs alone.
         let weight_of_last = h * weights[i - 1];
         let mut at = *y;
-        each!(true, m < N => {
-            at[m] += weight_of_last.times_plus(last[m], h * slope[m]);
+        unroll!(true, m < N => {
+            at[m] += weight_of_last.multiply_add(last[m], h * slope[m]);
         });
         rates(t + tableau.c[i] * h, &at, &mut last);
         k[i] = last;

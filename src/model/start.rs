@@ -1,7 +1,7 @@
 //! The start: the crank at θ0, ω0; every clearance joint at its given eccentricity, with rate 0; rod and
 //! slider from closing the loop with those eccentricities in it, the slider on the +x side.
 
-use super::kinematics::JointCentres;
+use super::kinematics::JointVectors;
 use super::plane::{Rotation, Vec2, perp};
 use crate::math;
 use crate::scene::closure::rod_sine;
@@ -15,9 +15,9 @@ pub struct StartPose {
     /// [rad/s]
     pub speed: [f64; 3],
     /// [m]
-    pub place: JointCentres,
+    pub place: JointVectors,
     /// [m/s]
-    pub velocity: JointCentres,
+    pub velocity: JointVectors,
 }
 
 /// [m] Of the journal at the start.
@@ -50,8 +50,8 @@ impl StartPose {
         Some(Self {
             angle: [theta, math::atan2(sine, cosine), 0.0],
             speed: [omega, rod_speed, 0.0],
-            place: JointCentres { crank, crank_pin, big_end, small_end, pin },
-            velocity: JointCentres {
+            place: JointVectors { crank, crank_pin, big_end, small_end, pin },
+            velocity: JointVectors {
                 crank: Vec2::ZERO,
                 crank_pin: crank_velocity,
                 big_end: crank_velocity,

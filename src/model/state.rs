@@ -1,12 +1,12 @@
 //! A mechanism at one instant, the same for every topology: what outputs are made from.
 
-use super::contact::ContactMode;
-use super::demand::Demand;
+use super::contact::ContactState;
 use super::drive::Rotor;
+use super::inertial_load::InertialLoad;
 use super::joint::rectangle::{CORNERS, SliderPose};
-use super::joint::revolute::Play;
+use super::joint::revolute::JournalMotion;
 use super::joint_set::Pin;
-use super::kinematics::{JointCentres, Turning};
+use super::kinematics::{BodyRotations, JointVectors};
 use super::loads::Loads;
 use super::plane::Rotation;
 use super::rod::Elastic;
@@ -17,17 +17,17 @@ use crate::math::Real;
 pub const CONTACTS: usize = 3 + CORNERS;
 
 /// The discrete state: every contact's memory.
-pub type Contacts = [ContactMode; CONTACTS];
+pub type Contacts = [ContactState; CONTACTS];
 
 /// Angles, positions and velocities of an open mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<R = f64> {
     /// Angles and angular speeds.
-    pub turning: Turning<R>,
+    pub rotations: BodyRotations<R>,
     /// [m]
-    pub place: JointCentres<R>,
+    pub place: JointVectors<R>,
     /// [m/s]
-    pub velocity: JointCentres<R>,
+    pub velocity: JointVectors<R>,
     /// [rad/s] Of the rod's sections at its big and small end.
     pub section_speed: [R; 2],
 }
@@ -35,19 +35,22 @@ pub struct Pose<R = f64> {
 impl<R: Real> Pose<R> {
     /// The journal of a pin in its bearing.
     #[inline(always)]
-    pub fn play(&self, pin: Pin) -> Play<R> {
-        let (p, v, speed, section) = (&self.place, &self.velocity, &self.turning.speed, &self.section_speed);
+    pub fn journal(&self, pin: Pin) -> JournalMotion<R> {
+        let (p, v, speed, section) = (&self.place, &self.velocity, &self.rotations.speed, &self.section_speed);
         match pin {
-            Pin::MainBearing => {
-                Play { eccentricity: p.crank, rate: v.crank, journal_speed: speed[CRANK], bearing_speed: R::ZERO }
-            }
-            Pin::CrankPin => Play {
+            Pin::MainBearing => JournalMotion {
+                eccentricity: p.crank,
+                rate: v.crank,
+                journal_speed: speed[CRANK],
+                bearing_speed: R::ZERO,
+            },
+            Pin::CrankPin => JournalMotion {
                 eccentricity: p.crank_pin - p.big_end,
                 rate: v.crank_pin - v.big_end,
                 journal_speed: speed[CRANK],
                 bearing_speed: section[0],
             },
-            Pin::SliderPin => Play {
+            Pin::SliderPin => JournalMotion {
                 eccentricity: p.pin - p.small_end,
                 rate: v.pin - v.small_end,
                 journal_speed: speed[SLIDER],
@@ -62,32 +65,32 @@ impl<R: Real> Pose<R> {
         SliderPose {
             pin: self.place.pin,
             pin_velocity: self.velocity.pin,
-            rotation: self.turning.rotation[SLIDER],
-            speed: self.turning.speed[SLIDER],
+            rotation: self.rotations.rotation[SLIDER],
+            speed: self.rotations.speed[SLIDER],
         }
     }
 }
 
 /// Everything about one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instant<R = f64> {
+pub struct Evaluation<R = f64> {
     /// Angles, positions and velocities.
     pub pose: Pose<R>,
     /// [m/s²] Of the joint centres.
-    pub acceleration: JointCentres<R>,
+    pub acceleration: JointVectors<R>,
     /// [rad/s²] Of crank, rod and slider.
     pub angle_acceleration: [R; 3],
     /// Loads, with the contact forces in them.
     pub loads: Loads<R>,
     /// Of a flexible rod.
-    pub flexible: Option<FlexibleInstant<R>>,
+    pub flexible: Option<FlexibleEvaluation<R>>,
 }
 
 /// What only a flexible rod has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlexibleInstant<R = f64> {
+pub struct FlexibleEvaluation<R = f64> {
     /// What the rod's motion needs of forces and moments.
-    pub demand: Demand<R>,
+    pub demand: InertialLoad<R>,
     /// Its elasticity.
     pub elastic: Elastic<R>,
     /// [J] Its kinetic energy.
@@ -96,10 +99,16 @@ pub struct FlexibleInstant<R = f64> {
     pub mass_height: R,
 }
 
-/// Turning from `positions` and their `rates` at `t`; a crank whose angle is no coordinate follows `rotor`. The rod of a
+/// Rotations from `positions` and their `rates` at `t`; a crank whose angle is no coordinate follows `rotor`. The rod of a
 /// closed loop counts as lying along the guide: it has no coordinate.
 #[inline(always)]
-pub fn turning_at<R: Real>(structure: &Structure, rotor: &Rotor, t: R, positions: &[R], rates: &[R]) -> Turning<R> {
+pub fn rotations_at<R: Real>(
+    structure: &Structure,
+    rotor: &Rotor,
+    t: R,
+    positions: &[R],
+    rates: &[R],
+) -> BodyRotations<R> {
     let (mut angle, mut speed) = ([R::ZERO; 3], [R::ZERO; 3]);
     (angle[CRANK], speed[CRANK]) = match structure.crank_angle {
         Some(place) => (positions[place], rates[place]),
@@ -111,13 +120,13 @@ pub fn turning_at<R: Real>(structure: &Structure, rotor: &Rotor, t: R, positions
     if let Some(place) = structure.slider_angle {
         (angle[SLIDER], speed[SLIDER]) = (positions[place], rates[place]);
     }
-    turning(angle, speed, structure.slider_angle.is_some())
+    rotations(angle, speed, structure.slider_angle.is_some())
 }
 
-/// Turning from angles and rates; the slider on an ideal guide does not turn.
+/// Rotations from angles and rates; the slider on an ideal guide does not turn.
 #[inline(always)]
-pub fn turning<R: Real>(angle: [R; 3], speed: [R; 3], slider_turns: bool) -> Turning<R> {
+pub fn rotations<R: Real>(angle: [R; 3], speed: [R; 3], slider_turns: bool) -> BodyRotations<R> {
     let [crank, rod] = Rotation::all([angle[CRANK], angle[ROD]]);
     let slider = if slider_turns { Rotation::new(angle[SLIDER]) } else { Rotation::NONE };
-    Turning { angle, speed, rotation: [crank, rod, slider] }
+    BodyRotations { angle, speed, rotation: [crank, rod, slider] }
 }

@@ -8,22 +8,22 @@ use super::dynamics::{Accelerations, accelerate};
 use super::ideal::IdealMotion;
 use super::joint::rectangle::CORNERS;
 use super::joint_set::{JointSet, Pin};
-use super::kinematics::Turning;
+use super::kinematics::BodyRotations;
 use super::loads::Loads;
-use super::mechanism::{Mechanism, instant, write};
-use super::state::{CONTACTS, Contacts, Instant, Pose};
+use super::mechanism::{Mechanism, evaluation, write};
+use super::state::{CONTACTS, Contacts, Evaluation, Pose};
 use super::structure::Structure;
 use crate::integrator::Relative;
-use crate::integrator::complementarity::{MOST_CONTACTS, Pairs};
+use crate::integrator::complementarity::{MAX_CONTACTS, Pairs};
 
-const _: () = assert!(CONTACTS == MOST_CONTACTS);
+const _: () = assert!(CONTACTS == MAX_CONTACTS);
 
 impl Clearances {
     /// [m/s] Rate of the gap and sliding speed of every contact; 0 in a joint without clearance.
     fn contact_velocities(&self, play: JointSet, pose: &Pose) -> Pairs {
         let mut velocities = Pairs::default();
         for pin in play.pins() {
-            velocities[pin as usize] = self.revolute[pin as usize].contact_velocity(&pose.play(pin));
+            velocities[pin as usize] = self.revolute[pin as usize].contact_velocity(&pose.journal(pin));
         }
         if play.guide {
             let slider = pose.slider();
@@ -37,14 +37,14 @@ impl Clearances {
     /// Adds the forces [N] of one contact.
     fn add_rigid(&self, contact: usize, pose: &Pose, forces: [f64; 2], loads: &mut Loads) {
         match Pin::ALL.get(contact) {
-            Some(&pin) => loads.add_contact(pin, &self.revolute[contact].rigid_load(&pose.play(pin), forces)),
+            Some(&pin) => loads.add_contact(pin, &self.revolute[contact].rigid_load(&pose.journal(pin), forces)),
             None => loads.add_guide(&self.guide.rigid_load(contact - 3, &pose.slider(), forces)),
         }
     }
 }
 
 /// What the contacts do in a step: the forces [N] of those that act, at the pose in its middle.
-pub struct Acting<'a> {
+pub struct StepForces<'a> {
     /// [s] Middle of the step.
     pub t: f64,
     /// State there.
@@ -67,33 +67,41 @@ impl Mechanism {
 
     /// Writes what a unit impulse in one `part` of one contact changes the velocities by, among the rates of all states.
     pub fn response(&self, t: f64, y: &[f64], contact: usize, part: usize, rates: &mut [f64]) {
-        let stance = self.place(t, y);
+        let configuration = self.place(t, y);
         let mut loads = Loads::default();
         let mut unit = [0.0; 2];
         unit[part] = 1.0;
-        self.clearances.add_rigid(contact, &stance.pose, unit, &mut loads);
+        self.clearances.add_rigid(contact, &configuration.pose, unit, &mut loads);
         let Structure { positions: p, .. } = self.structure;
-        let still = Turning { speed: [0.0; 3], ..stance.pose.turning };
-        let Accelerations { roots, angle } =
-            accelerate(&self.structure, &self.augmented, 0.0, &still, &stance.arms, &IdealMotion::default(), &loads);
+        let still = BodyRotations { speed: [0.0; 3], ..configuration.pose.rotations };
+        let Accelerations { roots, angle } = accelerate(
+            &self.structure,
+            &self.augmented,
+            0.0,
+            &still,
+            &configuration.arms,
+            &IdealMotion::default(),
+            &loads,
+        );
         self.structure.set_roots(&roots, &mut rates[p..2 * p]);
         self.structure.set_angles(angle, &mut rates[p..2 * p]);
     }
 
     /// Everything about an instant of a motion with rigid contacts, and its rates.
-    pub fn instant_under(&self, acting: &Acting<'_>, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
+    pub fn evaluation_under(&self, acting: &StepForces<'_>, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
         let of = &self.structure;
-        let stance = self.place(t, y);
+        let configuration = self.place(t, y);
         let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let mut loads = self.loads(of, &Contacts::default(), t, &y[2 * of.positions..], &stance.pose, bristle_rates);
+        let mut loads =
+            self.loads(of, &Contacts::default(), t, &y[2 * of.positions..], &configuration.pose, bristle_rates);
         if acting.acts.contains(&true) {
             let there = self.pose(acting.t, acting.y);
             for contact in (0..CONTACTS).filter(|&contact| acting.acts[contact]) {
                 self.clearances.add_rigid(contact, &there, acting.forces[contact], &mut loads);
             }
         }
-        let accelerations = self.accelerations(of, &stance, &loads);
+        let accelerations = self.accelerations(of, &configuration, &loads);
         write(of, &accelerations, y, moving);
-        instant(of, stance, loads, &accelerations)
+        evaluation(of, configuration, loads, &accelerations)
     }
 }

@@ -20,7 +20,7 @@ pub enum Profile {
     /// Straight lines between points.
     Points {
         /// What the points are over.
-        against: Against,
+        against: ProfileArgument,
         /// Abscissa ([s], or [rad] in 0 ..= 2π) and value; abscissae rise. Over time, the first
         /// and the last value hold outside; over the crank angle, the turn repeats.
         points: Vec<[f64; 2]>,
@@ -29,14 +29,14 @@ pub enum Profile {
 
 /// What a profile is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Against {
+pub enum ProfileArgument {
     /// Time.
     Time,
     /// Crank angle, the same every turn.
     CrankAngle,
 }
 
-impl Against {
+impl ProfileArgument {
     /// Names in scene files.
     pub const ITEMS: [(&str, Self); 2] = [("time", Self::Time), ("crank.angle", Self::CrankAngle)];
 
@@ -80,8 +80,8 @@ impl Profile {
     pub fn rate(&self, time: f64, crank_angle: f64, crank_speed: f64) -> f64 {
         let abscissa_rate = match self {
             Self::Constant(_) => return 0.0,
-            Self::Points { against: Against::Time, .. } => 1.0,
-            Self::Points { against: Against::CrankAngle, .. } => crank_speed,
+            Self::Points { against: ProfileArgument::Time, .. } => 1.0,
+            Self::Points { against: ProfileArgument::CrankAngle, .. } => crank_speed,
         };
         let (_, [from, to]) = self.segment(time, crank_angle);
         slope(from, to) * abscissa_rate
@@ -96,15 +96,15 @@ impl Profile {
             return (0.0, [[0.0; 2]; 2]);
         };
         let at = match against {
-            Against::Time => time,
-            Against::CrankAngle => crank_angle.rem_euclid(TAU),
+            ProfileArgument::Time => time,
+            ProfileArgument::CrankAngle => crank_angle.rem_euclid(TAU),
         };
         let next = points.partition_point(|point| point[0] <= at);
         let ends = match (next, against) {
-            (0, Against::Time) => [*first, *first],
-            (0, Against::CrankAngle) => [[last[0] - TAU, last[1]], *first],
-            (n, Against::Time) if n == points.len() => [*last, *last],
-            (n, Against::CrankAngle) if n == points.len() => [*last, [first[0] + TAU, first[1]]],
+            (0, ProfileArgument::Time) => [*first, *first],
+            (0, ProfileArgument::CrankAngle) => [[last[0] - TAU, last[1]], *first],
+            (n, ProfileArgument::Time) if n == points.len() => [*last, *last],
+            (n, ProfileArgument::CrankAngle) if n == points.len() => [*last, [first[0] + TAU, first[1]]],
             (n, _) => [points[n - 1], points[n]],
         };
         (at, ends)
@@ -119,13 +119,13 @@ fn slope(from: [f64; 2], to: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    fn over(against: Against) -> Profile {
+    fn over(against: ProfileArgument) -> Profile {
         Profile::Points { against, points: vec![[1.0, 10.0], [3.0, 30.0], [4.0, 0.0]] }
     }
 
     #[test]
     fn over_time_the_ends_hold() {
-        let profile = over(Against::Time);
+        let profile = over(ProfileArgument::Time);
         let values = [0.0, 1.0, 2.0, 3.0, 3.5, 4.0, 9.0].map(|time| profile.value(time, 0.0));
         assert_eq!(values, [10.0, 10.0, 20.0, 30.0, 15.0, 0.0, 0.0]);
         let rates = [0.0, 1.0, 3.0, 9.0].map(|time| profile.rate(time, 0.0, 7.0));
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn over_the_crank_angle_the_turn_repeats() {
-        let profile = over(Against::CrankAngle);
+        let profile = over(ProfileArgument::CrankAngle);
         for turns in [-2.0, 0.0, 5.0] {
             let value = |angle: f64| profile.value(0.0, angle + turns * TAU);
             // Rounding of the wrapped angle, at most a few ulp of 2π·5, times the steepest slope.

@@ -1,7 +1,7 @@
 //! The table form of an input in a scene file: points over time or over the crank angle.
 
 use super::problem::{Fault, nearest};
-use super::profile::{Against, Profile};
+use super::profile::{Profile, ProfileArgument};
 use super::read_value::{Value, number, source};
 use std::f64::consts::TAU;
 use toml::de::DeTable;
@@ -33,12 +33,12 @@ pub(super) fn points(text: &str, key: &str, table: &DeTable, start: usize, unit:
     for row in rows.iter() {
         let point = point(text, &path, row, against, unit)?;
         let after = points.last().map_or(f64::NEG_INFINITY, |last| last[0]);
-        let most = if against == Against::CrankAngle { TAU } else { f64::MAX };
-        let least = if against == Against::CrankAngle { 0.0 } else { f64::MIN };
+        let most = if against == ProfileArgument::CrankAngle { TAU } else { f64::MAX };
+        let least = if against == ProfileArgument::CrankAngle { 0.0 } else { f64::MIN };
         if !(point[0] > after && (least..=most).contains(&point[0])) {
             let allowed = match against {
-                Against::Time => "rising times",
-                Against::CrankAngle => "rising angles from 0 to 360 deg",
+                ProfileArgument::Time => "rising times",
+                ProfileArgument::CrankAngle => "rising angles from 0 to 360 deg",
             };
             return Err((row.span().start, value_fault(text, &path, row, allowed)));
         }
@@ -53,14 +53,14 @@ pub(super) fn points(text: &str, key: &str, table: &DeTable, start: usize, unit:
     Ok(Profile::Points { against, points })
 }
 
-fn against(text: &str, key: &str, table: &DeTable, start: usize) -> Result<Against, Located> {
-    let wanted = || format!("against = {}", Against::ITEMS.map(|(name, _)| format!("{name:?}")).join(" or "));
+fn against(text: &str, key: &str, table: &DeTable, start: usize) -> Result<ProfileArgument, Located> {
+    let wanted = || format!("against = {}", ProfileArgument::ITEMS.map(|(name, _)| format!("{name:?}")).join(" or "));
     let Some(value) = table.get("against") else {
         let found = "a table without against".to_owned();
         return Err((start, Fault::Type { key: key.to_owned(), found, wanted: wanted() }));
     };
     let name = value.get_ref().as_str();
-    let item = Against::ITEMS.iter().find(|(item, _)| Some(*item) == name);
+    let item = ProfileArgument::ITEMS.iter().find(|(item, _)| Some(*item) == name);
     item.map(|(_, against)| *against).ok_or_else(|| {
         let path = format!("{key}.against");
         let found = source(text, value);
@@ -68,7 +68,7 @@ fn against(text: &str, key: &str, table: &DeTable, start: usize) -> Result<Again
     })
 }
 
-fn point(text: &str, path: &str, row: &Value, against: Against, unit: &str) -> Result<[f64; 2], Located> {
+fn point(text: &str, path: &str, row: &Value, against: ProfileArgument, unit: &str) -> Result<[f64; 2], Located> {
     let pair = row.get_ref().as_array().filter(|pair| pair.len() == 2);
     let [Some(abscissa), Some(value)] = [0, 1].map(|i| pair.and_then(|pair| pair.get(i))) else {
         let wanted = format!("[{}, {unit}]", against.unit());

@@ -6,7 +6,7 @@ use super::time_stepping::TimeStepping;
 use crate::model::Model;
 use crate::model::audit::Audited;
 use crate::model::drive::InputSignal;
-use crate::model::plant::Plant;
+use crate::model::mechanism_model::MechanismModel;
 use crate::model::start::StartPose;
 use crate::scene::{Method, Scene};
 
@@ -14,13 +14,13 @@ use crate::scene::{Method, Scene};
 /// Integrators are compiled once and call the mechanism through a table of functions. Only the loop over a step's stages
 /// is compiled for some small mechanisms on its own; see [`Ode::stages`](crate::integrator::Ode::stages).
 pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) -> Box<dyn Motion> {
-    let mut plant: Box<dyn Plant> = Box::new(Model::assemble(scene, time));
+    let mut model: Box<dyn MechanismModel> = Box::new(Model::assemble(scene, time));
     if scene.energy.audit {
-        plant = Box::new(Audited::new(scene, plant));
+        model = Box::new(Audited::new(scene, model));
     }
-    plant.set_signal(signal);
+    model.set_signal(signal);
     match scene.solver.method {
-        Method::Moreau => Box::new(TimeStepping::start(scene, time, pose, plant)),
-        _ => Box::new(Run::start(scene, time, pose, plant)),
+        Method::Moreau => Box::new(TimeStepping::start(scene, time, pose, model)),
+        _ => Box::new(Run::start(scene, time, pose, model)),
     }
 }

@@ -1,7 +1,7 @@
 //! Derivatives of outputs: in time, and with respect to the inputs.
 
 use crate::integrator::MAX_STATES;
-use crate::model::plant::Plant;
+use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::{Inputs, Outputs};
 
 /// [s] Half the longest interval over which an output's derivative is taken.
@@ -14,7 +14,7 @@ const SHORTENINGS: usize = 12;
 /// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state moves by
 /// more than is noticeable, and time by at least a few of its roundings; near the end of a mechanism's reach, by less.
 pub fn slopes(
-    plant: &dyn Plant,
+    model: &dyn MechanismModel,
     t: f64,
     y: &[f64],
     rates: &[f64],
@@ -32,8 +32,8 @@ pub fn slopes(
         let (first, second) = (along(before), along(after));
         second.combined(&first, |second, first| (second - first) / (after - before))
     };
-    let weighed = rates.iter().zip(plant.scales()).take(plant.extent().weighed);
-    let fastest = weighed.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
+    let weighted = rates.iter().zip(model.scales()).take(model.layout().weighted);
+    let fastest = weighted.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
     let least = LEAST_DIFFERENCE.max(4.0 * f64::EPSILON * t.abs());
     let mut half = (1.0 / fastest).min(DIFFERENCE).max(least);
     let mut slopes = over(half);

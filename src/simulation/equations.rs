@@ -1,9 +1,9 @@
 //! A mechanism's equations of motion without an integrator.
 
 use super::observation::observe;
-use crate::integrator::{EventFunction, EventFunctions, Extent, MAX_EVENTS, MAX_STATES, Triggered};
+use crate::integrator::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, StateLayout, Triggered};
+use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
-use crate::model::plant::Plant;
 use crate::model::signals::Outputs;
 use crate::model::state::Contacts;
 
@@ -30,8 +30,8 @@ pub trait Equations: Send {
     fn longest_step(&self) -> f64;
     /// See [`System::write_rates`](super::System::write_rates).
     fn write_rates(&self, t: f64, y: &[f64], rates: &mut [f64]);
-    /// See [`System::write_guards`](super::System::write_guards).
-    fn write_guards(&self, t: f64, y: &[f64], guards: &mut [f64]);
+    /// See [`System::write_event_functions`](super::System::write_event_functions).
+    fn write_event_functions(&self, t: f64, y: &[f64], event_functions: &mut [f64]);
     /// See [`System::cross`](super::System::cross).
     fn cross(&mut self, t: f64, y: &mut [f64], crossed: &[bool]);
     /// See [`System::restart`](super::System::restart).
@@ -42,7 +42,7 @@ pub trait Equations: Send {
 
 /// A mechanism without an integrator.
 pub struct EquationSystem {
-    plant: Box<dyn Plant>,
+    model: Box<dyn MechanismModel>,
     observer: Observer,
     start: (Vec<f64>, Contacts),
     contacts: Contacts,
@@ -50,8 +50,8 @@ pub struct EquationSystem {
 
 impl EquationSystem {
     /// From a mechanism and where it starts.
-    pub fn new(plant: Box<dyn Plant>, observer: Observer, y: Vec<f64>, contacts: Contacts) -> Self {
-        Self { plant, observer, start: (y, contacts), contacts }
+    pub fn new(model: Box<dyn MechanismModel>, observer: Observer, y: Vec<f64>, contacts: Contacts) -> Self {
+        Self { model, observer, start: (y, contacts), contacts }
     }
 
     fn states(&self) -> usize {
@@ -61,7 +61,7 @@ impl EquationSystem {
     #[inline(always)]
     fn events(&self, t: f64, y: &[f64]) -> EventFunctions {
         let mut functions = [EventFunction::default(); MAX_EVENTS];
-        self.plant.event_functions(&self.contacts, t, &y[..self.states()], &mut functions);
+        self.model.event_functions(&self.contacts, t, &y[..self.states()], &mut functions);
         functions
     }
 }
@@ -84,8 +84,8 @@ pub fn write(values: &[f64], list: &mut [f64]) {
 
 impl Equations for EquationSystem {
     fn size(&self) -> Size {
-        let Extent { positions, states, .. } = self.plant.extent();
-        Size { degrees_of_freedom: positions, states, event_functions: self.plant.event_count() }
+        let StateLayout { positions, states, .. } = self.model.layout();
+        Size { degrees_of_freedom: positions, states, event_functions: self.model.event_count() }
     }
 
     fn write_start(&self, y: &mut [f64]) {
@@ -93,27 +93,27 @@ impl Equations for EquationSystem {
     }
 
     fn write_scales(&self, scales: &mut [f64]) {
-        write(&self.plant.scales()[..self.states()], scales);
+        write(&self.model.scales()[..self.states()], scales);
     }
 
     fn longest_step(&self) -> f64 {
-        self.plant.longest_step()
+        self.model.longest_step()
     }
 
     fn write_rates(&self, t: f64, y: &[f64], rates: &mut [f64]) {
         let n = self.states();
         if y.len() == n && rates.len() == n {
-            return self.plant.rates(&self.contacts, t, y, rates);
+            return self.model.rates(&self.contacts, t, y, rates);
         }
         let mut all = [0.0; MAX_STATES];
-        self.plant.rates(&self.contacts, t, &filled(y)[..n], &mut all[..n]);
+        self.model.rates(&self.contacts, t, &filled(y)[..n], &mut all[..n]);
         write(&all[..n], rates);
     }
 
-    fn write_guards(&self, t: f64, y: &[f64], guards: &mut [f64]) {
+    fn write_event_functions(&self, t: f64, y: &[f64], event_functions: &mut [f64]) {
         let all = self.events(t, &filled(y));
-        for (place, guard) in guards.iter_mut().zip(all).take(self.plant.event_count()) {
-            *place = guard.value;
+        for (place, event_function) in event_functions.iter_mut().zip(all).take(self.model.event_count()) {
+            *place = event_function.value;
         }
     }
 
@@ -121,11 +121,11 @@ impl Equations for EquationSystem {
         let mut state = filled(y);
         let (events, n) = (self.events(t, &state), self.states());
         let mut all: Triggered = [false; MAX_EVENTS];
-        for (i, place) in all.iter_mut().enumerate().take(self.plant.event_count()) {
+        for (i, place) in all.iter_mut().enumerate().take(self.model.event_count()) {
             let EventFunction { value, rate } = events[i];
             *place = crossed.get(i).is_some_and(|crossed| *crossed) || value <= 0.0 && rate < 0.0;
         }
-        self.contacts = self.plant.reset(&self.contacts, t, &mut state[..n], &all).discrete;
+        self.contacts = self.model.reset(&self.contacts, t, &mut state[..n], &all).discrete;
         write(&state[..n], y);
     }
 
@@ -134,6 +134,6 @@ impl Equations for EquationSystem {
     }
 
     fn outputs(&self, t: f64, y: &[f64]) -> Outputs {
-        observe(self.plant.as_ref(), &self.observer, &self.contacts, t, &filled(y)[..self.states()])
+        observe(self.model.as_ref(), &self.observer, &self.contacts, t, &filled(y)[..self.states()])
     }
 }

@@ -1,8 +1,8 @@
 //! Rates of the states at any state, and their derivatives.
 
 use super::equations::write;
-use crate::integrator::{Extent, Jacobian};
-use crate::model::plant::Plant;
+use crate::integrator::{Jacobian, StateLayout};
+use crate::model::mechanism_model::MechanismModel;
 use crate::model::state::Contacts;
 
 /// ẏ ≈ rates + by_state·Δy + by_time·Δt near one state and instant.
@@ -23,20 +23,20 @@ pub struct Linearization {
 }
 
 /// Rates of the `states` at `time` [s].
-pub fn rates_at(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Vec<f64> {
-    let n = plant.extent().states;
+pub fn rates_at(model: &dyn MechanismModel, contacts: &Contacts, time: f64, states: &[f64]) -> Vec<f64> {
+    let n = model.layout().states;
     let mut rates = vec![0.0; n];
-    plant.rates(contacts, time, &filled(states, n), &mut rates);
+    model.rates(contacts, time, &filled(states, n), &mut rates);
     rates
 }
 
-/// The equations of motion of `plant` near `states` and `time` [s].
-pub fn linearization(plant: &dyn Plant, contacts: &Contacts, time: f64, states: &[f64]) -> Linearization {
-    let Extent { positions, states: n, .. } = plant.extent();
+/// The equations of motion of `model` near `states` and `time` [s].
+pub fn linearization(model: &dyn MechanismModel, contacts: &Contacts, time: f64, states: &[f64]) -> Linearization {
+    let StateLayout { positions, states: n, .. } = model.layout();
     let states = filled(states, n);
     let (mut rates, mut jacobian) = (vec![0.0; n], Jacobian::new(n));
-    plant.rates(contacts, time, &states, &mut rates);
-    plant.jacobian(contacts, time, &states, &mut jacobian);
+    model.rates(contacts, time, &states, &mut rates);
+    model.jacobian(contacts, time, &states, &mut jacobian);
     let by_state = (0..n).map(|i| jacobian.row(i).to_vec()).collect();
     Linearization { time, states, positions, rates, by_state, by_time: jacobian.time }
 }

@@ -1,18 +1,18 @@
 //! Outputs of a mechanism and of its integrator.
 
 use crate::integrator::Statistics;
+use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
-use crate::model::plant::Plant;
 use crate::model::signals::{Outputs, SolverOutputs};
 use crate::model::state::Contacts;
 
 /// Outputs of the state `y` at `t`.
-pub fn observe(plant: &dyn Plant, observer: &Observer, contacts: &Contacts, t: f64, y: &[f64]) -> Outputs {
-    let instant = plant.instant(contacts, t, y);
-    let penetration = plant.penetration(&instant.pose);
-    let torque = plant.signal().at(t).crank_torque;
-    let mut outputs = observer.outputs(&instant, contacts, &penetration, torque);
-    outputs.energy = plant.energies(contacts, &instant, y);
+pub fn observe(model: &dyn MechanismModel, observer: &Observer, contacts: &Contacts, t: f64, y: &[f64]) -> Outputs {
+    let evaluation = model.evaluation(contacts, t, y);
+    let penetration = model.penetration(&evaluation.pose);
+    let torque = model.signal().at(t).crank_torque;
+    let mut outputs = observer.outputs(&evaluation, contacts, &penetration, torque);
+    outputs.energy = model.energies(contacts, &evaluation, y);
     outputs
 }
 

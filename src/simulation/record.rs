@@ -1,9 +1,9 @@
 //! A run's memory in a snapshot.
 
 use crate::integrator::{Impulses, Reader, Snapshot, SolverState, Statistics, StepPoint};
-use crate::model::contact::ContactMode;
+use crate::model::contact::ContactState;
 use crate::model::drive::InputSignal;
-use crate::model::plant::Plant;
+use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::Inputs;
 use crate::model::state::{CONTACTS, Contacts};
 
@@ -17,19 +17,19 @@ pub trait Discrete: Copy {
 
 impl Discrete for Contacts {
     fn save(&self, _: usize, snapshot: &mut Snapshot) {
-        snapshot.reals.extend(self.iter().map(|mode| mode.approach));
-        snapshot.integers.extend(self.iter().map(|mode| u64::from(mode.closed)));
+        snapshot.reals.extend(self.iter().map(|state| state.approach));
+        snapshot.integers.extend(self.iter().map(|state| u64::from(state.closed)));
     }
 
     fn load(_: usize, reader: &mut Reader<'_>) -> Option<Self> {
         let approach = reader.reals::<CONTACTS>()?;
-        let mut modes = Self::default();
-        for (mode, approach) in modes.iter_mut().zip(approach) {
+        let mut states = Self::default();
+        for (state, approach) in states.iter_mut().zip(approach) {
             if reader.integer()? != 0 {
-                *mode = ContactMode::closing(approach, approach);
+                *state = ContactState::closing(approach, approach);
             }
         }
-        Some(modes)
+        Some(states)
     }
 }
 
@@ -55,14 +55,14 @@ impl Discrete for Impulses {
 }
 
 /// Appends the inputs in force and what the integrator remembers.
-pub fn save<D: Discrete>(plant: &dyn Plant, state: &SolverState<D>, snapshot: &mut Snapshot) {
+pub fn save<D: Discrete>(model: &dyn MechanismModel, state: &SolverState<D>, snapshot: &mut Snapshot) {
     let SolverState { step, last_error, cuts, crossings, statistics, .. } = state;
-    let InputSignal { at, value, rate } = plant.signal();
+    let InputSignal { at, value, rate } = model.signal();
     let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
     let states = state.front().y.len();
     snapshot.integers.push(states as u64);
     snapshot.reals.extend(inputs);
-    snapshot.reals.extend([plant.start_time(), *step, *last_error]);
+    snapshot.reals.extend([model.start_time(), *step, *last_error]);
     for StepPoint { t, y, rates, discrete, impact_end } in [state.start(), state.end(), state.front()] {
         snapshot.reals.extend([*t, *impact_end]);
         snapshot.reals.extend(y.iter().chain(rates));
@@ -72,10 +72,10 @@ pub fn save<D: Discrete>(plant: &dyn Plant, state: &SolverState<D>, snapshot: &m
     snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
 }
 
-/// Takes back what [`save`] appended of a run at `time` [s]: the plant gets its inputs, what the integrator remembers is
+/// Takes back what [`save`] appended of a run at `time` [s]: the model gets its inputs, what the integrator remembers is
 /// returned.
-pub fn load<D: Discrete>(plant: &mut dyn Plant, time: f64, reader: &mut Reader<'_>) -> Option<SolverState<D>> {
-    let states = plant.extent().states;
+pub fn load<D: Discrete>(model: &mut dyn MechanismModel, time: f64, reader: &mut Reader<'_>) -> Option<SolverState<D>> {
+    let states = model.layout().states;
     if reader.integer()? != states as u64 {
         return None;
     }
@@ -94,9 +94,9 @@ pub fn load<D: Discrete>(plant: &mut dyn Plant, time: f64, reader: &mut Reader<'
         evaluations: reader.integer()?,
         events: reader.integer()?,
     };
-    plant.set_signal(InputSignal { at, value, rate });
-    plant.set_start_time(start_time);
-    state.is_sound(time, plant.longest_step()).then_some(state)
+    model.set_signal(InputSignal { at, value, rate });
+    model.set_start_time(start_time);
+    state.is_sound(time, model.longest_step()).then_some(state)
 }
 
 fn take_point<D: Discrete>(states: usize, reader: &mut Reader<'_>) -> Option<StepPoint<D>> {

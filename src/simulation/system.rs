@@ -11,7 +11,7 @@ use crate::scene::Scene;
 ///
 /// States are positions, as many rates of theirs, and what else is integrated, in the order in which
 /// our own integrator has them. Contacts change only in [`System::cross`]: between two events the
-/// right-hand side is smooth but for friction's and the force law's own kinks.
+/// right-hand side is smooth but for friction's and the force law's own discontinuities.
 pub struct System {
     equations: Box<dyn Equations>,
 }
@@ -54,8 +54,8 @@ impl System {
 
     /// Writes the event functions: an event happens when one falls through zero.
     #[inline]
-    pub fn write_guards(&self, t: f64, y: &[f64], guards: &mut [f64]) {
-        self.equations.write_guards(t, y, guards);
+    pub fn write_event_functions(&self, t: f64, y: &[f64], event_functions: &mut [f64]) {
+        self.equations.write_event_functions(t, y, event_functions);
     }
 
     /// Opens or closes the contacts of the event functions in `crossed`, and of all others that are at or

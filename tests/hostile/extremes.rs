@@ -1,9 +1,9 @@
 //! Parameters at the ends of their ranges, alone and together by chance: a run of numbers, or one line that says why not.
 
-use crate::absurd::look;
 use crate::brief;
 use crate::forged::{H, START};
 use crate::host::Slave;
+use crate::invalid_arguments::look;
 use crate::scenes::MECHANISMS;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};

@@ -8,7 +8,7 @@
 //! cargo test --test hostile -- --test-threads=1
 //! ```
 //!
-//! With `--tool=helgrind` and the filter `crowd`, what is reported are atomics of the standard library, of the C library
+//! With `--tool=helgrind` and the filter `concurrency`, what is reported are atomics of the standard library, of the C library
 //! and of [`slidercrank::fmi::v2::abi::component`]: valgrind takes them for plain memory.
 #![allow(unsafe_code, reason = "the tests call the C functions")]
 #![allow(clippy::panic, reason = "a test that cannot go on")]
@@ -17,13 +17,13 @@
 #[path = "../host/mod.rs"]
 mod host;
 
-mod absurd;
 mod arguments;
 mod bytes;
-mod crowd;
+mod concurrency;
 mod extremes;
 mod forged;
 mod instantiate;
+mod invalid_arguments;
 mod invoke;
 mod memory;
 mod mixed;

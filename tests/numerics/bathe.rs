@@ -1,13 +1,13 @@
 //! The composite method: its order, what it does to motions that are too fast for its step, and where it gives up.
 
 use super::free::{Free, begin, distance, kepler, orbit, power};
-use slidercrank::integrator::{Effort, IntegrationError, Settings};
+use slidercrank::integrator::{IntegrationError, Settings, WorkLimit};
 
 const ECCENTRICITY: f64 = 0.2;
 const END: f64 = 4.0;
 
 fn settings(fixed_step: f64) -> Settings {
-    Settings { tolerance: 1e-6, fixed_step, effort: Effort::ANY }
+    Settings { tolerance: 1e-6, fixed_step, effort: WorkLimit::ANY }
 }
 
 #[test]

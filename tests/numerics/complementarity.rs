@@ -1,7 +1,7 @@
 //! The impulses of rigid contacts against all that they might be: every contact open, sticking or slipping either way.
 
 use nalgebra::{DMatrix, DVector};
-use slidercrank::integrator::complementarity::{MOST_CONTACTS, NORMAL, Pairs, TANGENTIAL, Touching};
+use slidercrank::integrator::complementarity::{ActiveContacts, MAX_CONTACTS, NORMAL, Pairs, TANGENTIAL};
 
 /// Pseudo-random numbers, the same on every run: xorshift64*, G. Marsaglia 2003, S. Vigna 2016.
 struct Dice(u64);
@@ -54,8 +54,8 @@ impl Impact {
         bias
     }
 
-    fn touching(&self) -> Touching {
-        let mut touching = Touching { count: self.count(), ..Touching::default() };
+    fn touching(&self) -> ActiveContacts {
+        let mut touching = ActiveContacts { count: self.count(), ..ActiveContacts::default() };
         let (delassus, bias) = (self.delassus(), self.bias());
         for i in 0..2 * self.count() {
             touching.bias[i / 2][i % 2] = bias[i];
@@ -173,7 +173,7 @@ fn redundant_contacts_have_impulses_too() {
     let mut dice = Dice(0xFACE);
     let mut worst = 0.0f64;
     for case in 0..100_000 {
-        let count = 2 + dice.below(MOST_CONTACTS - 1);
+        let count = 2 + dice.below(MAX_CONTACTS - 1);
         let freedoms = 1 + dice.below(9);
         let friction = [0.0, 0.03, 0.3, 1.0, 5.0][case % 5];
         let mut impact = Impact::random(&mut dice, freedoms, count, friction, 0.0);

@@ -2,7 +2,7 @@
 
 use super::free::{Free, begin, distance, kepler, orbit, power};
 use slidercrank::integrator::dense_output::{Correction, Step};
-use slidercrank::integrator::{Effort, Extent, Ode, Settings, System};
+use slidercrank::integrator::{Ode, Settings, StateLayout, System, WorkLimit};
 
 /// Coefficients of powers of t, of no particular kind.
 const POLYNOMIAL: [f64; 9] = [0.3, -1.1, 0.7, 1.9, -0.8, 0.45, -0.6, 0.35, 0.52];
@@ -32,7 +32,7 @@ fn error_inside(degree: usize, tolerance: f64) -> (f64, bool) {
         f0: &[start[1], start[2]],
         y1: &[end[0], end[1]],
         f1: &[end[1], end[2]],
-        extent: Extent::second_order(2),
+        layout: StateLayout::second_order(2),
     };
     let correction = correction(&step, &problem, tolerance);
     let mut error = 0.0f64;
@@ -45,13 +45,13 @@ fn error_inside(degree: usize, tolerance: f64) -> (f64, bool) {
 }
 
 fn correction(step: &Step<'_>, system: &dyn System<Discrete = ()>, tolerance: f64) -> Correction {
-    let mut correction = Correction::new(step.extent.states);
+    let mut correction = Correction::new(step.layout.states);
     correction.find(step, system, &(), tolerance);
     correction
 }
 
 fn state(step: &Step<'_>, s: f64, correction: &Correction) -> Vec<f64> {
-    let mut y = vec![0.0; step.extent.states];
+    let mut y = vec![0.0; step.layout.states];
     step.state(s, correction.coefficients(), &mut y);
     y
 }
@@ -88,7 +88,7 @@ fn ends_are_met_to_the_bit() {
     let (mut f0, mut f1) = ([0.0; 4], [0.0; 4]);
     problem.rates(&(), 1.0, &y0, &mut f0);
     problem.rates(&(), 1.5, &y1, &mut f1);
-    let step = Step { t: 1.0, h: 0.5, y0: &y0, f0: &f0, y1: &y1, f1: &f1, extent: Extent::second_order(4) };
+    let step = Step { t: 1.0, h: 0.5, y0: &y0, f0: &f0, y1: &y1, f1: &f1, layout: StateLayout::second_order(4) };
     for tolerance in [1e-14, 1.0] {
         let correction = correction(&step, &problem, tolerance);
         assert_eq!(state(&step, 0.0, &correction), y0);
@@ -108,7 +108,7 @@ fn between_exact_ends_of_an_orbit_the_error_falls_with_the_degree() {
             let (mut f0, mut f1) = ([0.0; 4], [0.0; 4]);
             problem.rates(&(), 0.7, &y0, &mut f0);
             problem.rates(&(), 0.7 + h, &y1, &mut f1);
-            let step = Step { t: 0.7, h, y0: &y0, f0: &f0, y1: &y1, f1: &f1, extent: Extent::second_order(4) };
+            let step = Step { t: 0.7, h, y0: &y0, f0: &f0, y1: &y1, f1: &f1, layout: StateLayout::second_order(4) };
             let correction = correction(&step, &problem, tolerance);
             let error = (1..40).map(|i| f64::from(i) / 40.0);
             let error = error.map(|s| distance(&state(&step, s, &correction), &orbit(0.1, 0.7 + s * h)));
@@ -124,7 +124,7 @@ fn between_exact_ends_of_an_orbit_the_error_falls_with_the_degree() {
 fn looking_back_into_a_step_is_as_accurate_as_its_end() {
     fn check(method: &str, tolerance: f64) {
         let problem = Free::<_, 4> { accelerations: kepler };
-        let settings = Settings { tolerance, fixed_step: 2e-3, effort: Effort::ANY };
+        let settings = Settings { tolerance, fixed_step: 2e-3, effort: WorkLimit::ANY };
         let mut integrator = begin(method, &problem, settings, 0.0, orbit(0.3, 0.0), ());
         let (mut at_ends, mut inside) = (0.0f64, 0.0f64);
         for i in 1..=600 {

@@ -2,20 +2,20 @@
 
 use super::free::{begin, power};
 use slidercrank::integrator::{
-    Effort, EventFunction, EventFunctions, Events, Extent, Linearizable, MAX_EVENTS, Ode, Reset, Settings,
-    SeveralInstants, Triggered,
+    EventFunction, EventFunctions, Events, Linearizable, MAX_EVENTS, Ode, Reset, Settings, SeveralInstants,
+    StateLayout, Triggered, WorkLimit,
 };
 use std::cell::RefCell;
 use std::f64::consts::PI;
 
-/// What happened: when, to which guards, in which state.
+/// What happened: when, to which event functions, in which state.
 type Log = RefCell<Vec<(f64, Triggered, [f64; 2])>>;
 
-/// One position with acceleration a(mode, t, q, v) and guards that each event negates: guard i is
+/// One position with acceleration a(mode, t, q, v) and event functions that each event negates: event function i is
 /// (value, rate)(q, v) while the mode's flag i is false and its negative while it is true.
 struct Switching<A, G> {
     acceleration: A,
-    guards: G,
+    functions: G,
     count: usize,
     longest_step: f64,
     log: Log,
@@ -26,12 +26,12 @@ where
     A: Fn(&Triggered, f64, f64, f64) -> f64,
     G: Fn(usize, f64, f64) -> (f64, f64),
 {
-    fn new(acceleration: A, count: usize, guards: G) -> Self {
-        Self { acceleration, guards, count, longest_step: 10.0, log: RefCell::default() }
+    fn new(acceleration: A, count: usize, functions: G) -> Self {
+        Self { acceleration, functions, count, longest_step: 10.0, log: RefCell::default() }
     }
 
     fn run(&self, method: &str, tolerance: f64, start: [f64; 2], end: f64) -> Vec<f64> {
-        self.run_with(method, Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY }, start, end)
+        self.run_with(method, Settings { tolerance, fixed_step: 0.0, effort: WorkLimit::ANY }, start, end)
     }
 
     fn run_with(&self, method: &str, settings: Settings, start: [f64; 2], end: f64) -> Vec<f64> {
@@ -49,8 +49,8 @@ where
 {
     type Discrete = Triggered;
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(2)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(2)
     }
 
     fn rates(&self, modes: &Triggered, t: f64, y: &[f64], rates: &mut [f64]) {
@@ -90,9 +90,9 @@ where
     }
 
     fn event_functions(&self, modes: &Triggered, _: f64, y: &[f64], functions: &mut EventFunctions) {
-        for (i, guard) in functions.iter_mut().enumerate().take(self.count) {
-            let (value, rate) = (self.guards)(i, y[0], y[1]);
-            *guard =
+        for (i, event) in functions.iter_mut().enumerate().take(self.count) {
+            let (value, rate) = (self.functions)(i, y[0], y[1]);
+            *event =
                 if modes[i] { EventFunction { value: -value, rate: -rate } } else { EventFunction { value, rate } };
         }
     }
@@ -141,7 +141,7 @@ fn bounce_error(method: &str, settings: Settings) -> f64 {
 fn bounces_happen_when_they_should_and_better_so_at_a_tighter_tolerance() {
     fn shrinks(method: &str) {
         let points = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10].map(|tolerance| {
-            (tolerance, bounce_error(method, Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY }))
+            (tolerance, bounce_error(method, Settings { tolerance, fixed_step: 0.0, effort: WorkLimit::ANY }))
         });
         let found = power(&points);
         println!("{}: error/tolerance {:.2?} s, power {found:.2}", method, points.map(|point| point.1 / point.0));
@@ -159,20 +159,21 @@ fn bounces_happen_when_they_should_and_better_so_at_a_tighter_tolerance() {
 
 #[test]
 fn with_a_fixed_step_event_times_keep_the_method_s_order() {
-    let points = [2e-4, 1.4e-4, 1e-4, 7e-5, 5e-5]
-        .map(|step| (step, bounce_error("rk4", Settings { tolerance: 1e-13, fixed_step: step, effort: Effort::ANY })));
+    let points = [2e-4, 1.4e-4, 1e-4, 7e-5, 5e-5].map(|step| {
+        (step, bounce_error("rk4", Settings { tolerance: 1e-13, fixed_step: step, effort: WorkLimit::ANY }))
+    });
     let order = power(&points);
     // The last step before an event is a shorter one, of any length, whose error is then missing.
     println!("rk4: {:.2?} ps, order {order:.2}", points.map(|point| 1e12 * point.1));
     assert!((order - 4.0).abs() < 0.3, "order {order}");
 }
 
-/// A unit oscillator, q = cos t, with `count` guards.
+/// A unit oscillator, q = cos t, with `count` event functions.
 fn cosine<G: Fn(usize, f64, f64) -> (f64, f64)>(
     count: usize,
-    guards: G,
+    functions: G,
 ) -> Switching<impl Fn(&Triggered, f64, f64, f64) -> f64, G> {
-    Switching::new(|_: &Triggered, _: f64, q: f64, _: f64| -q, count, guards)
+    Switching::new(|_: &Triggered, _: f64, q: f64, _: f64| -q, count, functions)
 }
 
 #[test]
@@ -253,7 +254,7 @@ fn a_dip_inside_one_large_step_is_found() {
         let reach = f64::sqrt(depth);
         assert_eq!(times.len(), 2, "depth {depth:e}: {times:?}");
         for (found, exact) in times.iter().zip([4.5 - reach, 4.5 + reach]) {
-            // An error of the guard of 0.1·tolerance over its slope 2·reach, and rounding of q ~ 20.
+            // An error of the event function of 0.1·tolerance over its slope 2·reach, and rounding of q ~ 20.
             let bound = (1e-10 + 64.0 * 20.0 * f64::EPSILON) / (2.0 * reach);
             assert!((found - exact).abs() < bound, "depth {depth:e}: {:e} s", found - exact);
         }

@@ -2,11 +2,11 @@
 
 use super::free::{Free, begin};
 use slidercrank::integrator::{
-    Effort, EventFunction, EventFunctions, Events, Extent, IntegrationError, Linearizable, Ode, Settings,
-    SeveralInstants,
+    EventFunction, EventFunctions, Events, IntegrationError, Linearizable, Ode, Settings, SeveralInstants, StateLayout,
+    WorkLimit,
 };
 
-const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3, effort: Effort::ANY };
+const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 1e-3, effort: WorkLimit::ANY };
 
 #[test]
 fn rates_that_are_not_a_number_at_the_start_are_named() {
@@ -60,9 +60,9 @@ fn work_beyond_its_bound_is_refused_and_can_be_gone_on_with() {
         let settings = Settings { effort, ..SETTINGS };
         begin("verner7", &problem, settings, 0.0, [1.0, 0.0], ())
     };
-    let mut free = start(Effort::ANY);
+    let mut free = start(WorkLimit::ANY);
     assert_eq!(free.advance(&problem, 50.0), Ok(()));
-    let mut bound = start(Effort { base: 100, per_second: 2 });
+    let mut bound = start(WorkLimit { base: 100, per_second: 2 });
     let mut refusals = 0_u64;
     while let Err(error) = bound.advance(&problem, 50.0) {
         let IntegrationError::TooMuchWork { time, evaluations } = error else { unreachable!("{error}") };
@@ -77,7 +77,7 @@ fn work_beyond_its_bound_is_refused_and_can_be_gone_on_with() {
 #[test]
 fn a_point_beyond_all_steps_is_told_before_the_first() {
     let problem = Free::<_, 2> { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = 0.0 };
-    let settings = Settings { fixed_step: 1e-9, effort: Effort { base: 1000, per_second: 1_000_000 }, ..SETTINGS };
+    let settings = Settings { fixed_step: 1e-9, effort: WorkLimit { base: 1000, per_second: 1_000_000 }, ..SETTINGS };
     let mut integrator = begin("rk4", &problem, settings, 0.0, [0.0, 1.0], ());
     for far in [1e-3, 1.0, 1e300, f64::MAX] {
         let error = integrator.advance(&problem, far).expect_err("too many steps");
@@ -116,7 +116,7 @@ fn a_fixed_step_into_a_wall_underflows_too() {
     assert!(matches!(error, IntegrationError::StepUnderflow { time, .. } if (time - 0.5).abs() < 1e-12), "{error:?}");
 }
 
-/// A fall onto a floor that no event clears: the guard is still below zero after each.
+/// A fall onto a floor that no event clears: the event function is still below zero after each.
 struct Stuck {
     /// Nothing lies beyond the floor.
     ends: bool,
@@ -129,8 +129,8 @@ const STUCK: Stuck = Stuck { ends: false, pull: |_| -2.0 };
 impl Ode for Stuck {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(2)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(2)
     }
 
     fn rates(&self, (): &(), t: f64, y: &[f64], rates: &mut [f64]) {
@@ -159,8 +159,8 @@ impl Events for Stuck {
         functions[1] = EventFunction { value: y[0], rate: y[1] };
     }
 
-    fn is_dead_end(&self, guard: usize) -> bool {
-        self.ends && guard == 1
+    fn is_dead_end(&self, event: usize) -> bool {
+        self.ends && event == 1
     }
 
     fn event_scale(&self) -> f64 {
@@ -172,7 +172,7 @@ impl Events for Stuck {
 fn events_without_end_are_refused_where_they_happen() {
     let mut integrator = begin("verner7", &STUCK, SETTINGS, 0.0, [1.0, 0.0], ());
     let error = integrator.advance(&STUCK, 3.0).expect_err("the floor is never passed");
-    assert!(matches!(error, IntegrationError::EventsAccumulate { guard: 1, .. }), "{error:?}");
+    assert!(matches!(error, IntegrationError::EventsAccumulate { event: 1, .. }), "{error:?}");
     assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
     // There, q = 1 − t².
     let t = error.time();
@@ -180,12 +180,12 @@ fn events_without_end_are_refused_where_they_happen() {
     assert!((y[0] - (1.0 - t * t)).abs() < 1e-13 && (y[1] + 2.0 * t).abs() < 1e-13, "{y:?} at {t}");
 }
 
-/// At rest on the floor the guard is not falling yet, and falls in every step at its very start.
+/// At rest on the floor the event function is not falling yet, and falls in every step at its very start.
 #[test]
 fn events_at_the_start_of_every_step_are_refused_too() {
     let mut integrator = begin("verner7", &STUCK, SETTINGS, 0.0, [0.0, 0.0], ());
     let error = integrator.advance(&STUCK, 3.0).expect_err("time stands still");
-    assert_eq!(error, IntegrationError::EventsAccumulate { time: 0.0, guard: 1 });
+    assert_eq!(error, IntegrationError::EventsAccumulate { time: 0.0, event: 1 });
     assert_eq!(integrator.state_at(&STUCK, 0.0).0, [0.0, 0.0]);
 }
 
@@ -196,7 +196,7 @@ fn a_motion_goes_up_to_its_dead_end_and_no_further() {
     assert_eq!(integrator.advance(&problem, 0.9), Ok(()));
     for _ in 0..2 {
         let error = integrator.advance(&problem, 3.0).expect_err("there is no way on");
-        assert!(matches!(error, IntegrationError::DeadEnd { guard: 1, .. }), "{error:?}");
+        assert!(matches!(error, IntegrationError::DeadEnd { event: 1, .. }), "{error:?}");
         assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
         let y = integrator.state_at(&problem, error.time()).0;
         assert!(y[0].abs() < 1e-9 && (y[1] + 2.0).abs() < 1e-9, "{y:?}");
@@ -205,7 +205,7 @@ fn a_motion_goes_up_to_its_dead_end_and_no_further() {
     // A method that does not locate events locates this one.
     let mut coarse = begin("rk4_unlocated", &problem, SETTINGS, 0.0, [1.0, 0.0], ());
     let error = coarse.advance(&problem, 3.0).expect_err("there is no way on");
-    assert!(matches!(error, IntegrationError::DeadEnd { guard: 1, .. }), "{error:?}");
+    assert!(matches!(error, IntegrationError::DeadEnd { event: 1, .. }), "{error:?}");
     assert!((error.time() - 1.0).abs() < 1e-9, "{error:?}");
 }
 
@@ -295,6 +295,6 @@ fn errors_say_what_where_and_how_much() {
     let error = IntegrationError::StepUnderflow { time: 0.1234, step: 3.1e-18, component: 2 };
     assert_eq!(error.to_string(), "a step of 3.1e-18 s no longer moves time; component 2 sets the error");
     assert_eq!(error.time(), 0.1234);
-    let error = IntegrationError::EventsAccumulate { time: 2.0, guard: 4 };
-    assert_eq!(error.to_string(), "events accumulate; guard 4 is lowest");
+    let error = IntegrationError::EventsAccumulate { time: 2.0, event: 4 };
+    assert_eq!(error.to_string(), "events accumulate; event function 4 is lowest");
 }

@@ -2,11 +2,11 @@
 
 use super::free::begin;
 use slidercrank::integrator::dense_output::{Correction, Step};
-use slidercrank::integrator::{Effort, Events, Extent, Jacobian, Linearizable, Ode, Settings, SeveralInstants};
+use slidercrank::integrator::{Events, Jacobian, Linearizable, Ode, Settings, SeveralInstants, StateLayout, WorkLimit};
 
 /// q̈ = −q from (0, 1), ż = q − z from ½, ẇ = z from 0.
 struct Following {
-    weighed: usize,
+    weighted: usize,
     states: usize,
 }
 
@@ -15,8 +15,8 @@ static UNIT: [f64; 4] = [1.0; 4];
 impl Ode for Following {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent { positions: 1, weighed: self.weighed, states: self.states }
+    fn layout(&self) -> StateLayout {
+        StateLayout { positions: 1, weighted: self.weighted, states: self.states }
     }
 
     fn rates(&self, (): &(), _: f64, y: &[f64], rates: &mut [f64]) {
@@ -59,7 +59,7 @@ fn known(t: f64) -> [f64; 4] {
 }
 
 fn errors(method: &str, problem: &Following, tolerance: f64) -> (f64, u64) {
-    let settings = Settings { tolerance, fixed_step: 1e-2, effort: Effort::ANY };
+    let settings = Settings { tolerance, fixed_step: 1e-2, effort: WorkLimit::ANY };
     let mut integrator = begin(method, problem, settings, 0.0, start(problem), ());
     let mut worst = 0.0f64;
     for i in 1..=500 {
@@ -75,7 +75,7 @@ fn errors(method: &str, problem: &Following, tolerance: f64) -> (f64, u64) {
 
 #[test]
 fn first_order_states_are_as_accurate_as_positions_inside_steps_too() {
-    let problem = Following { weighed: 4, states: 4 };
+    let problem = Following { weighted: 4, states: 4 };
     for tolerance in [1e-7, 1e-10] {
         for (name, (error, steps)) in [
             ("dopri5", errors("dopri5", &problem, tolerance)),
@@ -93,15 +93,15 @@ fn first_order_states_are_as_accurate_as_positions_inside_steps_too() {
 #[test]
 fn a_state_that_is_not_weighed_changes_no_step() {
     let run = |problem: Following| {
-        let settings = Settings { tolerance: 1e-13, fixed_step: 0.0, effort: Effort::ANY };
+        let settings = Settings { tolerance: 1e-13, fixed_step: 0.0, effort: WorkLimit::ANY };
         let mut integrator = begin("verner7", &problem, settings, 0.0, start(&problem), ());
         integrator.advance(&problem, 20.0).expect("no trouble");
         let memory = integrator.state();
         (memory.front().t, memory.front().y[..3].to_vec(), memory.statistics)
     };
-    let alone = run(Following { weighed: 3, states: 3 });
-    assert_eq!(run(Following { weighed: 3, states: 4 }), alone);
-    assert_ne!(run(Following { weighed: 4, states: 4 }).0, alone.0, "a weighed state counts");
+    let alone = run(Following { weighted: 3, states: 3 });
+    assert_eq!(run(Following { weighted: 3, states: 4 }), alone);
+    assert_ne!(run(Following { weighted: 4, states: 4 }).0, alone.0, "a weighted state counts");
 }
 
 #[test]
@@ -110,8 +110,8 @@ fn inside_a_step_a_polynomial_of_degree_five_is_exact() {
     impl Ode for Power {
         type Discrete = ();
 
-        fn extent(&self) -> Extent {
-            Extent { positions: 0, weighed: 1, states: 1 }
+        fn layout(&self) -> StateLayout {
+            StateLayout { positions: 0, weighted: 1, states: 1 }
         }
 
         fn rates(&self, (): &(), t: f64, _: &[f64], rates: &mut [f64]) {
@@ -146,7 +146,7 @@ fn inside_a_step_a_polynomial_of_degree_five_is_exact() {
         (y, f)
     };
     let ((y0, f0), (y1, f1)) = (ends(0.3), ends(1.1));
-    let step = Step { t: 0.3, h: 0.8, y0: &y0, f0: &f0, y1: &y1, f1: &f1, extent: Power.extent() };
+    let step = Step { t: 0.3, h: 0.8, y0: &y0, f0: &f0, y1: &y1, f1: &f1, layout: Power.layout() };
     let mut correction = Correction::new(1);
     correction.find(&step, &Power, &(), 1e-6);
     for i in 0..=20 {

@@ -3,7 +3,7 @@
 use slidercrank::integrator::method::Attempt;
 use slidercrank::integrator::methods::named;
 use slidercrank::integrator::{
-    Events, Extent, Integrator, Linearizable, Method, Ode, Settings, SeveralInstants, StepPoint, System,
+    Events, Integrator, Linearizable, Method, Ode, Settings, SeveralInstants, StateLayout, StepPoint, System,
 };
 
 /// A second-order problem of `N` states with these accelerations and no events.
@@ -18,8 +18,8 @@ static UNIT: [f64; 16] = [1.0; 16];
 impl<const N: usize, A: Fn(f64, &[f64], &[f64], &mut [f64])> Ode for Free<A, N> {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(N)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(N)
     }
 
     fn rates(&self, (): &(), t: f64, y: &[f64], rates: &mut [f64]) {

@@ -4,11 +4,11 @@
 use super::free::begin;
 use slidercrank::integrator::system::one_by_one;
 use slidercrank::integrator::{
-    Effort, Events, Extent, Jacobian, Linearizable, MethodKind, Ode, Settings, SeveralInstants,
+    Events, Jacobian, Linearizable, MethodKind, Ode, Settings, SeveralInstants, StateLayout, WorkLimit,
 };
-use slidercrank::math::{Real, Row};
+use slidercrank::math::{F64x8, Real};
 
-const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 0.0, effort: Effort::ANY };
+const SETTINGS: Settings = Settings { tolerance: 1e-8, fixed_step: 0.0, effort: WorkLimit::ANY };
 
 /// Two freedoms that pull at one another: q̈₀ = −pull·q₀ + bend·v₁², q̈₁ = −pull·q₁ + bend·v₀².
 struct Pulled {
@@ -21,8 +21,8 @@ struct Pulled {
 impl Ode for Pulled {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(4)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(4)
     }
 
     fn rates(&self, (): &(), _: f64, y: &[f64], rates: &mut [f64]) {
@@ -41,10 +41,10 @@ impl Ode for Pulled {
 }
 
 impl SeveralInstants for Pulled {
-    fn rates_in_row(&self, (): &(), t: &Row, y: &[Row], rates: &mut [Row]) {
+    fn rates_in_row(&self, (): &(), t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         one_by_one(self, &(), t, y, rates);
         if t.last() < self.blind_until {
-            rates.fill(Row::constant(f64::NAN));
+            rates.fill(F64x8::constant(f64::NAN));
         }
     }
 

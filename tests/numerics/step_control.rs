@@ -2,14 +2,14 @@
 
 use super::free::{Free, begin, distance, kepler, nearest, orbit, power};
 use slidercrank::integrator::methods::named;
-use slidercrank::integrator::{Effort, Settings};
+use slidercrank::integrator::{Settings, WorkLimit};
 
 const ECCENTRICITY: f64 = 0.5;
 
 /// Error and steps of three quarters of an orbit.
 fn run(method: &str, tolerance: f64, fixed_step: f64) -> (f64, u64) {
     let problem = Free::<_, 4> { accelerations: kepler };
-    let settings = Settings { tolerance, fixed_step, effort: Effort::ANY };
+    let settings = Settings { tolerance, fixed_step, effort: WorkLimit::ANY };
     let mut integrator = begin(method, &problem, settings, 0.0, nearest(ECCENTRICITY), ());
     let end = 4.7;
     integrator.advance(&problem, end).expect("an orbit has no trouble");
@@ -54,7 +54,7 @@ fn a_fixed_step_takes_as_many_steps_as_fit() {
 #[test]
 fn a_far_communication_point_does_not_change_the_steps() {
     let problem = Free::<_, 4> { accelerations: kepler };
-    let settings = Settings { tolerance: 1e-8, fixed_step: 0.0, effort: Effort::ANY };
+    let settings = Settings { tolerance: 1e-8, fixed_step: 0.0, effort: WorkLimit::ANY };
     let start = || begin("verner7", &problem, settings, 0.0, nearest(ECCENTRICITY), ());
     let mut far = start();
     far.advance(&problem, 3.0).expect("an orbit has no trouble");
@@ -69,7 +69,7 @@ fn a_far_communication_point_does_not_change_the_steps() {
 fn no_step_is_longer_than_the_longest() {
     // Straight motion: no error, so the longest step of 1 is soon reached.
     let problem = Free::<_, 2> { accelerations: |_: f64, _: &[f64], _: &[f64], a: &mut [f64]| a[0] = 0.0 };
-    let settings = Settings { tolerance: 1e-6, fixed_step: 0.0, effort: Effort::ANY };
+    let settings = Settings { tolerance: 1e-6, fixed_step: 0.0, effort: WorkLimit::ANY };
     let mut integrator = begin("verner7", &problem, settings, 0.0, [0.0, 1.0], ());
     let mut longest = 0.0f64;
     for i in 1..=4000 {

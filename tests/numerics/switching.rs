@@ -3,8 +3,8 @@
 use super::free::begin;
 use slidercrank::integrator::methods::named;
 use slidercrank::integrator::{
-    Effort, Events, Extent, Integrator, Jacobian, Linearizable, MethodKind, Ode, Reader, Settings, SeveralInstants,
-    Snapshot, SolverState,
+    Events, Integrator, Jacobian, Linearizable, MethodKind, Ode, Reader, Settings, SeveralInstants, Snapshot,
+    SolverState, StateLayout, WorkLimit,
 };
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -35,8 +35,8 @@ impl Following {
 impl Ode for Following {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(4)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(4)
     }
 
     fn rates(&self, (): &(), t: f64, y: &[f64], rates: &mut [f64]) {
@@ -74,7 +74,7 @@ impl SeveralInstants for Following {
 impl Events for Following {}
 
 fn settings(tolerance: f64) -> Settings {
-    Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY }
+    Settings { tolerance, fixed_step: 0.0, effort: WorkLimit::ANY }
 }
 
 fn start(method: &str, problem: &Following, tolerance: f64) -> Integrator<()> {
@@ -201,8 +201,8 @@ struct Unknown(Following);
 impl Ode for Unknown {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(4)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(4)
     }
 
     fn rates(&self, modes: &(), t: f64, y: &[f64], rates: &mut [f64]) {

@@ -1,9 +1,9 @@
 //! Time stepping on a ball above a floor: what it does, and when it gives up.
 
-use slidercrank::integrator::complementarity::{MOST_CONTACTS, NORMAL, Pairs};
+use slidercrank::integrator::complementarity::{MAX_CONTACTS, NORMAL, Pairs};
 use slidercrank::integrator::{
-    ContactLaw, Effort, Events, Extent, IntegrationError, Jacobian, Linearizable, Moreau, Ode, Relative, Settings,
-    SeveralInstants, Unilateral,
+    ContactLaw, Events, IntegrationError, Jacobian, Linearizable, Moreau, Ode, Relative, Settings, SeveralInstants,
+    StateLayout, Unilateral, WorkLimit,
 };
 
 /// A ball of unit mass that falls at `weight` [m/s²] on as many floors as `floors`, from the time `lost` on by a force
@@ -22,8 +22,8 @@ const BALL: Ball = Ball { weight: 10.0, restitution: 0.5, floors: 1, response: 1
 impl Ode for Ball {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(2)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(2)
     }
 
     fn rates(&self, (): &(), t: f64, y: &[f64], rates: &mut [f64]) {
@@ -54,12 +54,12 @@ impl Events for Ball {
 }
 
 impl Unilateral for Ball {
-    fn contact_laws(&self) -> [ContactLaw; MOST_CONTACTS] {
-        [ContactLaw { restitution: self.restitution, friction: 0.0 }; MOST_CONTACTS]
+    fn contact_laws(&self) -> [ContactLaw; MAX_CONTACTS] {
+        [ContactLaw { restitution: self.restitution, friction: 0.0 }; MAX_CONTACTS]
     }
 
     fn contacts(&self, _: f64, y: &[f64]) -> Relative {
-        let mut relative = Relative { gap: [f64::INFINITY; MOST_CONTACTS], velocity: Pairs::default() };
+        let mut relative = Relative { gap: [f64::INFINITY; MAX_CONTACTS], velocity: Pairs::default() };
         for floor in 0..self.floors {
             relative.gap[floor] = y[0];
             relative.velocity[floor][NORMAL] = y[1];
@@ -73,12 +73,12 @@ impl Unilateral for Ball {
 }
 
 const STEP: f64 = 1.0 / 4096.0;
-const SETTINGS: Settings = Settings { tolerance: 1e-6, fixed_step: STEP, effort: Effort::ANY };
+const SETTINGS: Settings = Settings { tolerance: 1e-6, fixed_step: STEP, effort: WorkLimit::ANY };
 
 #[test]
 fn a_ball_bounces_and_comes_to_rest_in_the_time_that_it_takes() {
     // The sum of its bounces: (2·v/g)·(e + e² + …) after a fall of v/g.
-    for floors in [1, 2, MOST_CONTACTS] {
+    for floors in [1, 2, MAX_CONTACTS] {
         let ball = Ball { floors, ..BALL };
         let mut run = Moreau::start(SETTINGS, 0.0, &[0.2, 0.0]);
         let fall = 2.0 / ball.weight;

@@ -6,8 +6,8 @@ use super::scenes::{all_plays, contacts, crooked, letters, with_play};
 use slidercrank::integrator::{Events, Ode};
 use slidercrank::math::Real;
 use slidercrank::model::Model;
-use slidercrank::model::plant::Plant;
-use slidercrank::model::rod::Room;
+use slidercrank::model::mechanism_model::MechanismModel;
+use slidercrank::model::rod::RodCapacity;
 use slidercrank::model::scalar::Tangent;
 use slidercrank::model::start::StartPose;
 use slidercrank::model::state::Contacts;
@@ -15,8 +15,8 @@ use slidercrank::scene::{DriveMode, FrictionLaw, Scene};
 
 /// A state of a motion that leaves nothing out.
 fn moving(scene: &Scene, model: &Model) -> (Vec<f64>, Contacts) {
-    let positions = model.extent().positions;
-    let mut y = vec![0.0; model.extent().states];
+    let positions = model.layout().positions;
+    let mut y = vec![0.0; model.layout().states];
     model.write_start(&StartPose::of(scene).expect("the loop closes"), &mut y);
     let mut chance = Chance(5);
     for (i, state) in y.iter_mut().enumerate().take(2 * positions) {
@@ -65,13 +65,13 @@ fn differ(name: &str, one: &[f64], other: &[f64]) {
 }
 
 /// All numbers, code for every structure, and all rooms that are large enough move `scenes` alike.
-fn move_alike(scenes: Vec<(String, Scene)>, rooms: &[Room]) {
+fn move_alike(scenes: Vec<(String, Scene)>, rooms: &[RodCapacity]) {
     for (name, scene) in scenes {
         let [own, tangent] = rates(&scene, &Model::assemble(&scene, 0.0));
         differ(&name, &own, &tangent);
         differ(&name, &own, &rates(&scene, &Model::assemble(&scene, 0.0).general())[0]);
         for room in rooms {
-            let model = Model::assemble(&scene, 0.0).in_room(*room);
+            let model = Model::assemble(&scene, 0.0).with_capacity(*room);
             differ(&format!("{name}, {room:?}"), &own, &rates(&scene, &model)[0]);
         }
     }
@@ -81,7 +81,7 @@ fn move_alike(scenes: Vec<(String, Scene)>, rooms: &[Room]) {
 fn a_rigid_rod_moves_alike_by_code_of_its_own_structure_and_of_all() {
     let mut scenes = scenes(0, 0, true);
     // A prescribed crank without any play leaves nothing that moves by itself.
-    scenes.retain(|(_, scene)| Model::assemble(scene, 0.0).extent().states > 0);
+    scenes.retain(|(_, scene)| Model::assemble(scene, 0.0).layout().states > 0);
     move_alike(scenes, &[]);
 }
 
@@ -89,7 +89,7 @@ fn a_rigid_rod_moves_alike_by_code_of_its_own_structure_and_of_all() {
 fn few_modes_move_alike_in_all_arrays() {
     for (bending, axial) in [(1, 0), (2, 0), (3, 0), (4, 0), (1, 1), (2, 1), (3, 1), (2, 2), (0, 1), (1, 3), (0, 4)] {
         for stiffens in [true, false] {
-            move_alike(scenes(bending, axial, stiffens), &[Room::Many, Room::All]);
+            move_alike(scenes(bending, axial, stiffens), &[RodCapacity::Many, RodCapacity::All]);
         }
     }
 }
@@ -97,7 +97,7 @@ fn few_modes_move_alike_in_all_arrays() {
 #[test]
 fn many_modes_move_alike_in_all_arrays() {
     for (bending, axial) in [(5, 0), (8, 0), (6, 2), (3, 4), (0, 8)] {
-        move_alike(scenes(bending, axial, true), &[Room::All]);
+        move_alike(scenes(bending, axial, true), &[RodCapacity::All]);
     }
     move_alike(scenes(8, 8, true), &[]);
 }

@@ -3,15 +3,16 @@
 
 use super::motion::Vec2;
 use super::scenes::{
-    Play, all_plays, at, at_tolerance, contacts, crooked, inputs, letters, reals, speed_driven, start, with_play,
+    JournalMotion, all_plays, at, at_tolerance, contacts, crooked, inputs, letters, reals, speed_driven, start,
+    with_play,
 };
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::{FrictionLaw, Scene};
 use slidercrank::simulation::Simulation;
 
 /// Soft contacts, so that differences over a microsecond see their forces as smooth; no limit of the damping
-/// ratio, which would be a kink in them.
-fn soft(play: Play) -> Scene {
+/// ratio, which would be a discontinuity in them.
+fn soft(play: JournalMotion) -> Scene {
     let mut scene = with_play(crooked(), play);
     for contact in contacts(&mut scene) {
         contact.stiffness = 1e8;

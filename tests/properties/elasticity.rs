@@ -1,6 +1,6 @@
 //! Elastic laws of revolute joints: force, energy and what they become for small penetrations.
 
-use slidercrank::math::{Real, Row};
+use slidercrank::math::{F64x8, Real};
 use slidercrank::model::contact::{Elastic, PowerLaw};
 use slidercrank::scene::{Elasticity, JointModel, Revolute, Scene};
 
@@ -65,10 +65,10 @@ fn small_penetrations_follow_the_power_law_that_is_said() {
 fn rows_have_the_bits_of_single_numbers() {
     let depths = [1e-9, 1e-7, 1.9e-6, 2.1e-6, 1e-5, 4.9e-5, 5.1e-5, 5e-4];
     for (name, clearance, law) in laws() {
-        let (force, energy) = (law.force(Row::of(depths)), law.energy(Row::of(depths)));
+        let (force, energy) = (law.force(F64x8::of(depths)), law.energy(F64x8::of(depths)));
         assert_eq!(force.numbers(), depths.map(|depth| law.force(depth)), "{name}, c = {clearance} m");
         assert_eq!(energy.numbers(), depths.map(|depth| law.energy(depth)), "{name}, c = {clearance} m");
-        assert_eq!(law.force(Row::constant(1e-5)).last(), law.force(1e-5), "{name}");
+        assert_eq!(law.force(F64x8::constant(1e-5)).last(), law.force(1e-5), "{name}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! The guide with faces: continuous in the pose, conservative without damping, dissipative with it.
 
 use super::chance::Chance;
-use slidercrank::model::contact::ContactMode;
+use slidercrank::model::contact::ContactState;
 use slidercrank::model::joint::guide::{GUIDE_CONTACTS, Guide, Load};
 use slidercrank::model::joint::rectangle::SliderPose;
 use slidercrank::model::plane::{Rotation, Vec2};
@@ -33,17 +33,17 @@ fn scene(law: DampingLaw, friction: FrictionLaw) -> Scene {
 /// Bristles that are not there.
 const NO_BRISTLES: [f64; GUIDE_CONTACTS] = [0.0; GUIDE_CONTACTS];
 
-fn load(guide: &Guide, modes: &[ContactMode], pose: &SliderPose) -> Load {
-    guide.load(modes, pose, &NO_BRISTLES, &mut [0.0; GUIDE_CONTACTS])
+fn load(guide: &Guide, states: &[ContactState], pose: &SliderPose) -> Load {
+    guide.load(states, pose, &NO_BRISTLES, &mut [0.0; GUIDE_CONTACTS])
 }
 
 fn pose(y: f64, tilt: f64) -> SliderPose {
     SliderPose { pin: Vec2::new(0.1, y), rotation: Rotation::new(tilt), ..SliderPose::default() }
 }
 
-fn closed(approach: f64) -> [ContactMode; 4] {
-    let closed = ContactMode::closing(approach, 1e-3);
-    [closed, closed, ContactMode::default(), ContactMode::default()]
+fn closed(approach: f64) -> [ContactState; 4] {
+    let closed = ContactState::closing(approach, 1e-3);
+    [closed, closed, ContactState::default(), ContactState::default()]
 }
 
 type Path = Box<dyn Fn(f64) -> (f64, f64)>;
@@ -152,14 +152,14 @@ fn a_law_that_switches_from_corner_to_plane_jumps() {
         },
         ..scene
     });
-    let point = ContactMode::closing(1.0, 1e-3);
+    let point = ContactState::closing(1.0, 1e-3);
     let switching = |pose: &SliderPose| {
         let [front, rear, ..] = corners.penetrations(pose);
         let mut load = Load::default();
         if front > 0.0 && rear > 0.0 {
             load.force.y = -STIFFNESS * 0.5 * (front + rear);
         } else {
-            let mode = |depth: f64| if depth > 0.0 { point } else { ContactMode::default() };
+            let mode = |depth: f64| if depth > 0.0 { point } else { ContactState::default() };
             load = self::load(&corners, &[front, rear].map(mode), pose);
         }
         load
@@ -183,13 +183,14 @@ fn force_times_velocity_is_what_the_springs_take_up_and_damping_takes_more() {
         let (velocity, spin) =
             (Vec2::new(chance.between(-1.0, 1.0), chance.between(-0.2, 0.2)), chance.between(-9.0, 9.0));
         let now = SliderPose { pin_velocity: velocity, speed: spin, ..pose(y, tilt) };
-        let modes = closed(0.1);
-        let energy = |t: f64| guide.account(&modes, &pose(y + velocity.y * t, tilt + spin * t), &NO_BRISTLES).energy;
+        let states = closed(0.1);
+        let energy =
+            |t: f64| guide.contact_energy(&states, &pose(y + velocity.y * t, tilt + spin * t), &NO_BRISTLES).energy;
         let stored = |h: f64| (energy(h) - energy(-h)) / (2.0 * h);
         // Central differences, extrapolated; the energy is smooth but for a jump of its third derivative.
         let h = 1e-8;
         let stored = (4.0 * stored(h) - stored(2.0 * h)) / 3.0;
-        let load = load(&guide, &modes, &now);
+        let load = load(&guide, &states, &now);
         let power = load.force.dot(velocity) + load.couple * spin;
         let lost = -power - stored;
         let bound = 1e-6 * (energy(0.0) / 1e-4 + STIFFNESS * 1e-6 * velocity.norm());
@@ -213,9 +214,9 @@ fn a_closed_face_has_one_guard_and_an_open_one_a_guard_for_each_corner() {
         let spin = chance.between(-9.0, 9.0);
         let now = SliderPose { speed: spin, pin_velocity: Vec2::new(0.0, chance.between(-1.0, 1.0)), ..pose(y, tilt) };
         let depth = guide.penetrations(&now);
-        let open = guide.guards(&[ContactMode::default(); 4], &now);
-        assert_eq!(open.map(|guard| guard.value), depth.map(|depth| -depth));
-        let shut = guide.guards(&closed(1.0), &now);
+        let open = guide.event_functions(&[ContactState::default(); 4], &now);
+        assert_eq!(open.map(|event| event.value), depth.map(|depth| -depth));
+        let shut = guide.event_functions(&closed(1.0), &now);
         let approaches = guide.approaches(&now);
         for face in 0..2 {
             let [front, rear] = [2 * face, 2 * face + 1];

@@ -2,10 +2,10 @@
 //! half-space.
 
 use super::chance::Chance;
-use slidercrank::model::joint::foundation::{Bed, Pressed, half_space_stiffness};
+use slidercrank::model::joint::foundation::{ContactZone, FacePenetration, half_space_stiffness};
 
 /// ∫max(0, δ)/(2a), ∫x·max(0, δ)/(2a) and ∫max(0, δ)²/(2a) by the midpoint rule.
-fn quadrature(bed: &Bed, cells: usize) -> [f64; 3] {
+fn quadrature(bed: &FacePenetration, cells: usize) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for i in 0..cells {
         let x = bed.half * ((2 * i + 1) as f64 / cells as f64 - 1.0);
@@ -25,8 +25,9 @@ fn closed_forms_are_the_integrals() {
     for _ in 0..1000 {
         let half = 10f64.powf(chance.between(-3.0, 0.0));
         let rise = 10f64.powf(chance.between(-8.0, -4.0));
-        let bed = Bed { half, middle: rise * chance.between(-1.5, 1.5), slope: chance.sign() * rise / half };
-        let Pressed { mean, centre } = bed.pressed();
+        let bed =
+            FacePenetration { half, middle: rise * chance.between(-1.5, 1.5), slope: chance.sign() * rise / half };
+        let ContactZone { mean, centre } = bed.pressed();
         let [wanted, moment, square] = quadrature(&bed, CELLS);
         // Exact in a cell that is all in or all out; the cell that the edge of the pressed part lies in
         // errs by the square of δ's change in a cell, and x·δ and δ² by their curvature.
@@ -93,8 +94,8 @@ fn closed_forms_lose_no_digits() {
     for (front, rear) in ends {
         let unit = 2f64.powi(-70);
         let (middle, rise) = ((front + rear) / 2, (front - rear) / 2);
-        let bed = Bed { half: 1.0, middle: middle as f64 * unit, slope: rise as f64 * unit };
-        let Pressed { mean, centre } = bed.pressed();
+        let bed = FacePenetration { half: 1.0, middle: middle as f64 * unit, slope: rise as f64 * unit };
+        let ContactZone { mean, centre } = bed.pressed();
         let [wanted_mean, wanted_centre, wanted_square] = exact(front, rear);
         for (name, found, wanted) in [
             ("mean", mean, wanted_mean * unit),
@@ -112,8 +113,9 @@ fn closed_forms_lose_no_digits() {
 fn a_face_turned_round_is_pressed_alike() {
     let mut chance = Chance(13);
     for _ in 0..10_000 {
-        let bed = Bed { half: 0.02, middle: chance.between(-1e-5, 1e-5), slope: chance.between(-1e-3, 1e-3) };
-        let other = Bed { slope: -bed.slope, ..bed };
+        let bed =
+            FacePenetration { half: 0.02, middle: chance.between(-1e-5, 1e-5), slope: chance.between(-1e-3, 1e-3) };
+        let other = FacePenetration { slope: -bed.slope, ..bed };
         let (one, two) = (bed.pressed(), other.pressed());
         assert_eq!((one.mean, one.centre), (two.mean, -two.centre));
         assert_eq!(bed.mean_square(), other.mean_square());

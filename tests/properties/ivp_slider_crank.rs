@@ -1,14 +1,14 @@
 //! The slider crank of the test set for initial value problem solvers (B. Simeon 1996, as problem II-20
 //! of F. Mazzia, C. Magherini's set): flexible rod, ideal joints, crank at 150 rad/s.
 //!
-//! Its rod has two sine modes in bending and one quadratic element along its axis. The printed model's
+//! Its rod has two sine states in bending and one quadratic element along its axis. The printed model's
 //! axial mass block lacks the element's factor 1/15; both are run here. It knows no foreshortening.
 
 use slidercrank::integrator::methods::named;
-use slidercrank::integrator::{Effort, Integrator, Settings};
+use slidercrank::integrator::{Integrator, Settings, WorkLimit};
 use slidercrank::model::Model;
-use slidercrank::model::plant::Plant;
-use slidercrank::model::state::Instant;
+use slidercrank::model::mechanism_model::MechanismModel;
+use slidercrank::model::state::Evaluation;
 use slidercrank::scene::modal::{AxialMode, BendingMode, ModalTable};
 use slidercrank::scene::{DriveMode, Scene};
 use std::f64::consts::PI;
@@ -34,7 +34,7 @@ fn nodes(s: f64) -> [f64; 2] {
 }
 
 /// Modes (frequency, amplitudes of the nodes with Φᵀ·M·Φ = 1) of a pair of symmetric matrices.
-fn modes(k: [[f64; 2]; 2], m: [[f64; 2]; 2]) -> [(f64, [f64; 2]); 2] {
+fn states(k: [[f64; 2]; 2], m: [[f64; 2]; 2]) -> [(f64, [f64; 2]); 2] {
     let det = |a: [[f64; 2]; 2]| a[0][0] * a[1][1] - a[0][1] * a[1][0];
     let mixed = k[0][0] * m[1][1] + k[1][1] * m[0][0] - 2.0 * k[0][1] * m[0][1];
     let root = (mixed * mixed - 4.0 * det(k) * det(m)).sqrt();
@@ -46,13 +46,13 @@ fn modes(k: [[f64; 2]; 2], m: [[f64; 2]; 2]) -> [(f64, [f64; 2]); 2] {
     })
 }
 
-/// The rod's table, the axial mass block multiplied by `factor`, and the axial modes' nodes.
+/// The rod's table, the axial mass block multiplied by `factor`, and the axial states' nodes.
 fn table(factor: f64) -> (ModalTable, [[f64; 2]; 2]) {
     let stiffness = YOUNG * SIDE * SIDE / (3.0 * LENGTH);
     let k = [[16.0 * stiffness, -8.0 * stiffness], [-8.0 * stiffness, 7.0 * stiffness]];
     let share = factor * MASS / 15.0;
     let m = [[8.0 * share, share], [share, 2.0 * share]];
-    let axial = modes(k, m);
+    let axial = states(k, m);
     let shape = |j: usize, s: f64| axial[j].1[0] * nodes(s)[0] + axial[j].1[1] * nodes(s)[1];
     let sine = |i: usize, s: f64| ((i + 1) as f64 * PI * s).sin();
     let bending = [0, 1].map(|i| {
@@ -95,15 +95,15 @@ fn table(factor: f64) -> (ModalTable, [[f64; 2]; 2]) {
     (table, axial.map(|(_, nodes)| nodes))
 }
 
-/// Amplitudes of the modes at given nodes.
-fn amplitudes(modes: [[f64; 2]; 2], nodes: [f64; 2]) -> [f64; 2] {
-    let [[a, c], [b, d]] = modes;
+/// Amplitudes of the states at given nodes.
+fn amplitudes(states: [[f64; 2]; 2], nodes: [f64; 2]) -> [f64; 2] {
+    let [[a, c], [b, d]] = states;
     let det = a * d - b * c;
     [(nodes[0] * d - b * nodes[1]) / det, (a * nodes[1] - c * nodes[0]) / det]
 }
 
 /// The mechanism at 0.1 s, and q1 to q4.
-fn at_the_end(factor: f64) -> (Instant, [f64; 4]) {
+fn at_the_end(factor: f64) -> (Evaluation, [f64; 4]) {
     let (table, nodes) = table(factor);
     let mut scene = Scene::default();
     scene.drive.mode = DriveMode::Speed;
@@ -112,18 +112,18 @@ fn at_the_end(factor: f64) -> (Instant, [f64; 4]) {
     let f = &mut scene.rod.flexible;
     (f.bending_modes, f.axial_modes, f.damping_ratio, f.geometric_stiffness) = (2, 2, 0.0, false);
     f.table = Some(table);
-    let plant = Model::assemble(&scene, 0.0);
+    let model = Model::assemble(&scene, 0.0);
     // Positions and rates of the set's initial state.
     let [a, b] = amplitudes(nodes, [0.103339863e-4, 0.169327969e-4]);
     let [c, d] = amplitudes(nodes, [-0.178591076e-5, -0.268938672e-5]);
     let y = [0.0, 0.0, a, b, 0.444896105, 0.463434311e-2, c, d];
-    let contacts = plant.start_contacts(0.0, &y);
-    let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: Effort::ANY };
-    let mut integrator = Integrator::start(&plant, named("verner7", 8).expect("a method"), settings, 0.0, &y, contacts);
-    integrator.advance(&plant, 0.1).expect("no trouble");
-    let (y, contacts) = integrator.state_at(&plant, 0.1);
+    let contacts = model.start_contacts(0.0, &y);
+    let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: WorkLimit::ANY };
+    let mut integrator = Integrator::start(&model, named("verner7", 8).expect("a method"), settings, 0.0, &y, contacts);
+    integrator.advance(&model, 0.1).expect("no trouble");
+    let (y, contacts) = integrator.state_at(&model, 0.1);
     let node = |k: usize| y[2] * nodes[0][k] + y[3] * nodes[1][k];
-    (plant.instant(&contacts, 0.1, y), [y[0], y[1], node(0), node(1)])
+    (model.evaluation(&contacts, 0.1, y), [y[0], y[1], node(0), node(1)])
 }
 
 fn relative(found: f64, wanted: f64) -> f64 {
@@ -134,10 +134,10 @@ fn relative(found: f64, wanted: f64) -> f64 {
 fn the_printed_model_reaches_its_reference() {
     let (instant, q) = at_the_end(15.0);
     let pose = &instant.pose;
-    println!("{q:?} {} {}", pose.turning.angle[1], pose.place.pin.x);
-    assert!(relative(pose.turning.angle[1], -0.331_173_498_791) < 1e-8);
+    println!("{q:?} {} {}", pose.rotations.angle[1], pose.place.pin.x);
+    assert!(relative(pose.rotations.angle[1], -0.331_173_498_791) < 1e-8);
     assert!(relative(pose.place.pin.x, 0.169_737_332_663) < 1e-8);
-    assert!(relative(pose.turning.speed[1], 60.253_466_83) < 1e-6);
+    assert!(relative(pose.rotations.speed[1], 60.253_466_83) < 1e-6);
     assert!(relative(pose.velocity.pin.x, -8.753_116_990) < 1e-6);
     for (found, wanted) in q.into_iter().zip([1.893192460e-4, 2.375751866e-5, -5.323907989e-6, -8.363283142e-6]) {
         assert!(relative(found, wanted) < 1e-5, "{found:e} is not {wanted:e}");

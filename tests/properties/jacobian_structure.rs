@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use slidercrank::integrator::{Jacobian, Linearizable, Ode};
 use slidercrank::math::Real;
 use slidercrank::model::Model;
-use slidercrank::model::contact::ContactMode;
-use slidercrank::model::plant::Plant;
+use slidercrank::model::contact::ContactState;
+use slidercrank::model::mechanism_model::MechanismModel;
 use slidercrank::model::scalar::Tangent;
 use slidercrank::model::start::StartPose;
 use slidercrank::model::state::Contacts;
@@ -32,9 +32,9 @@ fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) 
     for contact in contacts(&mut scene) {
         contact.friction.law = law;
     }
-    let plant = Loose::assemble(&scene, 0.0);
+    let model = Loose::assemble(&scene, 0.0);
     let mut y = [0.0; N];
-    plant.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut y);
+    model.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut y);
     // Rod and slider each a play and a penetration off, in any direction.
     for root in [2, 4] {
         let (angle, way) = (chance.between(0.0, 6.3), 1e-4 + chance.between(1e-6, 8e-6));
@@ -46,9 +46,9 @@ fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) 
     }
     let mut contacts = Contacts::default();
     for contact in &mut contacts[1..3] {
-        *contact = ContactMode::closing(0.2, 1e-3);
+        *contact = ContactState::closing(0.2, 1e-3);
     }
-    (plant, y, contacts)
+    (model, y, contacts)
 }
 
 /// ∂ẏ along `direction`.
@@ -67,10 +67,10 @@ fn moving_turning_and_boosting_the_whole_changes_no_force() {
     let mut chance = Chance(11);
     for law in [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Stribeck] {
         for _ in 0..50 {
-            let (plant, y, contacts) = afloat(&mut chance, law);
+            let (model, y, contacts) = afloat(&mut chance, law);
             let (mut jacobian, mut rates) = (Jacobian::new(N), [0.0; N]);
-            plant.jacobian(&contacts, 0.0, &y, &mut jacobian);
-            plant.rates(&contacts, 0.0, &y, &mut rates);
+            model.jacobian(&contacts, 0.0, &y, &mut jacobian);
+            model.rates(&contacts, 0.0, &y, &mut rates);
             // Rounding: of sums of the rows' terms.
             let row = |i: usize| jacobian.row(i).iter().map(|slope| slope.abs()).sum::<f64>();
             let size = 1e-14 * (0..N).map(row).fold(0.0, f64::max);
@@ -102,10 +102,10 @@ fn values_beside_derivatives_have_the_bits_of_the_rates() {
     let mut chance = Chance(12);
     for law in [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck] {
         for _ in 0..50 {
-            let (plant, y, contacts) = afloat(&mut chance, law);
+            let (model, y, contacts) = afloat(&mut chance, law);
             let (mut rates, mut found) = ([0.0; N], [Tangent::ZERO; N]);
-            plant.rates(&contacts, 0.1, &y, &mut rates);
-            plant.tangent_rates(&contacts, Tangent::constant(0.1), &y.map(Tangent::constant), &mut found);
+            model.rates(&contacts, 0.1, &y, &mut rates);
+            model.tangent_rates(&contacts, Tangent::constant(0.1), &y.map(Tangent::constant), &mut found);
             assert_eq!(found.map(|rate| rate.value.to_bits()), rates.map(f64::to_bits));
             assert!(found.iter().all(|rate| rate.slope.iter().all(|slope| *slope == 0.0)));
         }
@@ -120,15 +120,15 @@ fn it_is_finite_where_journals_are_centred_and_contacts_just_touch() {
         for contact in contacts(&mut scene) {
             contact.friction.law = law;
         }
-        let plant = Model::assemble(&scene, 0.0);
-        let n = plant.extent().states;
+        let model = Model::assemble(&scene, 0.0);
+        let n = model.layout().states;
         let mut centred = vec![0.0; n];
-        plant.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut centred);
+        model.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut centred);
         let mut touching = centred.clone();
         touching[1] = scene.joint.a.clearance; // exactly, in the main bearing: roots are centres of mass
         for y in [centred, touching] {
             let mut jacobian = Jacobian::new(n);
-            plant.jacobian(&[ContactMode::closing(0.1, 1e-3); 7], 0.0, &y, &mut jacobian);
+            model.jacobian(&[ContactState::closing(0.1, 1e-3); 7], 0.0, &y, &mut jacobian);
             let rows = (0..n).flat_map(|i| jacobian.row(i));
             assert!(rows.chain(&jacobian.time).all(|slope| slope.is_finite()), "{law:?}");
         }

@@ -2,40 +2,40 @@
 //! contacts that touch and that do not.
 
 use super::chance::Chance;
-use super::scenes::{Play, all_plays, contacts, crooked, letters, revolutes, with_play};
+use super::scenes::{JournalMotion, all_plays, contacts, crooked, letters, revolutes, with_play};
 use slidercrank::integrator::SeveralInstants;
 use slidercrank::integrator::system::one_by_one;
-use slidercrank::math::{ROW, Real, Row};
+use slidercrank::math::{F64x8, ROW, Real};
 use slidercrank::model::Model;
-use slidercrank::model::plant::Plant;
+use slidercrank::model::mechanism_model::MechanismModel;
 use slidercrank::model::start::StartPose;
 use slidercrank::scene::{DampingLaw, DriveMode, Elasticity, FrictionLaw, Scene, Surface};
 
-/// States that the plant may be in, with the contacts of one of them, and its rates together and one by one.
-fn agree<P: Plant>(name: &str, scene: &Scene, plant: P, chance: &mut Chance) {
-    let extent = plant.extent();
-    let n = extent.states;
+/// States that the model may be in, with the contacts of one of them, and its rates together and one by one.
+fn agree<P: MechanismModel>(name: &str, scene: &Scene, model: P, chance: &mut Chance) {
+    let layout = model.layout();
+    let n = layout.states;
     let mut start = vec![0.0; n];
-    plant.write_start(&StartPose::of(scene).expect("the loop closes"), &mut start);
+    model.write_start(&StartPose::of(scene).expect("the loop closes"), &mut start);
     let states: [Vec<f64>; ROW] = std::array::from_fn(|_| {
         let mut y = start.clone();
         for (i, state) in y.iter_mut().enumerate() {
             *state += match i {
-                _ if i < extent.positions => chance.between(-8e-4, 8e-4),
-                _ if i < 2 * extent.positions => chance.between(-2.0, 2.0),
+                _ if i < layout.positions => chance.between(-8e-4, 8e-4),
+                _ if i < 2 * layout.positions => chance.between(-2.0, 2.0),
                 _ => chance.between(-1e-6, 1e-6),
             };
         }
         y
     });
-    let modes = plant.start_contacts(0.0, &states[0]);
+    let modes = model.start_contacts(0.0, &states[0]);
     let times: [f64; ROW] = std::array::from_fn(|k| 1e-4 * k as f64);
-    let y: Vec<Row> = (0..n).map(|i| Row::of(std::array::from_fn(|k| states[k][i]))).collect();
-    let mut together = vec![Row::ZERO; n];
-    plant.rates_in_row(&modes, &Row::of(times), &y, &mut together);
+    let y: Vec<F64x8> = (0..n).map(|i| F64x8::of(std::array::from_fn(|k| states[k][i]))).collect();
+    let mut together = vec![F64x8::ZERO; n];
+    model.rates_in_row(&modes, &F64x8::of(times), &y, &mut together);
     for k in 0..ROW {
         let mut alone = vec![0.0; n];
-        plant.rates(&modes, times[k], &states[k], &mut alone);
+        model.rates(&modes, times[k], &states[k], &mut alone);
         for i in 0..n {
             let together = together[i].numbers()[k];
             assert_eq!(
@@ -49,7 +49,7 @@ fn agree<P: Plant>(name: &str, scene: &Scene, plant: P, chance: &mut Chance) {
 }
 
 /// With contacts of all kinds.
-fn laws(play: Play, drive: DriveMode) -> Vec<(String, Scene)> {
+fn laws(play: JournalMotion, drive: DriveMode) -> Vec<(String, Scene)> {
     let mut all = vec![];
     let frictions =
         [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck, FrictionLaw::Lugre];
@@ -108,11 +108,11 @@ fn a_mechanism_with_a_flexible_rod_moves_alike() {
 #[test]
 fn a_problem_that_knows_no_rows_is_asked_for_each_state() {
     let scene = crooked();
-    let plant = Model::assemble(&scene, 0.0);
-    let rows = [Row::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
-    let mut alone = [Row::ZERO; 2];
-    one_by_one(&plant, &Default::default(), &Row::ZERO, &rows, &mut alone);
-    let mut together = [Row::ZERO; 2];
-    plant.rates_in_row(&Default::default(), &Row::ZERO, &rows, &mut together);
+    let model = Model::assemble(&scene, 0.0);
+    let rows = [F64x8::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
+    let mut alone = [F64x8::ZERO; 2];
+    one_by_one(&model, &Default::default(), &F64x8::ZERO, &rows, &mut alone);
+    let mut together = [F64x8::ZERO; 2];
+    model.rates_in_row(&Default::default(), &F64x8::ZERO, &rows, &mut together);
     assert_eq!(alone, together);
 }

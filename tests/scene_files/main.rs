@@ -2,7 +2,7 @@
 
 mod modal_table;
 
-use slidercrank::scene::profile::{Against, Profile};
+use slidercrank::scene::profile::{Profile, ProfileArgument};
 use slidercrank::scene::read::{SceneFile, read};
 use slidercrank::scene::run::{End, Run};
 use slidercrank::scene::{DampingLaw, DriveMode, FrictionLaw, JointModel, Scene, write::write};
@@ -52,7 +52,7 @@ load = { against = "crank.angle", points = [["0 deg", 0], ["180 deg", "-2 kN"], 
     assert_eq!(file.run, Run { end: End::Turns(20.0), step: 1e-5 });
     assert_eq!(file.inputs.crank_torque, Profile::Constant(2000.0));
     let points = vec![[0.0, 0.0], [std::f64::consts::PI, -2000.0], [std::f64::consts::TAU, 0.0]];
-    assert_eq!(file.inputs.slider_load, Profile::Points { against: Against::CrankAngle, points });
+    assert_eq!(file.inputs.slider_load, Profile::Points { against: ProfileArgument::CrankAngle, points });
     assert!((file.run.stop(&file.scene) - 0.24).abs() < 1e-15);
 }
 
@@ -65,7 +65,8 @@ fn what_is_written_is_read_back_to_the_bit() {
     file.scene.joint.t.model = JointModel::Clearance;
     file.scene.joint.t.contact.law = DampingLaw::ZhangSharf;
     file.run = Run { end: End::Turns(1.0 / 3.0), step: 1e-7 };
-    file.inputs.slider_load = Profile::Points { against: Against::Time, points: vec![[-1.0, 0.1], [0.3, 1e-300]] };
+    file.inputs.slider_load =
+        Profile::Points { against: ProfileArgument::Time, points: vec![[-1.0, 0.1], [0.3, 1e-300]] };
     file.scene.joint.a.clearance = 0.03;
     file.scene.rod.flexible.bending_modes = 8;
     file.scene.rod.flexible.geometric_stiffness = false;

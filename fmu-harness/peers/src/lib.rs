@@ -127,15 +127,15 @@ pub unsafe extern "C" fn equations_rates(system: *const System, t: f64, y: *cons
 /// Writes the event functions of the state `y` at `t` [s]. An event happens when one falls through zero.
 ///
 /// # Safety
-/// `system` is from `equations_open` and open; `y` holds the states and `guards` has room for the event
+/// `system` is from `equations_open` and open; `y` holds the states and `functions` has room for the event
 /// functions.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn equations_event_functions(system: *const System, t: f64, y: *const f64, guards: *mut f64) {
+pub unsafe extern "C" fn equations_event_functions(system: *const System, t: f64, y: *const f64, functions: *mut f64) {
     // SAFETY: an open system that the caller uses in one thread; `y` holds the states.
     let (system, y) = unsafe { (&*system, states(system, y)) };
     let count = system.size().event_functions;
-    // SAFETY: `guards` has room for so many.
-    system.write_guards(t, y, unsafe { std::slice::from_raw_parts_mut(guards, count) });
+    // SAFETY: `functions` has room for so many.
+    system.write_event_functions(t, y, unsafe { std::slice::from_raw_parts_mut(functions, count) });
 }
 
 /// Opens or closes contacts: those whose `crossed` is not 0, and all others at or below zero and falling.

@@ -7,7 +7,7 @@ use super::usual::usual;
 use proptest::prelude::{Strategy, any, prop_oneof};
 use proptest::strategy::Just;
 use slidercrank::scene::parameter::{Kind, Parameter};
-use slidercrank::scene::profile::{Against, Profile, Profiles};
+use slidercrank::scene::profile::{Profile, ProfileArgument, Profiles};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::run::{End, Run};
 use slidercrank::scene::{FrictionLaw, Method, PARAMETERS, Scene, Surface};
@@ -116,7 +116,7 @@ pub fn logarithmic(low: f64, high: f64, place: f64) -> f64 {
 #[derive(Clone, Debug)]
 enum Drawn {
     Constant(f64),
-    Over(Against, Vec<f64>),
+    Over(ProfileArgument, Vec<f64>),
 }
 
 impl Drawn {
@@ -125,7 +125,7 @@ impl Drawn {
         match self {
             Self::Constant(value) => Profile::Constant(value),
             Self::Over(against, values) => {
-                let range = if against == Against::Time { span } else { TAU };
+                let range = if against == ProfileArgument::Time { span } else { TAU };
                 let count = values.len() as f64;
                 let place = |i: usize| range * (i as f64 + 0.5) / count;
                 Profile::Points {
@@ -144,7 +144,7 @@ fn profile(size: f64) -> impl Strategy<Value = Drawn> {
         if negative { -value } else { value }
     });
     let value = prop_oneof![30 => (-1.0..1.0).prop_map(move |share| share * size), 1 => wild, 1 => Just(f64::MAX)];
-    let against = prop_oneof![Just(Against::Time), Just(Against::CrankAngle)];
+    let against = prop_oneof![Just(ProfileArgument::Time), Just(ProfileArgument::CrankAngle)];
     let over = (against, proptest::collection::vec((-1.0..1.0).prop_map(move |share| share * size), 2..7));
     prop_oneof![
         3 => Just(Drawn::Constant(0.0)),

@@ -7,7 +7,7 @@
 
 use super::draw::logarithmic;
 use proptest::prelude::Strategy;
-use slidercrank::scene::profile::{Against, Profile, Profiles};
+use slidercrank::scene::profile::{Profile, ProfileArgument, Profiles};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::run::{End, Run};
 use slidercrank::scene::{
@@ -190,7 +190,7 @@ impl Lots {
         let size = inertia.max(scene.slider.mass * 9.81) * self.about(0.1, 10.0);
         let kind = self.next();
         let at = |degrees: f64, share: f64| [degrees.to_radians(), share * size];
-        let over_turn = |points: Vec<[f64; 2]>| Profile::Points { against: Against::CrankAngle, points };
+        let over_turn = |points: Vec<[f64; 2]>| Profile::Points { against: ProfileArgument::CrankAngle, points };
         let forwards = crank.speed_start > 0.0;
         match (kind * 5.0) as usize {
             0 => Profile::Constant(0.0),
@@ -218,7 +218,7 @@ impl Lots {
                     let time = f64::from(i) * step;
                     [time, size * (TAU * time / period).sin()]
                 });
-                Profile::Points { against: Against::Time, points: points.take(64).collect() }
+                Profile::Points { against: ProfileArgument::Time, points: points.take(64).collect() }
             }
         }
     }
@@ -243,7 +243,7 @@ impl Lots {
             let angle = TAU * (f64::from(i) + 0.5) / f64::from(WORK_POINTS);
             load.value(0.0, angle) * transfer(angle) * TAU / f64::from(WORK_POINTS)
         };
-        let over_turn = !matches!(load, Profile::Points { against: Against::Time, .. });
+        let over_turn = !matches!(load, Profile::Points { against: ProfileArgument::Time, .. });
         let done: f64 = if over_turn { (0..WORK_POINTS).map(work).sum() } else { 0.0 };
         // The flywheel stores many times the slider's own energy, and what the load takes and gives back in a turn.
         let swing = 4.0 * r * greatest(load) / crank.speed_start.powi(2);

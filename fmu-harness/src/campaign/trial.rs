@@ -40,7 +40,7 @@ const COMPARED: usize = 4;
 const SEEDED: usize = 8;
 /// Largest tolerance at which the balance of energy is held to anything.
 const TIGHT: f64 = 1e-6;
-/// Most share of the energy turned over that its balance may be off by. Works and losses are not weighed by the error
+/// Most share of the energy turned over that its balance may be off by. Works and losses are not weighted by the error
 /// norm: of a scene with a body of a milligram, whose velocities are told to 1e-5 m/s, this much was measured.
 const BALANCE: f64 = 1e-3;
 /// The same for linearly implicit steps, which pass over a stiff transient without taking note of what it loses.
@@ -249,8 +249,8 @@ impl<'a> Trial<'a> {
         let solver = &self.file.scene.solver;
         let implicit = matches!(solver.method, Method::Rodas4 | Method::Automatic);
         let share = if implicit { IMPLICIT_BALANCE } else { BALANCE };
-        let weighed = !solver.method.has("fixed step") && solver.tolerance <= TIGHT;
-        if !weighed || self.residual <= share * self.turned_over + noticeable(&self.file.scene) {
+        let weighted = !solver.method.has("fixed step") && solver.tolerance <= TIGHT;
+        if !weighted || self.residual <= share * self.turned_over + noticeable(&self.file.scene) {
             return Ok(());
         }
         let (residual, turned_over) = (self.residual, self.turned_over);

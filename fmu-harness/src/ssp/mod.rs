@@ -10,7 +10,7 @@ use crate::package::archive::{self, Part};
 use crate::scenes::Scenario;
 use anyhow::{Context, Result, bail, ensure};
 use companions::companions;
-use slidercrank::scene::profile::{Against, Profile};
+use slidercrank::scene::profile::{Profile, ProfileArgument};
 use std::io::Write;
 use std::path::Path;
 use structure::{Component, Structure, Value};
@@ -100,7 +100,7 @@ fn unit(name: &'static str, file: String, bytes: Vec<u8>, values: Vec<(String, f
 
 /// The scene's load as the sheet's parameters.
 fn profile(load: &Profile) -> Result<Vec<(String, f64)>> {
-    let Profile::Points { against: Against::CrankAngle, points } = load else {
+    let Profile::Points { against: ProfileArgument::CrankAngle, points } = load else {
         bail!("the scene `{PRESS}` has no load over the crank's angle");
     };
     let rows = points.iter().zip(1..);

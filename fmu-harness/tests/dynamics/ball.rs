@@ -9,7 +9,7 @@ use fmu_harness::dynamics::lyapunov::{Exponent, Probe};
 use fmu_harness::dynamics::verdict::{Verdict, judge};
 use fmu_harness::dynamics::{Flow, Point};
 use slidercrank::integrator::{
-    EventFunction, EventFunctions, Events, Extent, Linearizable, Ode, Reset, SeveralInstants, Triggered,
+    EventFunction, EventFunctions, Events, Linearizable, Ode, Reset, SeveralInstants, StateLayout, Triggered,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -39,8 +39,8 @@ impl Ball {
 impl Ode for Ball {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(2)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(2)
     }
 
     fn rates(&self, _: &(), _: f64, y: &[f64], rates: &mut [f64]) {

@@ -4,7 +4,7 @@
 use super::system::System;
 use fmu_harness::dynamics::Flow;
 use fmu_harness::dynamics::lyapunov::Probe;
-use slidercrank::integrator::{Events, Extent, Linearizable, Ode, SeveralInstants};
+use slidercrank::integrator::{Events, Linearizable, Ode, SeveralInstants, StateLayout};
 
 struct Lorenz;
 
@@ -13,8 +13,8 @@ static SCALES: [f64; 3] = [1.0; 3];
 impl Ode for Lorenz {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent { positions: 0, weighed: 3, states: 3 }
+    fn layout(&self) -> StateLayout {
+        StateLayout { positions: 0, weighted: 3, states: 3 }
     }
 
     fn rates(&self, _: &(), _: f64, y: &[f64], rates: &mut [f64]) {

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use fmu_harness::dynamics::{Flow, Point};
 use slidercrank::integrator::methods::named;
-use slidercrank::integrator::{self, Effort, Integrator, Settings};
+use slidercrank::integrator::{self, Integrator, Settings, WorkLimit};
 
 /// Noticeable differences of these systems.
 const SCALE: f64 = 1e-3;
@@ -18,7 +18,7 @@ pub struct System<const N: usize, P> {
 impl<const N: usize, P: integrator::System<Discrete = ()>> System<N, P> {
     /// Starts at time 0.
     pub fn start(problem: P, start: [f64; N]) -> Self {
-        let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: Effort::ANY };
+        let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: WorkLimit::ANY };
         let integrator = Integrator::start(&problem, named("verner7", N).expect("a method"), settings, 0.0, &start, ());
         Self { problem, integrator, time: 0.0 }
     }

@@ -79,7 +79,7 @@ fn a_method_keeps_the_properties_that_it_declares() {
             let by_step = method.has(FIXED_STEP);
             assert_eq!(run(1e-6, 5e-7) == own, !by_step, "{}: solver.step", method.name());
             if by_step {
-                // What a landing on an event asks of its guard goes by the tolerance all the same.
+                // What a landing on an event asks of its event function goes by the tolerance all the same.
                 let steps = f64::from(run(1e-3, 1e-6).1) / f64::from(own.1);
                 assert!((0.9..1.1).contains(&steps), "{}: solver.tolerance", method.name());
             } else {

@@ -1,10 +1,10 @@
 //! Contacts that go on as they were: open, sticking or slipping either way. What they do then follows from linear
 //! equations, and the laws say whether it is a solution.
 
-use super::{MOST_CONTACTS, NORMAL, Pairs, Scaled, TANGENTIAL};
+use super::{MAX_CONTACTS, NORMAL, Pairs, Scaled, TANGENTIAL};
 
 /// Most equations.
-const MOST: usize = 2 * MOST_CONTACTS;
+const MOST: usize = 2 * MAX_CONTACTS;
 /// A pivot this small, of elements of about 1, is one of redundant contacts.
 const LEAST_PIVOT: f64 = 1e-9;
 /// A tangential impulse this close to its limit is at it.

@@ -15,7 +15,7 @@ mod lemke;
 pub use lemke::{LinearComplementarity, MOST_UNKNOWNS};
 
 /// Most contacts: a normal impulse, two tangential ones and a sliding speed of each.
-pub const MOST_CONTACTS: usize = MOST_UNKNOWNS / 4;
+pub const MAX_CONTACTS: usize = MOST_UNKNOWNS / 4;
 
 /// Largest violation of the laws, where velocities and impulses are scaled to 1.
 const VIOLATION: f64 = 1e-8;
@@ -29,7 +29,7 @@ const WAYS: usize = 8;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// One number for the normal and one for the tangent of each contact.
-pub type Pairs = [[f64; 2]; MOST_CONTACTS];
+pub type Pairs = [[f64; 2]; MAX_CONTACTS];
 /// Index of a normal part.
 pub const NORMAL: usize = 0;
 /// Index of a tangential part.
@@ -37,26 +37,26 @@ pub const TANGENTIAL: usize = 1;
 
 /// The first `count` contacts, which touch.
 #[derive(Clone, Debug, Default)]
-pub struct Touching {
+pub struct ActiveContacts {
     /// How many.
     pub count: usize,
     /// [1/kg] G: `delassus[i][a][j][b]` is the velocity in part `a` of contact `i` from a unit impulse in part `b` of
     /// contact `j`. Symmetric, positive semidefinite.
-    pub delassus: [[[[f64; 2]; MOST_CONTACTS]; 2]; MOST_CONTACTS],
+    pub delassus: [[[[f64; 2]; MAX_CONTACTS]; 2]; MAX_CONTACTS],
     /// [m/s] b.
     pub bias: Pairs,
     /// μ.
-    pub friction: [f64; MOST_CONTACTS],
+    pub friction: [f64; MAX_CONTACTS],
 }
 
 /// A problem without dimensions: Λ·s/B and ξ/(s·B) in place of Λ and ξ, with s = √(diagonal of G).
 struct Scaled<'a> {
-    problem: &'a Touching,
+    problem: &'a ActiveContacts,
     scale: Pairs,
     size: f64,
 }
 
-impl Touching {
+impl ActiveContacts {
     /// [N·s] Λ of every contact; `None` if there is none, or none to be found. Where impulses `before` are not all 0,
     /// every contact is first thought to stick, slip or be open as it was with them.
     pub fn impulses(&self, before: &Pairs) -> Option<Pairs> {
@@ -79,8 +79,8 @@ impl Touching {
 
 impl<'a> Scaled<'a> {
     /// `None` for what is not finite, or a normal that does not answer to impulses.
-    fn new(problem: &'a Touching) -> Option<Self> {
-        let mut scale = [[1.0; 2]; MOST_CONTACTS];
+    fn new(problem: &'a ActiveContacts) -> Option<Self> {
+        let mut scale = [[1.0; 2]; MAX_CONTACTS];
         let mut size = 0.0f64;
         for (i, scale) in scale.iter_mut().enumerate().take(problem.count) {
             let diagonal = |part: usize| problem.delassus[i][part][i][part];

@@ -7,7 +7,7 @@ use super::rodas4::RODAS4;
 use super::rosenbrock::Rosenbrock;
 use super::stiffness_switch::{StiffnessSwitch, fastest};
 use super::verner7::VERNER7;
-use crate::integrator::method::{Advice, Attempt, Method, MethodKind, Properties};
+use crate::integrator::method::{Attempt, Method, MethodKind, Properties, StepAdvice};
 use crate::integrator::snapshot::{Reader, Snapshot};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::System;
@@ -86,23 +86,23 @@ impl<D: Copy> Method<D> for Automatic {
         Method::<D>::forget(&mut self.block);
     }
 
-    fn accepted(&mut self, system: &dyn System<Discrete = D>, start: &StepPoint<D>, end: &StepPoint<D>) -> Advice {
+    fn accepted(&mut self, system: &dyn System<Discrete = D>, start: &StepPoint<D>, end: &StepPoint<D>) -> StepAdvice {
         let Self { kind, switch, explicit, implicit, .. } = self;
-        let (h, extent, scales) = (end.t - start.t, system.extent(), system.scales());
-        let mut advice = Advice::NONE;
+        let (h, layout, scales) = (end.t - start.t, system.layout(), system.scales());
+        let mut advice = StepAdvice::NONE;
         match kind {
             MethodKind::Block => switch.after_block(h, || {
                 system.jacobian(&end.discrete, end.t, &end.y, implicit.jacobian());
                 advice.evaluations += 1;
-                fastest(implicit.jacobian(), extent, scales)
+                fastest(implicit.jacobian(), layout, scales)
             }),
             MethodKind::Explicit if system.suits_blocks() => {
-                switch.after_explicit_beside_blocks(h, BOUND, || explicit.stiffness(extent, scales));
+                switch.after_explicit_beside_blocks(h, BOUND, || explicit.stiffness(layout, scales));
             }
-            MethodKind::Explicit => switch.after_explicit(BOUND, || explicit.stiffness(extent, scales)),
+            MethodKind::Explicit => switch.after_explicit(BOUND, || explicit.stiffness(layout, scales)),
             MethodKind::Implicit => {
-                let fastest = fastest(implicit.jacobian(), extent, scales);
-                if let Some(longest) = switch.after_implicit(h, BOUND, fastest, extent.positions) {
+                let fastest = fastest(implicit.jacobian(), layout, scales);
+                if let Some(longest) = switch.after_implicit(h, BOUND, fastest, layout.positions) {
                     advice.longest_step = longest;
                 }
             }

@@ -62,7 +62,7 @@ impl Bathe {
         y: &mut [f64],
     ) -> u64 {
         let Self { jacobian, factors, known, correction, .. } = self;
-        let scales = &system.scales()[..system.extent().weighed];
+        let scales = &system.scales()[..system.layout().weighted];
         for corrections in 1..=MOST_CORRECTIONS {
             system.rates(discrete, t, y, correction);
             system.jacobian(discrete, t, y, jacobian);

@@ -23,8 +23,8 @@ mod nodes;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::snapshot::{Reader, Snapshot};
 use crate::integrator::state::{StepPoint, is_kept};
-use crate::integrator::system::{Extent, System};
-use crate::math::{Fused, ROW, Real, Row, each};
+use crate::integrator::system::{StateLayout, System};
+use crate::math::{F64x8, Fused, ROW, Real, unroll};
 use nodes::{AHEAD, INTEGRALS, MONOMIALS, NODES, POWERS, TOP, Tables};
 
 const PROPERTIES: Properties = Properties {
@@ -50,7 +50,7 @@ const ROUNDING: f64 = 1e-9;
 /// How much of a step's error follows from what its end's rates moved by after the last round: what was left to correct grows
 /// with a high power of the time in the step, and the rounds' own gain is the rest.
 const LATE: [f64; 2] = [1.0 / 32.0, 1.0 / 288.0];
-/// And from the part of degree eight in the accelerations: small, unless they have a kink.
+/// And from the part of degree eight in the accelerations: small, unless they have a discontinuity.
 const BENT: f64 = 0.02;
 
 /// The rates in a step that was made so, or in an attempt that failed: what the next one is predicted from.
@@ -63,12 +63,12 @@ struct BlockHistory {
     /// Rates at its start.
     start: Vec<f64>,
     /// Rates at its nodes.
-    nodes: Vec<Row>,
+    nodes: Vec<F64x8>,
 }
 
 impl BlockHistory {
     fn new(states: usize) -> Self {
-        Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![Row::ZERO; states] }
+        Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![F64x8::ZERO; states] }
     }
 
     /// There is one.
@@ -91,12 +91,12 @@ impl BlockHistory {
     /// Coefficients of the polynomial of rate `i` about the `origin` of a step that is `ratio` times as long, in powers of
     /// its share: of 1, and of those from the first on.
     #[inline(always)]
-    fn coefficients(&self, origin: usize, powers: Row, i: usize) -> (f64, Row) {
+    fn coefficients(&self, origin: usize, powers: F64x8, i: usize) -> (f64, F64x8) {
         let (first, at) = (self.start[i], self.nodes[i].numbers());
         let columns = &POWERS[origin];
-        let mut sums = [columns[0] * first, Row::ZERO];
-        each!(true, j < ROW => {
-            sums[j % 2] = columns[1 + j].times_plus(at[j], sums[j % 2]);
+        let mut sums = [columns[0] * first, F64x8::ZERO];
+        unroll!(true, j < ROW => {
+            sums[j % 2] = columns[1 + j].multiply_add(at[j], sums[j % 2]);
         });
         (if origin == 0 { first } else { at[ROW - 1] }, (sums[0] + sums[1]) * powers)
     }
@@ -107,15 +107,15 @@ impl BlockHistory {
 pub struct Cong8 {
     history: BlockHistory,
     /// Rates at the nodes of the last attempt.
-    nodes: Vec<Row>,
+    nodes: Vec<F64x8>,
     /// States there.
-    y: Vec<Row>,
+    y: Vec<F64x8>,
 }
 
 impl Cong8 {
     /// For so many states.
     pub fn new(states: usize) -> Self {
-        let rows = || vec![Row::ZERO; states];
+        let rows = || vec![F64x8::ZERO; states];
         Self { history: BlockHistory::new(states), nodes: rows(), y: rows() }
     }
 }
@@ -123,25 +123,25 @@ impl Cong8 {
 /// The states at a step's nodes, as they follow from accelerations.
 struct States<'a> {
     start: &'a [f64],
-    extent: Extent,
+    layout: StateLayout,
     h: f64,
-    y: &'a mut [Row],
+    y: &'a mut [F64x8],
 }
 
 impl States<'_> {
     /// From weights of columns for every velocity (and first-order state).
     #[inline(always)]
-    fn follow(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, Row)) {
-        let Extent { positions: p, states, .. } = self.extent;
+    fn follow(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, F64x8)) {
+        let StateLayout { positions: p, states, .. } = self.layout;
         for i in p..states {
             let (first, others) = weights(i);
             let numbers = others.numbers();
             // Even and odd columns apart: half as long to wait.
-            let mut sums = [[tables[0][0] * first, Row::ZERO], [tables[1][0] * first, Row::ZERO]];
-            each!(true, j < ROW => {
-                let weight = Row::constant(numbers[j]);
-                sums[0][j % 2] = tables[0][1 + j].times_plus(weight, sums[0][j % 2]);
-                sums[1][j % 2] = tables[1][1 + j].times_plus(weight, sums[1][j % 2]);
+            let mut sums = [[tables[0][0] * first, F64x8::ZERO], [tables[1][0] * first, F64x8::ZERO]];
+            unroll!(true, j < ROW => {
+                let weight = F64x8::constant(numbers[j]);
+                sums[0][j % 2] = tables[0][1 + j].multiply_add(weight, sums[0][j % 2]);
+                sums[1][j % 2] = tables[1][1 + j].multiply_add(weight, sums[1][j % 2]);
             });
             let [once, twice] = sums.map(|[even, odd]| even + odd);
             self.place(i, once, twice);
@@ -150,7 +150,7 @@ impl States<'_> {
 
     /// From rates that stay as they are at the start.
     fn go_on(&mut self, rates: &[f64]) {
-        let Extent { positions: p, states, .. } = self.extent;
+        let StateLayout { positions: p, states, .. } = self.layout;
         let [once, twice] = [MONOMIALS[0][0], MONOMIALS[1][0]];
         for (i, rate) in rates.iter().enumerate().take(states).skip(p) {
             self.place(i, once * *rate, twice * *rate);
@@ -159,12 +159,12 @@ impl States<'_> {
 
     /// Velocity `i` (or a first-order state) and its position by what the integrals add to them.
     #[inline(always)]
-    fn place(&mut self, i: usize, once: Row, twice: Row) {
-        let Self { start, h, y, extent: Extent { positions: p, .. }, .. } = self;
-        y[i] = once.times_plus(*h, Row::constant(start[i]));
+    fn place(&mut self, i: usize, once: F64x8, twice: F64x8) {
+        let Self { start, h, y, layout: StateLayout { positions: p, .. }, .. } = self;
+        y[i] = once.multiply_add(*h, F64x8::constant(start[i]));
         if i < 2 * *p {
-            let shift = Row::of(NODES) * *h;
-            y[i - *p] = twice.times_plus(*h * *h, shift.times_plus(start[i], Row::constant(start[i - *p])));
+            let shift = F64x8::of(NODES) * *h;
+            y[i - *p] = twice.multiply_add(*h * *h, shift.multiply_add(start[i], F64x8::constant(start[i - *p])));
         }
     }
 }
@@ -188,20 +188,20 @@ impl<D: Copy> Method<D> for Cong8 {
         attempt: &mut Attempt,
     ) -> u64 {
         let Self { history, nodes, y } = self;
-        let extent = system.extent();
-        let Extent { positions: p, states, .. } = extent;
-        let t = Row::of(NODES).times_plus(h, Row::constant(start.t));
-        let mut at_nodes = States { start: &start.y, extent, h, y };
+        let layout = system.layout();
+        let StateLayout { positions: p, states, .. } = layout;
+        let t = F64x8::of(NODES).multiply_add(h, F64x8::constant(start.t));
+        let mut at_nodes = States { start: &start.y, layout, h, y };
         let rounds = if let Some(origin) = history.origin(start.t, h) {
             let ratio = h / (history.end - history.begin);
             if origin == 1 && (ratio - 1.0).abs() < ROUNDING {
                 at_nodes.follow(&AHEAD, |i| (history.start[i], history.nodes[i]));
             } else {
                 let mut powers = [ratio; ROW];
-                each!(true, n in 1..ROW, ROW => {
+                unroll!(true, n in 1..ROW, ROW => {
                     powers[n] = powers[n - 1] * ratio;
                 });
-                let powers = Row::of(powers);
+                let powers = F64x8::of(powers);
                 at_nodes.follow(&MONOMIALS, |i| history.coefficients(origin, powers, i));
             }
             ROUNDS
@@ -221,7 +221,7 @@ impl<D: Copy> Method<D> for Cong8 {
         for i in p..states {
             let (first, at) = (start.rates[i], nodes[i]);
             let late = (rates[i] - at.last()).abs();
-            let top = BENT * TOP.0.times_plus(first, (TOP.1 * at).sum()).abs();
+            let top = BENT * TOP.0.multiply_add(first, (TOP.1 * at).sum()).abs();
             attempt.error[i] = h * (late * LATE[0] + top);
             if i < 2 * p {
                 attempt.error[i - p] = h * h * (late * LATE[1] + 0.3 * top);
@@ -259,7 +259,7 @@ impl<D: Copy> Method<D> for Cong8 {
             [*begin, *end] = reader.reals()?;
             reader.fill(start)?;
             for row in nodes {
-                *row = Row::of(reader.reals()?);
+                *row = F64x8::of(reader.reals()?);
             }
         }
         (*begin <= *end && start.iter().all(|rate| is_kept(*rate))).then_some(())

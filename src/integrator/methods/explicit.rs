@@ -4,7 +4,7 @@
 
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, Properties};
 use crate::integrator::state::StepPoint;
-use crate::integrator::system::{Extent, MAX_STATES, System};
+use crate::integrator::system::{MAX_STATES, StateLayout, System};
 use crate::integrator::tableau::{MAX_STAGES, Tableau};
 use crate::math::Fused;
 use wide::f64x4;
@@ -23,7 +23,7 @@ pub struct Explicit {
     /// Rates at the stages, one stage after the other, and room to read several at a time.
     k: Vec<f64>,
     /// First stage after the first of all that an error estimate weighs.
-    weighed: usize,
+    weighted: usize,
     /// Nodes of the stages before that one over its node.
     shares: [f64; MAX_STAGES],
 }
@@ -31,11 +31,11 @@ pub struct Explicit {
 impl Explicit {
     /// For so many states.
     pub fn new(tableau: &'static Tableau, states: usize) -> Self {
-        let weighed = tableau.first_weighed_stage();
+        let weighted = tableau.first_weighed_stage();
         let properties = Properties {
             name: tableau.name,
             order: tableau.order,
-            adaptive: weighed != 0,
+            adaptive: weighted != 0,
             coarse: tableau.coarse_error.is_some(),
             locates: tableau.locates,
             error_power: tableau.error_power,
@@ -46,7 +46,7 @@ impl Explicit {
             others: &[],
         };
         let k = vec![0.0; tableau.stages * states + EIGHT];
-        Self { tableau, properties, k, weighed, shares: tableau.c.map(|node| node / tableau.c[weighed]) }
+        Self { tableau, properties, k, weighted, shares: tableau.c.map(|node| node / tableau.c[weighted]) }
     }
 
     /// See [`Method::properties`].
@@ -57,12 +57,12 @@ impl Explicit {
     /// The fastest rate that shows in a step made by a method whose last two stages are at the same instant, times the
     /// step: how far their rates are apart over how far their states are (E. Hairer, G. Wanner, Solving Ordinary
     /// Differential Equations II, IV.2, on stiffness detection).
-    pub fn stiffness(&self, extent: Extent, scales: &[f64]) -> f64 {
+    pub fn stiffness(&self, layout: StateLayout, scales: &[f64]) -> f64 {
         let Self { tableau, k, .. } = self;
-        let n = extent.states;
+        let n = layout.states;
         let [before, last] = [tableau.stages - 2, tableau.stages - 1];
         let (mut rates, mut states) = (0.0, 0.0);
-        for (i, scale) in scales.iter().enumerate().take(extent.weighed) {
+        for (i, scale) in scales.iter().enumerate().take(layout.weighted) {
             let weights = tableau.a[last].iter().zip(&tableau.a[before]).map(|(last, before)| last - before);
             let state: f64 = weights.take(last).enumerate().map(|(j, weight)| weight * k[j * n + i]).sum();
             rates += ((k[last * n + i] - k[before * n + i]) / scale).powi(2);
@@ -86,7 +86,7 @@ impl<D: Copy> Method<D> for Explicit {
         end: &mut StepPoint<D>,
         attempt: &mut Attempt,
     ) -> u64 {
-        let Self { tableau, properties, k, weighed, shares } = self;
+        let Self { tableau, properties, k, weighted, shares } = self;
         let n = start.y.len();
         let inner = tableau.inner_stages();
         k[..n].copy_from_slice(&start.rates);
@@ -107,7 +107,7 @@ impl<D: Copy> Method<D> for Explicit {
             if let Some(weights) = &tableau.coarse_error {
                 write_sums(&mut attempt.coarse_error, &ZEROS, h, &weights[..tableau.stages], k);
             }
-            write_unseen(&mut attempt.unseen, h, &shares[..*weighed], k);
+            write_unseen(&mut attempt.unseen, h, &shares[..*weighted], k);
         }
         tableau.stages as u64 - 1
     }
@@ -121,7 +121,7 @@ fn four(list: &[f64]) -> f64x4 {
 
 /// a·b + c.
 #[inline(always)]
-fn times_plus(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+fn multiply_add(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
@@ -152,7 +152,7 @@ fn add(sums: &mut [f64], y: &[f64], changes: &[f64], weight: f64, rates: &[f64])
     if weight == 0.0 {
         all.for_each(|(((sum, y), change), _)| *sum = y + change);
     } else {
-        all.for_each(|(((sum, y), change), rate)| *sum = y + weight.times_plus(*rate, *change));
+        all.for_each(|(((sum, y), change), rate)| *sum = y + weight.multiply_add(*rate, *change));
     }
 }
 
@@ -164,7 +164,7 @@ fn slopes<const FOURS: usize>(weights: &[f64], k: &[f64], n: usize) -> [f64x4; F
         if *weight != 0.0 {
             let (rates, _) = k[j * n..][..FOUR * FOURS].as_chunks::<FOUR>();
             for (slope, rates) in slopes.iter_mut().zip(rates) {
-                *slope = times_plus(f64x4::splat(*weight), f64x4::new(*rates), *slope);
+                *slope = multiply_add(f64x4::splat(*weight), f64x4::new(*rates), *slope);
             }
         }
     }
@@ -173,18 +173,18 @@ fn slopes<const FOURS: usize>(weights: &[f64], k: &[f64], n: usize) -> [f64x4; F
 
 /// What no error estimate sees. A force that sets in early throws the stages after it out of its reach if the step is
 /// far too long; they see nothing, agree with each other, and the estimate is small for a step that missed
-/// everything. The early stages themselves give it away. The `shares` are those of the stages before the first weighed
+/// everything. The early stages themselves give it away. The `shares` are those of the stages before the first weighted
 /// one of its node.
 fn write_unseen(unseen: &mut [f64], h: f64, shares: &[f64], k: &[f64]) {
-    let weighed = shares.len();
+    let weighted = shares.len();
     let n = unseen.len();
-    if weighed <= 1 {
+    if weighted <= 1 {
         unseen.fill(0.0);
         return;
     }
     for (at, unseen) in unseen.chunks_mut(FOUR).enumerate() {
         let stage = |j: usize| four(&k[j * n + FOUR * at..]);
-        let (first, late) = (stage(0), stage(weighed));
+        let (first, late) = (stage(0), stage(weighted));
         let usual = f64x4::splat(0.5) * first.abs().fast_max(late.abs());
         let mut most = f64x4::ZERO;
         for (j, share) in shares.iter().enumerate().skip(1) {

@@ -9,7 +9,7 @@
 use super::linear::Factors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::state::StepPoint;
-use crate::integrator::system::{Extent, Jacobian, System};
+use crate::integrator::system::{Jacobian, StateLayout, System};
 
 /// Stages of the methods here.
 pub const STAGES: usize = 6;
@@ -97,7 +97,7 @@ impl<D: Copy> Method<D> for Rosenbrock {
         attempt: &mut Attempt,
     ) -> u64 {
         let Self { coefficients: method, jacobian, factors, stages: u, .. } = self;
-        let Extent { positions: p, states, .. } = system.extent();
+        let StateLayout { positions: p, states, .. } = system.layout();
         let g = method.gamma * h;
         system.jacobian(&start.discrete, start.t, &start.y, jacobian);
         factors.of(states - p, |i, j| {

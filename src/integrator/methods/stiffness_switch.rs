@@ -14,7 +14,7 @@
 //! explicit method is tried in the same way, and kept while its steps are about as long.
 
 use crate::integrator::method::MethodKind;
-use crate::integrator::system::{Extent, Jacobian, MAX_STATES};
+use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 
 /// How many accepted steps the next look waits for, after a change that paid, and at most.
 const PATIENCE: u32 = 32;
@@ -129,20 +129,20 @@ impl StiffnessSwitch {
 
 /// [1/s] About the fastest rate of a motion near a state with these derivatives of the rates, by powers of their matrix
 /// on a vector without pattern: over an even number of them an oscillation comes back to the phase that it had.
-pub fn fastest(jacobian: &Jacobian, extent: Extent, scales: &[f64]) -> f64 {
-    let Extent { positions, weighed, .. } = extent;
+pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64]) -> f64 {
+    let StateLayout { positions, weighted, .. } = layout;
     let next = |y: &mut [f64; MAX_STATES]| {
         let before = *y;
-        for (i, y) in y.iter_mut().enumerate().take(weighed) {
+        for (i, y) in y.iter_mut().enumerate().take(weighted) {
             *y = if i < positions {
                 before[positions + i]
             } else {
-                jacobian.row(i)[..weighed].iter().zip(&before).map(|(slope, y)| slope * y).sum()
+                jacobian.row(i)[..weighted].iter().zip(&before).map(|(slope, y)| slope * y).sum()
             };
         }
     };
     let square =
-        |y: &[f64; MAX_STATES]| y.iter().zip(scales).take(weighed).map(|(y, scale)| (y / scale).powi(2)).sum::<f64>();
+        |y: &[f64; MAX_STATES]| y.iter().zip(scales).take(weighted).map(|(y, scale)| (y / scale).powi(2)).sum::<f64>();
     let mut y = [0.0; MAX_STATES];
     for (i, (y, scale)) in y.iter_mut().zip(scales).enumerate() {
         *y = scale * (0.5 + (GOLDEN * i as f64).fract());
@@ -162,7 +162,7 @@ pub fn fastest(jacobian: &Jacobian, extent: Extent, scales: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    const EXTENT: Extent = Extent::second_order(4);
+    const EXTENT: StateLayout = StateLayout::second_order(4);
 
     fn of(elastic: [[f64; 2]; 2], damped: [[f64; 2]; 2], scales: [f64; 4]) -> f64 {
         let mut jacobian = Jacobian::new(4);

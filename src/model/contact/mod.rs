@@ -22,7 +22,7 @@ pub use elastic::Elastic;
 pub use elastic_law::{ElasticLaw, PowerLaw};
 pub use linear::Linear;
 
-use super::friction::{Friction, Rubbing};
+use super::friction::{Friction, FrictionResponse};
 use crate::integrator::Discontinuities;
 use crate::math::{self, Real};
 use crate::scene;
@@ -44,7 +44,7 @@ pub struct ContactParameters {
 
 /// The memory of one contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactMode {
+pub struct ContactState {
     /// Closed: δ has risen through zero and not fallen since.
     pub closed: bool,
     /// [m/s] δ̇⁻, while closed.
@@ -53,7 +53,7 @@ pub struct ContactMode {
     pub per_approach: f64,
 }
 
-impl ContactMode {
+impl ContactState {
     /// A contact that closes at the approach speed `rate` [m/s].
     pub fn closing(rate: f64, speed_floor: f64) -> Self {
         let approach = rate.max(speed_floor);
@@ -74,7 +74,7 @@ pub struct Forces<R = f64> {
 
 /// What a contact does to energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Account<R = f64> {
+pub struct ContactEnergy<R = f64> {
     /// [J] Elastic energy.
     pub energy: R,
     /// [W] That normal forces take, f_n·δ̇: the rate of `energy` and what hysteresis loses.
@@ -83,7 +83,7 @@ pub struct Account<R = f64> {
     pub friction_loss: R,
 }
 
-impl<R: Real> std::ops::AddAssign for Account<R> {
+impl<R: Real> std::ops::AddAssign for ContactEnergy<R> {
     fn add_assign(&mut self, other: Self) {
         self.energy += other.energy;
         self.normal_power += other.normal_power;
@@ -111,7 +111,7 @@ impl ContactParameters {
             return R::ZERO;
         }
         let ratio = (rate * per_approach).min(self.ratio_limit);
-        (self.elastic.force(depth.max(0.0)) * ratio.times_plus(self.damping, R::ONE)).max(0.0)
+        (self.elastic.force(depth.max(0.0)) * ratio.multiply_add(self.damping, R::ONE)).max(0.0)
     }
 
     /// Forces at the penetration `depth` [m], its `rate` [m/s], the bristles' deflection `z` [m] and the sliding speed
@@ -150,33 +150,39 @@ impl ContactParameters {
         if self.friction == Friction::None {
             return Forces { normal, ..Forces::default() };
         }
-        let Rubbing { ratio, bristle_rate } = self.friction.rub(sliding(), z);
+        let FrictionResponse { ratio, bristle_rate } = self.friction.response(sliding(), z);
         Forces { normal, tangential: normal * ratio, bristle_rate }
     }
 
     /// The account of the [`forces`](Self::forces) of the same arguments: what the bodies lose to it is f_n·δ̇ + f_t·v_t.
-    pub fn account<R: Real>(&self, per_approach: f64, depth: R, rate: R, z: R, sliding: R) -> Account<R> {
+    pub fn contact_energy<R: Real>(&self, per_approach: f64, depth: R, rate: R, z: R, sliding: R) -> ContactEnergy<R> {
         let Forces { normal, tangential, .. } = self.forces(per_approach, depth, rate, z, || sliding);
-        Account {
+        ContactEnergy {
             energy: self.elastic.energy(depth.max(0.0)),
             normal_power: normal * rate,
             friction_loss: tangential * sliding,
         }
     }
 
-    /// Adds the kinks of the force in the closed contact of memory `mode`, whose penetration grows at `rate` [m/s] and
+    /// Adds the discontinuities of the force in the closed contact of memory `state`, whose penetration grows at `rate` [m/s] and
     /// whose surfaces slide at `sliding` [m/s]: where s reaches its limit, where the force is cut off at 0, where the
     /// friction law has corners.
-    pub fn kinks(&self, mode: &ContactMode, rate: f64, sliding: f64, kinks: &mut Discontinuities) {
+    pub fn discontinuities(
+        &self,
+        state: &ContactState,
+        rate: f64,
+        sliding: f64,
+        discontinuities: &mut Discontinuities,
+    ) {
         if self.damping > 0.0 {
-            kinks.push(rate + mode.approach / self.damping);
+            discontinuities.push(rate + state.approach / self.damping);
             if self.ratio_limit.is_finite() {
-                kinks.push(rate - mode.approach * self.ratio_limit);
+                discontinuities.push(rate - state.approach * self.ratio_limit);
             }
         }
         for corner in self.friction.corners().into_iter().flatten() {
-            kinks.push(sliding - corner);
-            kinks.push(sliding + corner);
+            discontinuities.push(sliding - corner);
+            discontinuities.push(sliding + corner);
         }
     }
 

@@ -4,7 +4,7 @@
 //!
 //! Limits: no force below v0, so that nothing sticks: what rests under a force creeps at a speed between v0 and v1.
 
-use super::law::{Law, Rubbing};
+use super::law::{Law, FrictionResponse};
 use crate::math::Real;
 use crate::scene;
 
@@ -28,9 +28,9 @@ impl Law for Ambrosio {
     }
 
     #[inline(always)]
-    fn rub<R: Real>(&self, v: R, _: R) -> Rubbing<R> {
+    fn response<R: Real>(&self, v: R, _: R) -> FrictionResponse<R> {
         let ramp = ((v.abs() - self.v0) * self.per_width).clamp(0.0, 1.0);
-        Rubbing::without_bristles((ramp * self.kinetic).copysign(v))
+        FrictionResponse::without_bristles((ramp * self.kinetic).copysign(v))
     }
 
     fn corners(&self) -> [Option<f64>; 2] {

@@ -5,14 +5,14 @@ use crate::scene;
 
 /// What sliding does to a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rubbing<R = f64> {
+pub struct FrictionResponse<R = f64> {
     /// f_t/f_n.
     pub ratio: R,
     /// [m/s] Rate of the bristles' deflection; 0 of a law without them.
     pub bristle_rate: R,
 }
 
-impl<R: Real> Rubbing<R> {
+impl<R: Real> FrictionResponse<R> {
     /// Of a law without bristles.
     #[inline(always)]
     pub(super) fn without_bristles(ratio: R) -> Self {
@@ -26,7 +26,7 @@ pub trait Law: Copy {
     /// Of this friction.
     fn new(friction: &scene::Friction) -> Self;
     /// At the sliding speed `v` [m/s], with the bristles deflected by `z` [m].
-    fn rub<R: Real>(&self, v: R, z: R) -> Rubbing<R>;
+    fn response<R: Real>(&self, v: R, z: R) -> FrictionResponse<R>;
     /// [m/s] Sliding speeds at which the law has corners.
     fn corners(&self) -> [Option<f64>; 2] {
         [None; 2]

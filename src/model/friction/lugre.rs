@@ -7,15 +7,15 @@
 //!
 //! Limits: needs 0 < μ_k ≤ μ_s. Large σ0 is stiff: bristles at rest let go at z = μ_s/σ0.
 
-use super::law::{Law, Rubbing};
-use super::stribeck::Falling;
+use super::law::{Law, FrictionResponse};
+use super::stribeck::StribeckCurve;
 use crate::math::Real;
 use crate::scene;
 
 /// σ0·z + σ1·exp(−(v/v_s)²)·ż + σ2·v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lugre {
-    steady: Falling,
+    steady: StribeckCurve,
     /// [1/m] σ0.
     sigma0: f64,
     /// [s/m] σ1.
@@ -27,13 +27,13 @@ pub struct Lugre {
 impl Law for Lugre {
     fn new(friction: &scene::Friction) -> Self {
         let scene::Friction { sigma0, sigma1, sigma2, .. } = *friction;
-        Self { steady: Falling::new(friction), sigma0, sigma1, sigma2 }
+        Self { steady: StribeckCurve::new(friction), sigma0, sigma1, sigma2 }
     }
 
-    fn rub<R: Real>(&self, v: R, z: R) -> Rubbing<R> {
+    fn response<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
         let fading = self.steady.fading(v);
         let rate = v - v.abs() * self.sigma0 * z / self.steady.at(fading);
-        Rubbing { ratio: z * self.sigma0 + fading * self.sigma1 * rate + v * self.sigma2, bristle_rate: rate }
+        FrictionResponse { ratio: z * self.sigma0 + fading * self.sigma1 * rate + v * self.sigma2, bristle_rate: rate }
     }
 
     fn greatest_deflection(&self) -> Option<f64> {

@@ -8,7 +8,7 @@ include!(concat!(env!("OUT_DIR"), "/friction_laws.rs"));
 
 mod law;
 
-pub use law::{Law, Rubbing};
+pub use law::{FrictionResponse, Law};
 
 use crate::math::Real;
 use crate::scene;
@@ -38,10 +38,10 @@ macro_rules! friction {
             /// Any law's, out of line: a call costs the common laws nothing.
             #[cold]
             #[inline(never)]
-            fn rub_rarely<R: Real>(&self, v: R, z: R) -> Rubbing<R> {
+            fn rub_rarely<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
                 match self {
-                    Self::None => Rubbing::default(),
-                    $(Self::$law(law) => law.rub(v, z),)+
+                    Self::None => FrictionResponse::default(),
+                    $(Self::$law(law) => law.response(v, z),)+
                 }
             }
 
@@ -69,9 +69,9 @@ friction_laws!(friction);
 impl Friction {
     /// At the sliding speed `v` [m/s], with the bristles deflected by `z` [m].
     #[inline(always)]
-    pub fn rub<R: Real>(&self, v: R, z: R) -> Rubbing<R> {
+    pub fn response<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
         match self {
-            Self::Ambrosio(law) => law.rub(v, z),
+            Self::Ambrosio(law) => law.response(v, z),
             _ => self.rub_rarely(v, z),
         }
     }

@@ -6,21 +6,21 @@
 //!
 //! Limits: nothing sticks: what rests under a force creeps. With v1 near v_s the peak stays below μ_s.
 
-use super::law::{Law, Rubbing};
+use super::law::{Law, FrictionResponse};
 use crate::math::{self, Real};
 use crate::scene;
 
 /// μ(v)·tanh(v/v1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stribeck {
-    coefficient: Falling,
+    coefficient: StribeckCurve,
     /// [s/m] 1/v1.
     per_width: f64,
 }
 
 /// A coefficient between μ_s at rest and μ_k.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Falling {
+pub struct StribeckCurve {
     /// μ_k.
     kinetic: f64,
     /// μ_s.
@@ -29,7 +29,7 @@ pub struct Falling {
     per_stribeck: f64,
 }
 
-impl Falling {
+impl StribeckCurve {
     /// Of the scene's friction.
     pub fn new(friction: &scene::Friction) -> Self {
         Self {
@@ -55,11 +55,11 @@ impl Falling {
 
 impl Law for Stribeck {
     fn new(friction: &scene::Friction) -> Self {
-        Self { coefficient: Falling::new(friction), per_width: 1.0 / friction.v1 }
+        Self { coefficient: StribeckCurve::new(friction), per_width: 1.0 / friction.v1 }
     }
 
-    fn rub<R: Real>(&self, v: R, _: R) -> Rubbing<R> {
+    fn response<R: Real>(&self, v: R, _: R) -> FrictionResponse<R> {
         let coefficient = self.coefficient.at(self.coefficient.fading(v));
-        Rubbing::without_bristles(coefficient * math::tanh(v * self.per_width))
+        FrictionResponse::without_bristles(coefficient * math::tanh(v * self.per_width))
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Limits: nothing sticks: what rests under a force creeps.
 
-use super::law::{Law, Rubbing};
+use super::law::{Law, FrictionResponse};
 use crate::math::{self, Real};
 use crate::scene;
 
@@ -20,7 +20,7 @@ impl Law for Tanh {
         Self { kinetic: friction.coefficient, per_width: 1.0 / friction.v1 }
     }
 
-    fn rub<R: Real>(&self, v: R, _: R) -> Rubbing<R> {
-        Rubbing::without_bristles(math::tanh(v * self.per_width) * self.kinetic)
+    fn response<R: Real>(&self, v: R, _: R) -> FrictionResponse<R> {
+        FrictionResponse::without_bristles(math::tanh(v * self.per_width) * self.kinetic)
     }
 }

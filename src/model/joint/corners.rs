@@ -1,10 +1,10 @@
 //! The slider's four corners as contacts of their own.
 
-use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, Touch};
-use super::revolute::guard;
+use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, SurfaceContact};
+use super::revolute::event_function;
 use crate::integrator::EventFunction;
 use crate::math::Real;
-use crate::model::contact::{ContactMode, Elastic};
+use crate::model::contact::{ContactState, Elastic};
 
 /// Each corner is a contact of its own.
 pub(super) struct Corners;
@@ -13,19 +13,19 @@ impl Surface for Corners {
     const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 1, 2, 3];
 
     #[inline(always)]
-    fn touch<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> Touch<R> {
+    fn touch<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> SurfaceContact<R> {
         rectangle.corners[k].touch(pose)
     }
 
     fn approach(rectangle: &Rectangle, k: usize, pose: &SliderPose) -> (f64, f64) {
-        let Touch { depth, rate, .. } = rectangle.corners[k].touch(pose);
+        let SurfaceContact { depth, rate, .. } = rectangle.corners[k].touch(pose);
         (depth, rate)
     }
 
-    fn guards(rectangle: &Rectangle, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
+    fn event_functions(rectangle: &Rectangle, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS] {
         std::array::from_fn(|k| {
-            let Touch { depth, rate, .. } = rectangle.corners[k].touch(pose);
-            guard(&modes[k], depth, rate)
+            let SurfaceContact { depth, rate, .. } = rectangle.corners[k].touch(pose);
+            event_function(&states[k], depth, rate)
         })
     }
 

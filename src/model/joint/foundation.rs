@@ -8,18 +8,18 @@
 //! pressure: force times that rate is just the rate of the elastic energy, so that damping never gives
 //! energy back. Force and friction act there.
 
-use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, Touch};
+use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, SurfaceContact};
 use crate::integrator::EventFunction;
 use crate::math::{self, Real};
 use crate::model::contact::compliance::compliance;
-use crate::model::contact::{ContactMode, Elastic};
+use crate::model::contact::{ContactState, Elastic};
 use crate::model::plane::Vec2;
 use crate::scene::Scene;
 use std::f64::consts::PI;
 
 /// The penetration of a face: δ(x) = middle + slope·x, |x| ≤ half.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bed<R = f64> {
+pub struct FacePenetration<R = f64> {
     /// [m] a, half the face's length.
     pub half: f64,
     /// [m] δ in the middle.
@@ -30,14 +30,14 @@ pub struct Bed<R = f64> {
 
 /// The part of a bed that is pressed in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pressed<R = f64> {
+pub struct ContactZone<R = f64> {
     /// [m] ∫max(0, δ)dx/(2a).
     pub mean: R,
     /// [m] x of the centre of pressure, ∫x·max(0, δ)dx/∫max(0, δ)dx.
     pub centre: R,
 }
 
-impl<R: Real> Bed<R> {
+impl<R: Real> FacePenetration<R> {
     /// δ at the end that lies deeper and at the other.
     #[inline(always)]
     fn ends(&self) -> (R, R) {
@@ -47,22 +47,22 @@ impl<R: Real> Bed<R> {
 
     /// Mean penetration and centre of pressure; 0 where nothing is pressed in.
     #[inline(always)]
-    pub fn pressed(&self) -> Pressed<R> {
+    pub fn pressed(&self) -> ContactZone<R> {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
         // A trapezoid. Parallel faces make no difference of large numbers here.
-        let trapezoid = || Pressed { mean: middle, centre: slope * half / middle * (half / 3.0) };
+        let trapezoid = || ContactZone { mean: middle, centre: slope * half / middle * (half / 3.0) };
         // A triangle of this length at the deeper end.
         let triangle = || {
             let length = deep / slope.abs();
-            Pressed { mean: deep * length / (4.0 * half), centre: (-(length / 3.0) + half).copysign(slope) }
+            ContactZone { mean: deep * length / (4.0 * half), centre: (-(length / 3.0) + half).copysign(slope) }
         };
         if R::MANY {
             let (whole, part) = (trapezoid(), triangle());
             let of = |whole: R, part: R| (-deep).choose(|| R::ZERO, || (-shallow).choose(|| part, || whole));
-            Pressed { mean: of(whole.mean, part.mean), centre: of(whole.centre, part.centre) }
+            ContactZone { mean: of(whole.mean, part.mean), centre: of(whole.centre, part.centre) }
         } else if deep <= 0.0 {
-            Pressed::default()
+            ContactZone::default()
         } else if shallow >= 0.0 {
             trapezoid()
         } else {
@@ -112,14 +112,18 @@ pub(super) struct Faces;
 
 impl Faces {
     #[inline(always)]
-    fn bed<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> Bed<R> {
+    fn bed<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> FacePenetration<R> {
         let middle = &rectangle.middles[face];
-        Bed { half: rectangle.half_length, middle: middle.touch(pose).depth, slope: pose.rotation.sin * -middle.normal }
+        FacePenetration {
+            half: rectangle.half_length,
+            middle: middle.touch(pose).depth,
+            slope: pose.rotation.sin * -middle.normal,
+        }
     }
 
     /// The two ends of a face.
     #[inline(always)]
-    fn ends(rectangle: &Rectangle, face: usize, pose: &SliderPose) -> [Touch; 2] {
+    fn ends(rectangle: &Rectangle, face: usize, pose: &SliderPose) -> [SurfaceContact; 2] {
         [rectangle.corners[2 * face].touch(pose), rectangle.corners[2 * face + 1].touch(pose)]
     }
 }
@@ -128,11 +132,11 @@ impl Surface for Faces {
     const CONTACT_OF_CORNER: [usize; CORNERS] = [0, 0, 1, 1];
 
     #[inline(always)]
-    fn touch<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> Touch<R> {
-        let Pressed { mean, centre } = Self::bed(rectangle, face, pose).pressed();
+    fn touch<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> SurfaceContact<R> {
+        let ContactZone { mean, centre } = Self::bed(rectangle, face, pose).pressed();
         let middle = &rectangle.middles[face];
         let offset = Vec2::new(centre + middle.offset.x, R::constant(middle.offset.y));
-        Touch { depth: mean, ..middle.touch_at(offset, pose) }
+        SurfaceContact { depth: mean, ..middle.touch_at(offset, pose) }
     }
 
     fn approach(rectangle: &Rectangle, face: usize, pose: &SliderPose) -> (f64, f64) {
@@ -140,21 +144,21 @@ impl Surface for Faces {
         (front.depth.max(rear.depth), front.rate.max(rear.rate))
     }
 
-    /// An open face closes with either of its corners and has a guard for each; a closed one opens
+    /// An open face closes with either of its corners and has a event function for each; a closed one opens
     /// with the deeper one.
-    fn guards(rectangle: &Rectangle, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
-        let mut guards = [EventFunction { value: 1.0, rate: 0.0 }; CORNERS];
-        for (face, pair) in guards.chunks_exact_mut(2).enumerate() {
+    fn event_functions(rectangle: &Rectangle, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS] {
+        let mut event_functions = [EventFunction { value: 1.0, rate: 0.0 }; CORNERS];
+        for (face, pair) in event_functions.chunks_exact_mut(2).enumerate() {
             let [front, rear] =
                 Self::ends(rectangle, face, pose).map(|end| EventFunction { value: end.depth, rate: end.rate });
-            if modes[face].closed {
+            if states[face].closed {
                 let front_is_deeper = (front.value, front.rate) > (rear.value, rear.rate);
                 pair[0] = if front_is_deeper { front } else { rear };
             } else {
                 pair.copy_from_slice(&[front, rear].map(|end| EventFunction { value: -end.value, rate: -end.rate }));
             }
         }
-        guards
+        event_functions
     }
 
     fn energy<R: Real>(rectangle: &Rectangle, elastic: &Elastic, face: usize, pose: &SliderPose<R>) -> R {

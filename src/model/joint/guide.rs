@@ -7,10 +7,10 @@
 
 use super::corners::Corners;
 use super::foundation::{self, Faces};
-use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, Touch};
+use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, SurfaceContact};
 use crate::integrator::{Discontinuities, EventFunction, Triggered};
 use crate::math::Real;
-use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces, Hertz, Linear};
+use crate::model::contact::{ContactEnergy, ContactParameters, ContactState, Elastic, Forces, Hertz, Linear};
 use crate::model::plane::{Rotation, Vec2, cross};
 use crate::scene;
 
@@ -61,7 +61,7 @@ macro_rules! of_surface {
 #[inline(never)]
 fn load<R: Real, S: Surface>(
     g: &Guide,
-    modes: &[ContactMode],
+    states: &[ContactState],
     height: R,
     pin_velocity: Vec2<R>,
     rotation: Rotation<R>,
@@ -72,11 +72,11 @@ fn load<R: Real, S: Surface>(
 ) -> Vec2<R> {
     let pose = &SliderPose { pin: Vec2::new(R::ZERO, height), pin_velocity, rotation, speed };
     let mut load = Load::default();
-    for (k, mode) in modes.iter().enumerate().take(S::CONTACTS) {
-        if mode.closed {
-            let Touch { arm, normal, depth, rate, sliding } = S::touch(&g.rectangle, k, pose);
+    for (k, state) in states.iter().enumerate().take(S::CONTACTS) {
+        if state.closed {
+            let SurfaceContact { arm, normal, depth, rate, sliding } = S::touch(&g.rectangle, k, pose);
             let Forces { normal: pressure, tangential, bristle_rate: moving } =
-                g.contact.forces(mode.per_approach, depth, rate, z[k], || sliding);
+                g.contact.forces(state.per_approach, depth, rate, z[k], || sliding);
             bristle_rate[k] = moving;
             let force = Vec2::new(-tangential, pressure * normal);
             load.force += force;
@@ -92,12 +92,17 @@ fn approaches<S: Surface>(guide: &Guide, pose: &SliderPose) -> [(f64, f64); CORN
     std::array::from_fn(|k| if k < S::CONTACTS { S::approach(&guide.rectangle, k, pose) } else { none })
 }
 
-fn account<R: Real, S: Surface>(g: &Guide, modes: &[ContactMode], pose: &SliderPose<R>, z: &Bristles<R>) -> Account<R> {
-    let mut sum = Account::default();
-    for (k, mode) in modes.iter().enumerate().take(S::CONTACTS).filter(|(_, mode)| mode.closed) {
-        let Touch { depth, rate, sliding, .. } = S::touch(&g.rectangle, k, pose);
-        let account = g.contact.account(mode.per_approach, depth, rate, z[k], sliding);
-        sum += Account { energy: S::energy(&g.rectangle, &g.contact.elastic, k, pose), ..account };
+fn contact_energy<R: Real, S: Surface>(
+    g: &Guide,
+    states: &[ContactState],
+    pose: &SliderPose<R>,
+    z: &Bristles<R>,
+) -> ContactEnergy<R> {
+    let mut sum = ContactEnergy::default();
+    for (k, state) in states.iter().enumerate().take(S::CONTACTS).filter(|(_, state)| state.closed) {
+        let SurfaceContact { depth, rate, sliding, .. } = S::touch(&g.rectangle, k, pose);
+        let contact_energy = g.contact.contact_energy(state.per_approach, depth, rate, z[k], sliding);
+        sum += ContactEnergy { energy: S::energy(&g.rectangle, &g.contact.elastic, k, pose), ..contact_energy };
     }
     sum
 }
@@ -129,19 +134,19 @@ impl Guide {
     }
 
     /// The events at which the contacts change.
-    pub fn guards(&self, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS] {
-        of_surface!(self, S => S::guards(&self.rectangle, modes, pose))
+    pub fn event_functions(&self, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS] {
+        of_surface!(self, S => S::event_functions(&self.rectangle, states, pose))
     }
 
-    /// Adds the kinks of the closed contacts' forces.
-    pub fn kinks(&self, modes: &[ContactMode], pose: &SliderPose, kinks: &mut Discontinuities) {
-        for (k, mode) in modes.iter().enumerate().filter(|(_, mode)| mode.closed) {
-            let Touch { rate, sliding, .. } = of_surface!(self, S => S::touch(&self.rectangle, k, pose));
-            self.contact.kinks(mode, rate, sliding, kinks);
+    /// Adds the discontinuities of the closed contacts' forces.
+    pub fn discontinuities(&self, states: &[ContactState], pose: &SliderPose, discontinuities: &mut Discontinuities) {
+        for (k, state) in states.iter().enumerate().filter(|(_, state)| state.closed) {
+            let SurfaceContact { rate, sliding, .. } = of_surface!(self, S => S::touch(&self.rectangle, k, pose));
+            self.contact.discontinuities(state, rate, sliding, discontinuities);
         }
     }
 
-    /// Which of the joints' and the guide's contacts change when these guards have fallen.
+    /// Which of the joints' and the guide's contacts change when these event functions have fallen.
     pub fn contacts_of(&self, crossed: &Triggered) -> Triggered {
         let mut contacts = *crossed;
         contacts[3..].fill(false);
@@ -156,16 +161,16 @@ impl Guide {
     #[inline(always)]
     pub fn load<R: Real>(
         &self,
-        modes: &[ContactMode],
+        states: &[ContactState],
         pose: &SliderPose<R>,
         z: &[R; GUIDE_CONTACTS],
         bristle_rate: &mut [R; GUIDE_CONTACTS],
     ) -> Load<R> {
-        if modes.iter().any(|mode| mode.closed) {
+        if states.iter().any(|state| state.closed) {
             let SliderPose { pin, pin_velocity, rotation, speed } = *pose;
             let mut couple = R::ZERO;
             let force = of_surface!(self, S => {
-                load::<R, S>(self, modes, pin.y, pin_velocity, rotation, speed, z, bristle_rate, &mut couple)
+                load::<R, S>(self, states, pin.y, pin_velocity, rotation, speed, z, bristle_rate, &mut couple)
             });
             Load { force, couple }
         } else {
@@ -174,8 +179,13 @@ impl Guide {
     }
 
     /// Energy and losses of the closed contacts, whose bristles are deflected by `z` [m].
-    pub fn account<R: Real>(&self, modes: &[ContactMode], pose: &SliderPose<R>, z: &[R; GUIDE_CONTACTS]) -> Account<R> {
-        of_surface!(self, S => account::<R, S>(self, modes, pose, z))
+    pub fn contact_energy<R: Real>(
+        &self,
+        states: &[ContactState],
+        pose: &SliderPose<R>,
+        z: &[R; GUIDE_CONTACTS],
+    ) -> ContactEnergy<R> {
+        of_surface!(self, S => contact_energy::<R, S>(self, states, pose, z))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::integrator::EventFunction;
 use crate::math::{Fused, Real};
-use crate::model::contact::{ContactMode, Elastic};
+use crate::model::contact::{ContactState, Elastic};
 use crate::model::plane::{Rotation, Vec2};
 use crate::scene::Scene;
 use std::ops::Mul;
@@ -25,7 +25,7 @@ pub struct SliderPose<R = f64> {
 
 /// A point of the slider and the line that it may touch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Mark {
+pub(super) struct CornerOnLine {
     /// [m] From the pin, in the slider's axes.
     pub offset: Vec2,
     /// Of the line's inner normal: −1 for the upper line, +1 for the lower.
@@ -35,10 +35,10 @@ pub(super) struct Mark {
 }
 
 /// Where a contact's force acts, and the motion of the slider's material there.
-pub(super) struct Touch<R = f64> {
+pub(super) struct SurfaceContact<R = f64> {
     /// [m] From the pin.
     pub arm: Vec2<R>,
-    /// Of the line's inner normal, as in [`Mark`].
+    /// Of the line's inner normal, as in [`CornerOnLine`].
     pub normal: f64,
     /// [m] Penetration; a face's mean.
     pub depth: R,
@@ -48,10 +48,10 @@ pub(super) struct Touch<R = f64> {
     pub sliding: R,
 }
 
-impl Mark {
+impl CornerOnLine {
     /// The contact of this point alone.
     #[inline(always)]
-    pub fn touch<R: Real>(&self, pose: &SliderPose<R>) -> Touch<R> {
+    pub fn touch<R: Real>(&self, pose: &SliderPose<R>) -> SurfaceContact<R> {
         self.touch_at(self.offset, pose)
     }
 
@@ -61,14 +61,14 @@ impl Mark {
         &self,
         offset: Vec2<S>,
         pose: &SliderPose<R>,
-    ) -> Touch<R> {
+    ) -> SurfaceContact<R> {
         let arm = pose.rotation.apply(offset);
-        Touch {
+        SurfaceContact {
             arm,
             normal: self.normal,
             depth: (-(pose.pin.y + arm.y) + self.line) * self.normal,
-            rate: pose.speed.times_plus(arm.x, pose.pin_velocity.y) * -self.normal,
-            sliding: (-pose.speed).times_plus(arm.y, pose.pin_velocity.x),
+            rate: pose.speed.multiply_add(arm.x, pose.pin_velocity.y) * -self.normal,
+            sliding: (-pose.speed).multiply_add(arm.y, pose.pin_velocity.x),
         }
     }
 }
@@ -77,9 +77,9 @@ impl Mark {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
     /// Its corners: the upper ones, then the lower ones.
-    pub corners: [Mark; CORNERS],
+    pub corners: [CornerOnLine; CORNERS],
     /// Middles of the upper and of the lower face.
-    pub middles: [Mark; 2],
+    pub middles: [CornerOnLine; 2],
     /// [m] a.
     pub half_length: f64,
 }
@@ -90,7 +90,7 @@ impl Rectangle {
         let slider = &scene.slider;
         let (a, b) = (0.5 * slider.length, 0.5 * slider.height);
         let reach = b + scene.joint.t.clearance;
-        let mark = |x: f64, side: f64| Mark {
+        let mark = |x: f64, side: f64| CornerOnLine {
             offset: Vec2::new(slider.centre.x + x, slider.centre.y + side * b),
             normal: -side,
             line: scene.guide.offset + side * reach,
@@ -110,11 +110,11 @@ pub(super) trait Surface {
     /// How many contacts there are.
     const CONTACTS: usize = Self::CONTACT_OF_CORNER[CORNERS - 1] + 1;
     /// Contact `k` as its force law needs it.
-    fn touch<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> Touch<R>;
+    fn touch<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> SurfaceContact<R>;
     /// [m], [m/s] Greatest penetration in contact `k`, and the approach speed if it closes now.
     fn approach(rectangle: &Rectangle, k: usize, pose: &SliderPose) -> (f64, f64);
     /// The events at which contacts change, each at the place of a corner.
-    fn guards(rectangle: &Rectangle, modes: &[ContactMode], pose: &SliderPose) -> [EventFunction; CORNERS];
+    fn event_functions(rectangle: &Rectangle, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS];
     /// [J] Elastic energy of contact `k` under this law.
     fn energy<R: Real>(rectangle: &Rectangle, elastic: &Elastic, k: usize, pose: &SliderPose<R>) -> R;
 }

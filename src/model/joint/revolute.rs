@@ -6,14 +6,14 @@
 
 use crate::integrator::{Discontinuities, EventFunction};
 use crate::math::Real;
-use crate::model::contact::{Account, ContactMode, ContactParameters, Elastic, Forces};
+use crate::model::contact::{ContactEnergy, ContactParameters, ContactState, Elastic, Forces};
 use crate::model::friction::Friction;
 use crate::model::plane::{Vec2, perp};
 use crate::scene;
 
 /// Where the journal is in its bearing, and how both move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Play<R = f64> {
+pub struct JournalMotion<R = f64> {
     /// [m] e.
     pub eccentricity: Vec2<R>,
     /// [m/s] ė.
@@ -24,7 +24,7 @@ pub struct Play<R = f64> {
     pub bearing_speed: R,
 }
 
-impl<R: Real> Play<R> {
+impl<R: Real> JournalMotion<R> {
     /// ε [m] and n; none where the journal is centred and n undefined.
     #[inline(always)]
     pub(super) fn distance_and_normal(&self) -> Option<(R, Vec2<R>)> {
@@ -75,63 +75,73 @@ impl Revolute {
 
     /// [m] δ, negative when open.
     #[inline(always)]
-    pub fn penetration(&self, play: &Play) -> f64 {
-        play.eccentricity.norm() - self.clearance
+    pub fn penetration(&self, journal: &JournalMotion) -> f64 {
+        journal.eccentricity.norm() - self.clearance
     }
 
     /// [m/s] δ̇; 0 where the journal is centred and n undefined.
     #[inline(always)]
-    pub fn penetration_rate(&self, play: &Play) -> f64 {
-        let epsilon = play.eccentricity.norm();
-        if epsilon > 0.0 { play.rate.dot(play.eccentricity) / epsilon } else { 0.0 }
+    pub fn penetration_rate(&self, journal: &JournalMotion) -> f64 {
+        let epsilon = journal.eccentricity.norm();
+        if epsilon > 0.0 { journal.rate.dot(journal.eccentricity) / epsilon } else { 0.0 }
     }
 
     /// The event at which the contact changes: closing when open, opening when closed.
     #[inline(always)]
-    pub fn guard(&self, mode: &ContactMode, play: &Play) -> EventFunction {
-        guard(mode, self.penetration(play), self.penetration_rate(play))
+    pub fn event_function(&self, state: &ContactState, journal: &JournalMotion) -> EventFunction {
+        event_function(state, self.penetration(journal), self.penetration_rate(journal))
     }
 
-    /// Adds the kinks of the closed contact's force.
-    pub fn kinks(&self, mode: &ContactMode, play: &Play, kinks: &mut Discontinuities) {
-        let epsilon = play.eccentricity.norm().max(f64::MIN_POSITIVE);
-        let n = play.eccentricity / epsilon;
-        self.contact.kinks(mode, play.rate.dot(n), self.sliding(play, epsilon, perp(n)), kinks);
+    /// Adds the discontinuities of the closed contact's force.
+    pub fn discontinuities(
+        &self,
+        state: &ContactState,
+        journal: &JournalMotion,
+        discontinuities: &mut Discontinuities,
+    ) {
+        let epsilon = journal.eccentricity.norm().max(f64::MIN_POSITIVE);
+        let n = journal.eccentricity / epsilon;
+        self.contact.discontinuities(
+            state,
+            journal.rate.dot(n),
+            self.sliding(journal, epsilon, perp(n)),
+            discontinuities,
+        );
     }
 
     /// [m/s] v_t at the contact point, ε from the bearing's centre along the normal of tangent `t`.
     #[inline(always)]
-    pub(super) fn sliding<R: Real>(&self, play: &Play<R>, epsilon: R, t: Vec2<R>) -> R {
-        let journal = (-epsilon + self.radius).times_plus(play.journal_speed, play.rate.dot(t));
-        (-play.bearing_speed).times_plus(self.radius, journal)
+    pub(super) fn sliding<R: Real>(&self, journal: &JournalMotion<R>, epsilon: R, t: Vec2<R>) -> R {
+        let journal_part = (-epsilon + self.radius).multiply_add(journal.journal_speed, journal.rate.dot(t));
+        (-journal.bearing_speed).multiply_add(self.radius, journal_part)
     }
 
     /// Energy and losses of the closed contact with its bristles deflected by `z` [m].
-    pub fn account<R: Real>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Account<R> {
-        let Some((epsilon, n)) = play.distance_and_normal() else {
-            return Account::default();
+    pub fn contact_energy<R: Real>(&self, state: &ContactState, journal: &JournalMotion<R>, z: R) -> ContactEnergy<R> {
+        let Some((epsilon, n)) = journal.distance_and_normal() else {
+            return ContactEnergy::default();
         };
-        let sliding = self.sliding(play, epsilon, perp(n));
-        let (depth, rate) = (epsilon - self.clearance, play.rate.dot(n));
-        self.contact.account(mode.per_approach, depth, rate, z, sliding)
+        let sliding = self.sliding(journal, epsilon, perp(n));
+        let (depth, rate) = (epsilon - self.clearance, journal.rate.dot(n));
+        self.contact.contact_energy(state.per_approach, depth, rate, z, sliding)
     }
 
     /// The load of the closed contact with its bristles deflected by `z` [m].
     #[inline(always)]
-    pub fn load<R: Real>(&self, mode: &ContactMode, play: &Play<R>, z: R) -> Load<R> {
-        let Some((epsilon, n)) = play.distance_and_normal() else {
+    pub fn load<R: Real>(&self, state: &ContactState, journal: &JournalMotion<R>, z: R) -> Load<R> {
+        let Some((epsilon, n)) = journal.distance_and_normal() else {
             return Load::default();
         };
         let contact = &self.contact;
-        let (depth, rate) = (epsilon - self.clearance, play.rate.dot(n));
+        let (depth, rate) = (epsilon - self.clearance, journal.rate.dot(n));
         let t = perp(n);
         let Forces { normal, tangential, bristle_rate } =
-            contact.forces(mode.per_approach, depth, rate, z, || self.sliding(play, epsilon, t));
+            contact.forces(state.per_approach, depth, rate, z, || self.sliding(journal, epsilon, t));
         if contact.friction == Friction::None {
             return Load { force: -normal * n, ..Load::default() };
         }
         Load {
-            force: n.times_plus(-normal, -tangential * t),
+            force: n.multiply_add(-normal, -tangential * t),
             journal_couple: (epsilon - self.radius) * tangential,
             bearing_couple: tangential * self.radius,
             bristle_rate,
@@ -141,6 +151,6 @@ impl Revolute {
 
 /// −δ of an open contact, δ of a closed one.
 #[inline(always)]
-pub fn guard(mode: &ContactMode, depth: f64, rate: f64) -> EventFunction {
-    if mode.closed { EventFunction { value: depth, rate } } else { EventFunction { value: -depth, rate: -rate } }
+pub fn event_function(state: &ContactState, depth: f64, rate: f64) -> EventFunction {
+    if state.closed { EventFunction { value: depth, rate } } else { EventFunction { value: -depth, rate: -rate } }
 }

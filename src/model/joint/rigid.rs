@@ -6,12 +6,12 @@
 
 use super::guide::{Guide, Load};
 use super::rectangle::SliderPose;
-use super::revolute::{self, Play, Revolute};
+use super::revolute::{self, JournalMotion, Revolute};
 use crate::model::plane::{Vec2, cross, perp};
 
 impl Revolute {
     /// [m/s] Rate of the gap, and v_t; 0 where the journal is centred and n undefined.
-    pub fn contact_velocity(&self, play: &Play) -> [f64; 2] {
+    pub fn contact_velocity(&self, play: &JournalMotion) -> [f64; 2] {
         let Some((epsilon, n)) = play.distance_and_normal() else {
             return [0.0; 2];
         };
@@ -19,7 +19,7 @@ impl Revolute {
     }
 
     /// The load of the forces `normal` and `tangential` [N] on the journal at the contact point.
-    pub fn rigid_load(&self, play: &Play, [normal, tangential]: [f64; 2]) -> revolute::Load {
+    pub fn rigid_load(&self, play: &JournalMotion, [normal, tangential]: [f64; 2]) -> revolute::Load {
         let Some((epsilon, n)) = play.distance_and_normal() else {
             return revolute::Load::default();
         };

@@ -53,7 +53,7 @@ impl Counts {
 }
 
 /// What is known of a rod's counts where code is compiled.
-pub trait Counted {
+pub trait CompiledCounts {
     /// The counts, where they are known.
     const COUNTS: Option<Counts>;
     /// They are known: loops over modes and functions are written out.
@@ -72,23 +72,23 @@ pub trait Counted {
 
 /// So many modes, with geometric stiffness.
 #[derive(Clone, Copy, Debug)]
-pub struct Exactly<const BENDING: usize, const AXIAL: usize>;
+pub struct FixedCounts<const BENDING: usize, const AXIAL: usize>;
 
-impl<const BENDING: usize, const AXIAL: usize> Counted for Exactly<BENDING, AXIAL> {
+impl<const BENDING: usize, const AXIAL: usize> CompiledCounts for FixedCounts<BENDING, AXIAL> {
     const COUNTS: Option<Counts> = Some(Counts { bending: BENDING, axial: AXIAL, shortening: BENDING });
 }
 
 /// Any counts.
 #[derive(Clone, Copy, Debug)]
-pub struct Any;
+pub struct RuntimeCounts;
 
-impl Counted for Any {
+impl CompiledCounts for RuntimeCounts {
     const COUNTS: Option<Counts> = None;
 }
 
 /// How many modes and functions along x the code of a rod has room for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Room {
+pub enum RodCapacity {
     /// For up to 4 modes and 12 functions.
     Few,
     /// For up to 8 modes and 40 functions.
@@ -97,7 +97,7 @@ pub enum Room {
     All,
 }
 
-impl Room {
+impl RodCapacity {
     /// Numbers of modes and functions.
     pub const fn size(self) -> [usize; 2] {
         match self {

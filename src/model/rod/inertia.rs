@@ -3,12 +3,12 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
-use super::counts::{Counted, Counts};
+use super::counts::{CompiledCounts, Counts};
 use super::modes::Arrays;
 use super::shape::Shape;
 use super::sums::{FunctionsToFunctions, FunctionsToModes, ModesToModes, add_rows};
-use super::tables::Viewed;
-use crate::math::{LANES, Real, each};
+use super::tables::TableView;
+use crate::math::{LANES, Real, unroll};
 use crate::model::plane::{Vec2, perp};
 
 /// Inertia of the rod in its own frame, for the acceleration of its origin, its angle and η, and what
@@ -22,7 +22,7 @@ pub struct Inertia<R, const K: usize> {
     /// [kg] ∂D/∂η.
     pub first_slope: [Vec2<R>; K],
     /// [kg·m] Of the angle with η.
-    pub turning: [R; K],
+    pub with_angle: [R; K],
     /// [kg] Of η with η; the lower triangle.
     pub modal: [[R; K]; K],
     /// [N] What centrifugal and Coriolis accelerations ask for: force along the frame's axes,
@@ -37,7 +37,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
     /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
     /// [rad/s].
     #[inline(always)]
-    pub fn inertia<R: Real, C: Counted>(
+    pub fn inertia<R: Real, C: CompiledCounts>(
         &self,
         shape: &Shape<R, K, F>,
         eta: &[R],
@@ -53,17 +53,17 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         let (square, twice) = (speed * speed, speed * 2.0);
         // Of each function, the acceleration along x at q̈ = 0 as seen from the frame's origin.
         let mut asking = none;
-        each!(C::KNOWN, k < functions, C::FUNCTIONS => {
-            asking[k] = (-square).times_plus(xi[k], xi_bias[k]);
+        unroll!(C::KNOWN, k < functions, C::FUNCTIONS => {
+            asking[k] = (-square).multiply_add(xi[k], xi_bias[k]);
         });
         let mut twist = none;
-        each!(C::KNOWN, i < shortening, C::MODES => {
+        unroll!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.twists(i);
-            each!(C::KNOWN, j < i, C::MODES => {
-                twist[first + j] = q[j].times_plus(dq[i], -(q[i] * dq[j]));
+            unroll!(C::KNOWN, j < i, C::MODES => {
+                twist[first + j] = q[j].multiply_add(dq[i], -(q[i] * dq[j]));
             });
         });
-        let Viewed { second, with_modes, placing, moving, twisting, products, shifting, .. } = self.tables;
+        let TableView { second, with_modes, placing, moving, twisting, products, shifting, .. } = self.tables;
         let columns = n + 1;
         let (mut place, mut bias, mut moved, mut first_slope) = (none, none, none, none);
         add_rows::<R, FunctionsToModes<C>, _, _>([&mut place], placing, 0..functions, [xi], columns);
@@ -91,7 +91,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             first: Vec2::new(place[n], R::ZERO),
             about_origin: R::ZERO,
             first_slope: [Vec2::ZERO; K],
-            turning: [R::ZERO; K],
+            with_angle: [R::ZERO; K],
             modal: [[R::ZERO; K]; K],
             force: Vec2::ZERO,
             couple: R::ZERO,
@@ -99,21 +99,21 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         };
         let mut first_rate = Vec2::new(moved[n], R::ZERO);
         let mut spreading = R::ZERO;
-        each!(C::KNOWN, k < functions, C::FUNCTIONS => {
-            inertia.about_origin = xi[k].times_plus(spread[k], inertia.about_origin);
-            spreading = xi_rate[k].times_plus(spread[k], spreading);
+        unroll!(C::KNOWN, k < functions, C::FUNCTIONS => {
+            inertia.about_origin = xi[k].multiply_add(spread[k], inertia.about_origin);
+            spreading = xi_rate[k].multiply_add(spread[k], spreading);
         });
         for i in 0..n {
             let (m, moment) = (self.modal_mass[i], self.moment[i]);
             let weighted = q[i] * m;
-            inertia.first.y = q[i].times_plus(moment, inertia.first.y);
-            first_rate.y = dq[i].times_plus(moment, first_rate.y);
-            inertia.about_origin = weighted.times_plus(q[i], inertia.about_origin);
-            spreading = weighted.times_plus(dq[i], spreading);
-            inertia.couple = (-q[i]).times_plus(bias[i], inertia.couple);
+            inertia.first.y = q[i].multiply_add(moment, inertia.first.y);
+            first_rate.y = dq[i].multiply_add(moment, first_rate.y);
+            inertia.about_origin = weighted.multiply_add(q[i], inertia.about_origin);
+            spreading = weighted.multiply_add(dq[i], spreading);
+            inertia.couple = (-q[i]).multiply_add(bias[i], inertia.couple);
             inertia.first_slope[i] = Vec2::new(first_slope[i], R::constant(moment));
-            inertia.turning[i] = place[i];
-            inertia.modal_force[i] = twice.times_plus(moved[i], -(square * weighted));
+            inertia.with_angle[i] = place[i];
+            inertia.modal_force[i] = twice.multiply_add(moved[i], -(square * weighted));
             inertia.modal[i][i] = R::constant(m);
         }
         for j in 0..axial {
@@ -122,8 +122,8 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             inertia.modal_force[a] = asked[function];
             for i in 0..n {
                 let number = with_modes[function][i];
-                inertia.turning[a] = (-q[i]).times_plus(number, inertia.turning[a]);
-                inertia.modal_force[a] = (-(twice * number)).times_plus(dq[i], inertia.modal_force[a]);
+                inertia.with_angle[a] = (-q[i]).multiply_add(number, inertia.with_angle[a]);
+                inertia.modal_force[a] = (-(twice * number)).multiply_add(dq[i], inertia.modal_force[a]);
             }
             add_rows::<R, ModesToModes<C>, _, _>(
                 [&mut inertia.modal[a]],
@@ -136,15 +136,15 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 inertia.modal[a][n + i] = R::constant(second[function][1 + i]);
             }
         }
-        each!(C::KNOWN, i < shortening, C::MODES => {
+        unroll!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
-            each!(C::KNOWN, further < shortening - i, C::MODES => {
+            unroll!(C::KNOWN, further < shortening - i, C::MODES => {
                 let (k, place) = (i + further, first + further);
                 inertia.modal[k][i] += product[place - 1 - axial];
                 // ∂x/∂q_i has −2·q_k of the foreshortening of i and k.
-                inertia.modal_force[i] = (q[k] * -2.0).times_plus(asked[place], inertia.modal_force[i]);
+                inertia.modal_force[i] = (q[k] * -2.0).multiply_add(asked[place], inertia.modal_force[i]);
                 if k > i {
-                    inertia.modal_force[k] = (q[i] * -2.0).times_plus(asked[place], inertia.modal_force[k]);
+                    inertia.modal_force[k] = (q[i] * -2.0).multiply_add(asked[place], inertia.modal_force[k]);
                 }
             });
         });

@@ -44,7 +44,7 @@ mod shape;
 mod sums;
 mod tables;
 
-pub use counts::{Any, Counted, Counts, Exactly, FEW_MODES, Room};
+pub use counts::{CompiledCounts, Counts, FEW_MODES, FixedCounts, RodCapacity, RuntimeCounts};
 pub use elastic::Elastic;
 pub use flexible::Rod;
 pub use inertia::Inertia;

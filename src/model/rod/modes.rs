@@ -1,17 +1,17 @@
 //! The rod's modes as the inner loop reads them.
 
-use super::counts::{Counts, Room};
+use super::counts::{Counts, RodCapacity};
 use super::flexible::Rod;
-use super::tables::{Tables, Viewed};
+use super::tables::{TableView, Tables};
 use crate::math::Real;
 
-/// A rod's modes in lists with [`Room`] for more of them.
+/// A rod's modes in lists with [`RodCapacity`] for more of them.
 #[derive(Clone, Debug)]
 pub struct Modes {
     /// How many there are.
     pub counts: Counts,
     /// What the lists have room for.
-    pub room: Room,
+    pub room: RodCapacity,
     /// [m] Undeformed length.
     length: f64,
     /// B(l), of functions.
@@ -39,7 +39,7 @@ pub(crate) struct Arrays<'a, const K: usize, const F: usize> {
     pub(super) slope: [&'a [f64; K]; 2],
     stiffness: &'a [f64; K],
     damping: &'a [f64; K],
-    pub(super) tables: Viewed<'a, K, F>,
+    pub(super) tables: TableView<'a, K, F>,
     pub(super) moment: &'a [f64; K],
     pub(super) modal_mass: &'a [f64; K],
 }
@@ -47,11 +47,11 @@ pub(crate) struct Arrays<'a, const K: usize, const F: usize> {
 impl Modes {
     /// Of a rod.
     pub fn new(rod: &Rod) -> Self {
-        Self::in_room(rod, Room::of(rod.counts))
+        Self::with_capacity(rod, RodCapacity::of(rod.counts))
     }
 
     /// The same in a room that is given.
-    pub fn in_room(rod: &Rod, room: Room) -> Self {
+    pub fn with_capacity(rod: &Rod, room: RodCapacity) -> Self {
         let counts = rod.counts;
         let [modes, functions] = room.size();
         let padded = |numbers: &[f64], width: usize| {

@@ -2,10 +2,10 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
-use super::counts::{Counted, Counts};
+use super::counts::{CompiledCounts, Counts};
 use super::modes::Arrays;
 use super::sums::{ModesToModes, add_rows};
-use crate::math::{Real, each};
+use crate::math::{Real, unroll};
 
 /// The deformed rod, and how it deforms; with room for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +38,7 @@ pub struct Chord<R> {
 impl<const K: usize, const F: usize> Arrays<'_, K, F> {
     /// The shape of the modal coordinates `eta` [m] and their `rate` [m/s].
     #[inline(always)]
-    pub fn shape<R: Real, C: Counted>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
+    pub fn shape<R: Real, C: CompiledCounts>(&self, eta: &[R], rate: &[R]) -> Shape<R, K, F> {
         let counts = C::COUNTS.unwrap_or(self.counts);
         let Counts { bending, axial, shortening } = counts;
         let mut shape = Shape {
@@ -55,33 +55,33 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         let mut with_rate = [R::ZERO; K];
         let lists = [&mut *chord_slope, &mut with_rate];
         add_rows::<R, ModesToModes<C>, _, _>(lists, self.tables.shortening, 0..shortening, [eta, rate], bending);
-        each!(C::KNOWN, i < shortening, C::MODES => {
-            chord.stretch = (eta[i] * 0.5).times_plus(chord_slope[i], chord.stretch);
-            chord.rate = rate[i].times_plus(chord_slope[i], chord.rate);
-            chord.bias = rate[i].times_plus(with_rate[i], chord.bias);
+        unroll!(C::KNOWN, i < shortening, C::MODES => {
+            chord.stretch = (eta[i] * 0.5).multiply_add(chord_slope[i], chord.stretch);
+            chord.rate = rate[i].multiply_add(chord_slope[i], chord.rate);
+            chord.bias = rate[i].multiply_add(with_rate[i], chord.bias);
         });
         xi[0] = R::ONE;
         for j in 0..axial {
             let (place, end) = (1 + j, self.end[1 + j]);
             (xi[place], xi_rate[place]) = (eta[bending + j], rate[bending + j]);
             chord_slope[bending + j] = R::constant(end);
-            chord.stretch = xi[place].times_plus(end, chord.stretch);
-            chord.rate = xi_rate[place].times_plus(end, chord.rate);
+            chord.stretch = xi[place].multiply_add(end, chord.stretch);
+            chord.rate = xi_rate[place].multiply_add(end, chord.rate);
         }
         chord.length = chord.stretch + self.length;
-        each!(C::KNOWN, i < shortening, C::MODES => {
+        unroll!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
-            each!(C::KNOWN, further < shortening - i, C::MODES => {
+            unroll!(C::KNOWN, further < shortening - i, C::MODES => {
                 let (j, place) = (i + further, first + further);
                 let twice = if i == j { 1.0 } else { 2.0 };
                 xi[place] = eta[i] * -twice * eta[j];
-                xi_rate[place] = eta[i].times_plus(rate[j], rate[i] * eta[j]) * -twice;
+                xi_rate[place] = eta[i].multiply_add(rate[j], rate[i] * eta[j]) * -twice;
                 xi_bias[place] = rate[i] * (-2.0 * twice) * rate[j];
             });
         });
         for i in 0..bending {
             for (end, slope) in slope_rate.iter_mut().zip(&self.slope) {
-                *end = rate[i].times_plus(slope[i], *end);
+                *end = rate[i].multiply_add(slope[i], *end);
             }
         }
         shape

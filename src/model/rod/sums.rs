@@ -2,8 +2,8 @@
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one four
 
-use super::counts::Counted;
-use crate::math::{LANES, Lanes, Real, each};
+use super::counts::CompiledCounts;
+use crate::math::{LANES, Lanes, Real, unroll};
 use std::array;
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -26,15 +26,15 @@ pub struct FunctionsToModes<C>(PhantomData<C>);
 /// From amplitudes to what stands with functions or pairs of modes.
 pub struct FunctionsToFunctions<C>(PhantomData<C>);
 
-impl<C: Counted> Bounds for ModesToModes<C> {
+impl<C: CompiledCounts> Bounds for ModesToModes<C> {
     const ROWS: usize = C::MODES;
     const COLUMNS: usize = C::MODES.saturating_add(1);
 }
-impl<C: Counted> Bounds for FunctionsToModes<C> {
+impl<C: CompiledCounts> Bounds for FunctionsToModes<C> {
     const ROWS: usize = C::FUNCTIONS;
     const COLUMNS: usize = C::MODES.saturating_add(1);
 }
-impl<C: Counted> Bounds for FunctionsToFunctions<C> {
+impl<C: CompiledCounts> Bounds for FunctionsToFunctions<C> {
     const ROWS: usize = C::FUNCTIONS;
     const COLUMNS: usize = C::FUNCTIONS;
 }
@@ -91,7 +91,7 @@ fn add_fours<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize, const C
         let (numbers, _) = sums[list].as_chunks();
         array::from_fn(|four| R::Lanes::of(numbers[first + four]))
     });
-    each!(B::ROWS < usize::MAX, row < table.len(), B::ROWS => {
+    unroll!(B::ROWS < usize::MAX, row < table.len(), B::ROWS => {
         let (numbers, _) = table[row].as_chunks();
         for list in 0..LISTS {
             let factor = factors[list][row];
@@ -140,7 +140,7 @@ mod tests {
             add_rows::<R, B, _, _>([&mut alone], &table, rows.clone(), [lists[list]], columns);
             for i in 0..WIDTH {
                 let wanted = if i < columns.next_multiple_of(LANES) {
-                    rows.clone().fold(start[list][i], |sum, row| factors[list][row].times_plus(table[row][i], sum))
+                    rows.clone().fold(start[list][i], |sum, row| factors[list][row].multiply_add(table[row][i], sum))
                 } else {
                     start[list][i]
                 };

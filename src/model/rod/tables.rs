@@ -4,7 +4,7 @@
 //! foreshortenings of pairs (ξ_kl = −q_k·q_l, twice that where k ≠ l). With w = Σ q_i·φ_i and ∂x/∂q_i = −2·Σ_k q_k·B_ik,
 //! every integral over the rod that its motion asks for is a sum over few products of modal coordinates and rates.
 
-use super::counts::Room;
+use super::counts::RodCapacity;
 use super::flexible::Rod;
 
 /// Rows of numbers, each with room for so many.
@@ -46,7 +46,7 @@ pub struct Tables {
 
 /// The tables as rows of arrays with room for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Viewed<'a, const K: usize, const F: usize> {
+pub(super) struct TableView<'a, const K: usize, const F: usize> {
     tables: &'a Tables,
     /// ∫B·Bᵀ dm; of a product of two factors [kg·m²].
     pub second: &'a [[f64; F]],
@@ -66,7 +66,7 @@ pub(super) struct Viewed<'a, const K: usize, const F: usize> {
     pub shortening: &'a [[f64; K]],
 }
 
-impl<'a, const K: usize, const F: usize> Viewed<'a, K, F> {
+impl<'a, const K: usize, const F: usize> TableView<'a, K, F> {
     /// From q, for the axial mode `j`: ∫B_j·∂x/∂q_i dm [kg].
     #[inline(always)]
     pub fn stretching(&self, j: usize) -> &'a [[f64; K]] {
@@ -76,7 +76,7 @@ impl<'a, const K: usize, const F: usize> Viewed<'a, K, F> {
 
 impl Tables {
     /// Of a rod.
-    pub fn new(rod: &Rod, room: Room) -> Self {
+    pub fn new(rod: &Rod, room: RodCapacity) -> Self {
         let counts = rod.counts;
         let (n, axial, count) = (counts.bending, counts.axial, counts.functions());
         let [modes, functions] = room.size();
@@ -131,8 +131,8 @@ impl Tables {
 
     /// As rows of arrays of their own width.
     #[inline(always)]
-    pub(super) fn viewed<const K: usize, const F: usize>(&self) -> Viewed<'_, K, F> {
-        Viewed {
+    pub(super) fn viewed<const K: usize, const F: usize>(&self) -> TableView<'_, K, F> {
+        TableView {
             tables: self,
             second: self.second.rows(),
             with_modes: self.with_modes.rows(),

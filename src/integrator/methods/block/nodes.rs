@@ -2,7 +2,7 @@
 
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
-use crate::math::{ROW, Real, Row};
+use crate::math::{F64x8, ROW, Real};
 
 /// The instants of a step: those of Radau's quadrature that end at 1, after the step's start.
 pub const NODES: [f64; ROW] = [
@@ -44,11 +44,11 @@ const fn cardinal(j: usize, x: f64) -> f64 {
 
 /// Two tables by columns, one of velocities and one of positions: A_ij and B_ij of [`block`](super), the first
 /// columns for a step's start.
-pub type Tables = [[Row; POINTS]; 2];
+pub type Tables = [[F64x8; POINTS]; 2];
 
 /// ∫ ℓ_j and ∫∫ ℓ_j from `start` on, over the way from a step's start to each node: columns by j.
 const fn integrals(start: f64) -> Tables {
-    let mut all = [[Row::ZERO; POINTS]; 2];
+    let mut all = [[F64x8::ZERO; POINTS]; 2];
     let mut j = 0;
     while j < POINTS {
         let (mut once, mut twice) = ([0.0; ROW], [0.0; ROW]);
@@ -64,7 +64,7 @@ const fn integrals(start: f64) -> Tables {
             }
             i += 1;
         }
-        (all[0][j], all[1][j]) = (Row::of(once), Row::of(twice));
+        (all[0][j], all[1][j]) = (F64x8::of(once), F64x8::of(twice));
         j += 1;
     }
     all
@@ -77,8 +77,8 @@ pub static INTEGRALS: Tables = integrals(0.0);
 pub static AHEAD: Tables = integrals(1.0);
 
 /// Coefficients of x¹ to x⁸ of the polynomials ℓ_j about the step's start and about its end, columns by j.
-pub static POWERS: [[Row; POINTS]; 2] = {
-    let mut all = [[Row::ZERO; POINTS]; 2];
+pub static POWERS: [[F64x8; POINTS]; 2] = {
+    let mut all = [[F64x8::ZERO; POINTS]; 2];
     let mut origin = 0;
     while origin < 2 {
         let mut j = 0;
@@ -104,7 +104,7 @@ pub static POWERS: [[Row; POINTS]; 2] = {
                 k += 1;
             }
             let [_, a, b, c, d, e, f, g, h] = coefficients;
-            all[origin][j] = Row::of([a, b, c, d, e, f, g, h]);
+            all[origin][j] = F64x8::of([a, b, c, d, e, f, g, h]);
             j += 1;
         }
         origin += 1;
@@ -114,7 +114,7 @@ pub static POWERS: [[Row; POINTS]; 2] = {
 
 /// c_i^(n+1)/(n + 1) and c_i^(n+2)/((n + 1)·(n + 2)) in row n.
 pub static MONOMIALS: Tables = {
-    let mut all = [[Row::ZERO; POINTS]; 2];
+    let mut all = [[F64x8::ZERO; POINTS]; 2];
     let (mut n, mut powers) = (0, NODES);
     while n < POINTS {
         let (mut once, mut twice) = ([0.0; ROW], [0.0; ROW]);
@@ -125,7 +125,7 @@ pub static MONOMIALS: Tables = {
             twice[i] = powers[i] / ((n + 1) * (n + 2)) as f64;
             i += 1;
         }
-        (all[0][n], all[1][n]) = (Row::of(once), Row::of(twice));
+        (all[0][n], all[1][n]) = (F64x8::of(once), F64x8::of(twice));
         n += 1;
     }
     all
@@ -133,7 +133,7 @@ pub static MONOMIALS: Tables = {
 
 /// Weights of the accelerations' part of degree eight, its coefficient in Legendre polynomials: of the one at the start, and
 /// of those at the nodes.
-pub static TOP: (f64, Row) = {
+pub static TOP: (f64, F64x8) = {
     let mut all = [0.0; POINTS];
     let mut j = 0;
     while j < POINTS {
@@ -148,7 +148,7 @@ pub static TOP: (f64, Row) = {
         j += 1;
     }
     let [first, a, b, c, d, e, f, g, h] = all;
-    (first, Row::of([a, b, c, d, e, f, g, h]))
+    (first, F64x8::of([a, b, c, d, e, f, g, h]))
 };
 
 #[cfg(test)]
@@ -156,14 +156,14 @@ mod tests {
     use super::*;
 
     /// Through the values of x^degree at the points, this sum over columns at every node.
-    fn sums(columns: &[Row; POINTS], degree: i32, at: impl Fn(usize) -> f64) -> [f64; ROW] {
+    fn sums(columns: &[F64x8; POINTS], degree: i32, at: impl Fn(usize) -> f64) -> [f64; ROW] {
         std::array::from_fn(|i| (0..POINTS).map(|j| columns[j].numbers()[i] * at(j).powi(degree)).sum())
     }
 
     #[test]
     fn nodes_are_those_of_radau() {
         // ∏(c − c_j) is orthogonal to all polynomials of degree six: their quadrature is exact to degree 14.
-        let last = |columns: &[Row; POINTS], degree| sums(columns, degree, point)[ROW - 1];
+        let last = |columns: &[F64x8; POINTS], degree| sums(columns, degree, point)[ROW - 1];
         for degree in 0..=14 {
             let n = f64::from(degree);
             assert!((last(&INTEGRALS[0], degree) - 1.0 / (n + 1.0)).abs() < 1e-15, "degree {degree}");
@@ -217,7 +217,7 @@ mod tests {
         // x⁸ on 0 to 1 has 1/12870 of the polynomial, and what is lower has none.
         for degree in 0..=8 {
             let at_start = if degree == 0 { TOP.0 } else { 0.0 };
-            let found = at_start + (TOP.1 * Row::of(NODES.map(|c| c.powi(degree)))).sum();
+            let found = at_start + (TOP.1 * F64x8::of(NODES.map(|c| c.powi(degree)))).sum();
             let wanted = if degree == 8 { 1.0 / 12_870.0 } else { 0.0 };
             assert!((found - wanted).abs() < 1e-14, "degree {degree}: {found:e}");
         }

@@ -1,14 +1,14 @@
 //! One step from end to end.
 
-use super::closed::Closed;
-use super::middle::{Middle, State};
+use super::closed_contacts::ClosedContacts;
+use super::midpoint::{Midpoint, State};
 use crate::integrator::complementarity::NORMAL;
 use crate::integrator::error::IntegrationError;
 use crate::integrator::state::{StepPoint, lost_state};
 use crate::integrator::unilateral::{Impulses, Unilateral};
 
 /// An attempted step.
-pub struct Made {
+pub struct AttemptedStep {
     /// State at its end.
     pub y: State,
     /// What the contacts did.
@@ -22,14 +22,14 @@ pub fn attempt<D: Copy + Default>(
     system: &dyn Unilateral<Discrete = D>,
     start: &StepPoint<Impulses>,
     h: f64,
-) -> Result<Made, IntegrationError> {
-    let middle = Middle::new(system, start, h);
-    let free = middle.free(system, &middle.halfway(&middle.free(system, &middle.y)));
-    let closed = Closed::new(system, &middle, &free);
+) -> Result<AttemptedStep, IntegrationError> {
+    let midpoint = Midpoint::new(system, start, h);
+    let free = midpoint.free(system, &midpoint.halfway(&midpoint.free(system, &midpoint.y)));
+    let closed = ClosedContacts::new(system, &midpoint, &free);
     let made = if closed.count() == 0 {
-        Made { y: middle.end(&free), impulses: Impulses::none(middle.t, middle.state()), evaluations: 2 }
+        AttemptedStep { y: midpoint.end(&free), impulses: Impulses::none(midpoint.t, midpoint.state()), evaluations: 2 }
     } else {
-        through_contacts(system, &middle, closed, &free)?
+        through_contacts(system, &midpoint, closed, &free)?
     };
     match lost_state(&made.y) {
         None => Ok(made),
@@ -41,30 +41,30 @@ pub fn attempt<D: Copy + Default>(
 /// the velocities of the free step for what depends on velocity, and with those that came of it.
 fn through_contacts<D: Copy + Default>(
     system: &dyn Unilateral<Discrete = D>,
-    middle: &Middle<'_>,
-    mut closed: Closed,
+    midpoint: &Midpoint<'_>,
+    mut closed: ClosedContacts,
     free: &State,
-) -> Result<Made, IntegrationError> {
+) -> Result<AttemptedStep, IntegrationError> {
     let count = closed.count();
-    let lost = IntegrationError::Complementarity { time: middle.start.t, contacts: count };
-    closed.set_bias(system, middle, free);
-    let mut impulses = closed.solve(&closed.last(middle)).ok_or(lost)?;
-    let mut y = closed.after(middle, free, &impulses);
-    let better = middle.free(system, &middle.halfway(&y));
-    closed.set_bias(system, middle, &better);
+    let lost = IntegrationError::Complementarity { time: midpoint.start.t, contacts: count };
+    closed.set_bias(system, midpoint, free);
+    let mut impulses = closed.solve(&closed.last(midpoint)).ok_or(lost)?;
+    let mut y = closed.after(midpoint, free, &impulses);
+    let better = midpoint.free(system, &midpoint.halfway(&y));
+    closed.set_bias(system, midpoint, &better);
     if let Some(found) = closed.solve(&impulses) {
         impulses = found;
-        y = closed.after(middle, &better, &impulses);
+        y = closed.after(midpoint, &better, &impulses);
     }
-    let mut made = Made {
-        y: middle.end(&y),
-        impulses: Impulses::none(middle.t, middle.state()),
+    let mut made = AttemptedStep {
+        y: midpoint.end(&y),
+        impulses: Impulses::none(midpoint.t, midpoint.state()),
         evaluations: 3 + closed.responses(),
     };
     for (impulse, &contact) in impulses.iter().zip(&closed.contacts).take(count) {
-        made.impulses.forces[contact] = impulse.map(|impulse| impulse / middle.h);
+        made.impulses.forces[contact] = impulse.map(|impulse| impulse / midpoint.h);
         made.impulses.closed[contact] = impulse[NORMAL] > 0.0;
     }
-    closed.press_back(system, middle, &impulses, &mut made.y);
+    closed.press_back(system, midpoint, &impulses, &mut made.y);
     Ok(made)
 }

@@ -28,15 +28,15 @@
 //! one restitution it never does.
 
 mod attempt;
-mod closed;
-mod middle;
+mod closed_contacts;
+mod midpoint;
 
 use crate::integrator::error::IntegrationError;
 use crate::integrator::state::{SolverState, StepPoint};
 use crate::integrator::step_control::Settings;
 use crate::integrator::system::{EventFunctions, System};
-use crate::integrator::unilateral::{Impulses, MOST_STATES, Unilateral, padded};
-use attempt::{Made, attempt};
+use crate::integrator::unilateral::{Impulses, MAX_RIGID_CONTACT_STATES, Unilateral, padded};
+use attempt::{AttemptedStep, attempt};
 
 /// Time stepping with a fixed step.
 pub struct Moreau {
@@ -49,7 +49,7 @@ pub struct Moreau {
 impl Moreau {
     /// Starts from the state `y` at `t`.
     pub fn start(settings: Settings, t: f64, y: &[f64]) -> Self {
-        assert!(y.len() <= MOST_STATES, "at most as many states as a rigid mechanism has");
+        assert!(y.len() <= MAX_RIGID_CONTACT_STATES, "at most as many states as a rigid mechanism has");
         // Rates are of no use to it.
         let point = StepPoint::new(t, y, Impulses::none(t, y));
         let mut state = SolverState::new(&point, settings.fixed_step);
@@ -127,8 +127,8 @@ impl Moreau {
                 return Err(IntegrationError::StepUnderflow { time, step, component: 0 });
             }
             let made = attempt(system, self.state.front(), end - time)?;
-            if let Some(guard) = dead_end(system, end, &made.y[..self.inside.len()]) {
-                return Err(IntegrationError::DeadEnd { time, guard });
+            if let Some(event) = dead_end(system, end, &made.y[..self.inside.len()]) {
+                return Err(IntegrationError::DeadEnd { time, event });
             }
             self.state.begin_step();
             self.commit(end, &made);
@@ -147,7 +147,7 @@ impl Moreau {
         let share = passed / span;
         let y = &mut self.inside;
         y.copy_from_slice(&end.y);
-        let p = system.extent().positions;
+        let p = system.layout().positions;
         for i in 0..p {
             let (q, u) = (start.y[i], start.y[p + i]);
             y[i] = q + passed * u + share * share * (end.y[i] - q - span * u);
@@ -174,15 +174,15 @@ impl Moreau {
         let made = attempt(system, self.state.start(), t - start).unwrap_or_else(|_| {
             let closed = self.state.start().discrete.closed;
             let (y, impulses) = self.state_at(system, t);
-            Made { y: padded(y), impulses: Impulses { closed, ..impulses }, evaluations: 0 }
+            AttemptedStep { y: padded(y), impulses: Impulses { closed, ..impulses }, evaluations: 0 }
         });
         let impulses = Impulses { closed: made.impulses.closed, ..end };
-        self.commit(t, &Made { impulses, ..made });
+        self.commit(t, &AttemptedStep { impulses, ..made });
     }
 
     /// Makes `made` the step that ends at `t`.
-    fn commit(&mut self, t: f64, made: &Made) {
-        let Made { y, impulses, evaluations } = made;
+    fn commit(&mut self, t: f64, made: &AttemptedStep) {
+        let AttemptedStep { y, impulses, evaluations } = made;
         let (start, end) = self.state.ends();
         let changes =
             impulses.closed.iter().zip(start.discrete.closed).filter(|(now, before)| **now != *before).count();

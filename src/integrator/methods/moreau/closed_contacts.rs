@@ -1,8 +1,8 @@
 //! The contacts that are closed in a step.
 
-use super::middle::{Middle, State};
-use crate::integrator::complementarity::{MOST_CONTACTS, NORMAL, Pairs, TANGENTIAL, Touching};
-use crate::integrator::unilateral::{ContactLaw, MOST_STATES, Unilateral};
+use super::midpoint::{Midpoint, State};
+use crate::integrator::complementarity::{ActiveContacts, MAX_CONTACTS, NORMAL, Pairs, TANGENTIAL};
+use crate::integrator::unilateral::{ContactLaw, MAX_RIGID_CONTACT_STATES, Unilateral};
 
 /// Share of what a lasting contact is too deep by that one step takes back. With all of it at once, contacts that
 /// share a body keep throwing each other open.
@@ -11,13 +11,13 @@ const SHARE: f64 = 0.1;
 const SKIN: f64 = 1e-6;
 
 /// The closed contacts of a step, in the order in which they are solved for.
-pub struct Closed {
+pub struct ClosedContacts {
     /// Their numbers.
-    pub contacts: [usize; MOST_CONTACTS],
-    touching: Touching,
+    pub contacts: [usize; MAX_CONTACTS],
+    touching: ActiveContacts,
     /// M⁻¹·W: changes of all velocities by a unit impulse in each part of each.
-    response: [[State; 2]; MOST_CONTACTS],
-    restitution: [f64; MOST_CONTACTS],
+    response: [[State; 2]; MAX_CONTACTS],
+    restitution: [f64; MAX_CONTACTS],
     /// [m/s] (h/2)·Ẇᵀu: by how much γ at the step's end is more than the same velocities have in its middle.
     turning: Pairs,
     /// [m/s] γ_A.
@@ -26,22 +26,22 @@ pub struct Closed {
     leaving: Pairs,
 }
 
-impl Closed {
+impl ClosedContacts {
     /// The contacts whose gap is gone by the middle of a step that would have the velocities `free` without them.
-    pub fn new<D: Copy>(system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, free: &State) -> Self {
+    pub fn new<D: Copy>(system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, free: &State) -> Self {
         let mut closed = Self {
-            contacts: [0; MOST_CONTACTS],
-            touching: Touching::default(),
-            response: [[[0.0; MOST_STATES]; 2]; MOST_CONTACTS],
-            restitution: [0.0; MOST_CONTACTS],
+            contacts: [0; MAX_CONTACTS],
+            touching: ActiveContacts::default(),
+            response: [[[0.0; MAX_RIGID_CONTACT_STATES]; 2]; MAX_CONTACTS],
+            restitution: [0.0; MAX_CONTACTS],
             turning: Pairs::default(),
             arriving: Pairs::default(),
             leaving: Pairs::default(),
         };
-        let start = system.contacts(middle.start.t, &middle.start.y);
+        let start = system.contacts(midpoint.start.t, &midpoint.start.y);
         let skin = SKIN * system.event_scale();
         for (contact, (gap, velocity)) in start.gap.iter().zip(&start.velocity).enumerate() {
-            if gap + 0.5 * middle.h * velocity[NORMAL] <= skin {
+            if gap + 0.5 * midpoint.h * velocity[NORMAL] <= skin {
                 let slot = closed.count();
                 closed.contacts[slot] = contact;
                 closed.arriving[slot] = *velocity;
@@ -49,7 +49,7 @@ impl Closed {
             }
         }
         if closed.count() > 0 {
-            closed.linearize(system, middle, free);
+            closed.linearize(system, midpoint, free);
         }
         closed
     }
@@ -60,11 +60,11 @@ impl Closed {
     }
 
     /// Laws, turning, responses and Delassus' matrix.
-    fn linearize<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, free: &State) {
+    fn linearize<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, free: &State) {
         let laws = system.contact_laws();
-        let here = velocities(system, middle, free);
-        let there = system.contacts(middle.start.t + middle.h, middle.of(&middle.end(free))).velocity;
-        let still = velocities(system, middle, &[0.0; MOST_STATES]);
+        let here = velocities(system, midpoint, free);
+        let there = system.contacts(midpoint.start.t + midpoint.h, midpoint.of(&midpoint.end(free))).velocity;
+        let still = velocities(system, midpoint, &[0.0; MAX_RIGID_CONTACT_STATES]);
         let count = self.count();
         for (slot, &contact) in self.contacts.iter().enumerate().take(count) {
             let ContactLaw { restitution, friction } = laws[contact];
@@ -72,10 +72,10 @@ impl Closed {
             self.turning[slot] = [NORMAL, TANGENTIAL].map(|part| there[contact][part] - here[contact][part]);
             self.touching.friction[slot] = friction;
             for part in self.parts(slot) {
-                let mut response = [0.0; MOST_STATES];
-                let n = middle.state().len();
-                system.response(middle.t, middle.state(), contact, part, &mut response[..n]);
-                let moved = velocities(system, middle, &response);
+                let mut response = [0.0; MAX_RIGID_CONTACT_STATES];
+                let n = midpoint.state().len();
+                system.response(midpoint.t, midpoint.state(), contact, part, &mut response[..n]);
+                let moved = velocities(system, midpoint, &response);
                 for (other, &to) in self.contacts.iter().enumerate().take(count) {
                     for a in [NORMAL, TANGENTIAL] {
                         self.touching.delassus[other][a][slot][part] = moved[to][a] - still[to][a];
@@ -97,8 +97,8 @@ impl Closed {
     }
 
     /// Sets what the laws hold for without impulses, when the step then has the velocities `free`.
-    pub fn set_bias<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, free: &State) {
-        let without = velocities(system, middle, free);
+    pub fn set_bias<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, free: &State) {
+        let without = velocities(system, midpoint, free);
         for slot in 0..self.count() {
             let velocity = without[self.contacts[slot]];
             let [normal, tangential] = [NORMAL, TANGENTIAL].map(|part| velocity[part] + self.turning[slot][part]);
@@ -118,18 +118,18 @@ impl Closed {
     }
 
     /// The forces of the last step, in the order of these contacts.
-    pub fn last(&self, middle: &Middle<'_>) -> Pairs {
-        let mut forces = self.contacts.map(|contact| middle.start.discrete.forces[contact]);
+    pub fn last(&self, midpoint: &Midpoint<'_>) -> Pairs {
+        let mut forces = self.contacts.map(|contact| midpoint.start.discrete.forces[contact]);
         forces[self.count()..].fill([0.0; 2]);
         forces
     }
 
     /// The velocities of `free` with these impulses.
-    pub fn after(&self, middle: &Middle<'_>, free: &State, impulses: &Pairs) -> State {
+    pub fn after(&self, midpoint: &Midpoint<'_>, free: &State, impulses: &Pairs) -> State {
         let mut y = *free;
         for (responses, impulse) in self.response.iter().zip(impulses).take(self.count()) {
             for (response, impulse) in responses.iter().zip(impulse) {
-                for i in middle.positions..2 * middle.positions {
+                for i in midpoint.positions..2 * midpoint.positions {
                     y[i] += response[i] * impulse;
                 }
             }
@@ -142,17 +142,17 @@ impl Closed {
     pub fn press_back<D: Copy>(
         &self,
         system: &dyn Unilateral<Discrete = D>,
-        middle: &Middle<'_>,
+        midpoint: &Midpoint<'_>,
         impulses: &Pairs,
         y: &mut State,
     ) {
-        let gaps = system.contacts(middle.start.t + middle.h, middle.of(y)).gap;
+        let gaps = system.contacts(midpoint.start.t + midpoint.h, midpoint.of(y)).gap;
         let mut places = self.touching.clone();
-        places.friction = [0.0; MOST_CONTACTS];
+        places.friction = [0.0; MAX_CONTACTS];
         let mut deep = false;
         for slot in 0..places.count {
             let fastest = self.arriving[slot][NORMAL].abs().max(self.leaving[slot][NORMAL].abs());
-            let spare = gaps[self.contacts[slot]] + SKIN * system.event_scale() + middle.h * fastest;
+            let spare = gaps[self.contacts[slot]] + SKIN * system.event_scale() + midpoint.h * fastest;
             // A contact that parts is not lifted, and nothing is pushed too deep.
             let lifted = spare < 0.0 && impulses[slot][NORMAL] > 0.0;
             places.bias[slot] = [if lifted { SHARE * spare } else { spare.max(0.0) }, 0.0];
@@ -162,17 +162,17 @@ impl Closed {
             return;
         };
         for (response, shift) in self.response.iter().zip(shifts).take(places.count) {
-            for i in 0..middle.positions {
-                y[i] += response[NORMAL][middle.positions + i] * shift[NORMAL];
+            for i in 0..midpoint.positions {
+                y[i] += response[NORMAL][midpoint.positions + i] * shift[NORMAL];
             }
         }
     }
 }
 
 /// Velocities in the contacts at the middle's positions with the velocities of `moving`.
-fn velocities<D: Copy>(system: &dyn Unilateral<Discrete = D>, middle: &Middle<'_>, moving: &State) -> Pairs {
-    let mut y = middle.y;
-    let rates = middle.positions..2 * middle.positions;
+fn velocities<D: Copy>(system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, moving: &State) -> Pairs {
+    let mut y = midpoint.y;
+    let rates = midpoint.positions..2 * midpoint.positions;
     y[rates.clone()].copy_from_slice(&moving[rates]);
-    system.contacts(middle.t, middle.of(&y)).velocity
+    system.contacts(midpoint.t, midpoint.of(&y)).velocity
 }

@@ -1,15 +1,15 @@
 //! Numbers side by side.
 
-use slidercrank::math::{Fused, ROW, Real, Row};
+use slidercrank::math::{F64x8, Fused, ROW, Real};
 
 /// The bits of `of` computed together and one by one.
-fn agrees(of_row: impl Fn(Row, Row) -> Row, of: impl Fn(f64, f64) -> f64) {
+fn agrees(of_row: impl Fn(F64x8, F64x8) -> F64x8, of: impl Fn(f64, f64) -> f64) {
     let mut x: f64 = 0.011;
     for round in 0..500 {
         let a: [f64; ROW] = std::array::from_fn(|i| (x * (i as f64 + 1.7)).sin() * 10_f64.powi(i as i32 - 4));
         let mut b: [f64; ROW] = std::array::from_fn(|i| (x * (i as f64 - 3.2)).cos());
         b[round % ROW] = if round % 2 == 0 { 0.0 } else { -0.0 };
-        let together = of_row(Row::of(a), Row::of(b)).numbers().map(f64::to_bits);
+        let together = of_row(F64x8::of(a), F64x8::of(b)).numbers().map(f64::to_bits);
         assert_eq!(together, std::array::from_fn(|i| of(a[i], b[i]).to_bits()), "{a:?} {b:?}");
         x += 0.37;
     }
@@ -20,8 +20,8 @@ fn eight_together_have_the_bits_of_each_alone() {
     agrees(|a, b| a + b, |a, b| a + b);
     agrees(|a, b| a - b * 3.0, |a, b| a - b * 3.0);
     agrees(|a, b| b / a, |a, b| b / a);
-    agrees(|a, b| a.times_plus(b, a), |a, b| a.times_plus(b, a));
-    agrees(|a, b| a.times_plus(0.1, b), |a, b| a.times_plus(0.1, b));
+    agrees(|a, b| a.multiply_add(b, a), |a, b| a.multiply_add(b, a));
+    agrees(|a, b| a.multiply_add(0.1, b), |a, b| a.multiply_add(0.1, b));
     agrees(|a, b| -a.recip() + b, |a, b| -a.recip() + b);
     agrees(|a, b| a.abs().sqrt() + b, |a, b| a.abs().sqrt() + b);
     agrees(|a, b| a.copysign(b), |a, b| a.copysign(b));

@@ -1,16 +1,16 @@
 //! Eight numbers that are computed together: those of one quantity at eight instants of a step.
 
-use super::each::each;
 use super::fused::Fused;
 use super::lanes::LANES;
 use super::real::Real;
-use super::sin_cos::{self, times_plus};
+use super::sin_cos::{self, multiply_add};
+use super::unroll::unroll;
 use super::vec2::Vec2;
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use wide::{CmpGt, f64x4};
 
-/// How many numbers a [`Row`] has.
+/// How many numbers a [`F64x8`] has.
 pub const ROW: usize = REGISTERS * LANES;
 const REGISTERS: usize = 2;
 
@@ -20,9 +20,9 @@ const REGISTERS: usize = 2;
 /// Each has the bits that `f64` would have. Two rows are equal, or one is greater, where that holds of all their numbers; where
 /// they are not alike in that, no comparison holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row([f64x4; REGISTERS]);
+pub struct F64x8([f64x4; REGISTERS]);
 
-impl Row {
+impl F64x8 {
     /// These.
     #[inline(always)]
     pub const fn of(numbers: [f64; ROW]) -> Self {
@@ -51,7 +51,7 @@ impl Row {
     }
 }
 
-impl Row {
+impl F64x8 {
     #[inline(always)]
     fn each(self, of: impl Fn(f64x4) -> f64x4) -> Self {
         Self(self.0.map(of))
@@ -68,20 +68,20 @@ impl Row {
     }
 }
 
-impl Default for Row {
+impl Default for F64x8 {
     fn default() -> Self {
         Self::ZERO
     }
 }
 
-impl PartialEq<f64> for Row {
+impl PartialEq<f64> for F64x8 {
     #[inline(always)]
     fn eq(&self, other: &f64) -> bool {
         self.0.iter().all(|four| four.to_array().iter().all(|number| number == other))
     }
 }
 
-impl PartialOrd for Row {
+impl PartialOrd for F64x8 {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         let pairs = self.0.iter().zip(&other.0).flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array()));
         let mut compared = pairs.map(|(a, b)| a.partial_cmp(&b));
@@ -90,13 +90,13 @@ impl PartialOrd for Row {
     }
 }
 
-impl PartialOrd<f64> for Row {
+impl PartialOrd<f64> for F64x8 {
     fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
         self.partial_cmp(&Self::constant(*other))
     }
 }
 
-impl Neg for Row {
+impl Neg for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -104,7 +104,7 @@ impl Neg for Row {
     }
 }
 
-impl Add for Row {
+impl Add for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -112,7 +112,7 @@ impl Add for Row {
     }
 }
 
-impl Sub for Row {
+impl Sub for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -120,7 +120,7 @@ impl Sub for Row {
     }
 }
 
-impl Mul for Row {
+impl Mul for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -128,7 +128,7 @@ impl Mul for Row {
     }
 }
 
-impl Div for Row {
+impl Div for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -136,7 +136,7 @@ impl Div for Row {
     }
 }
 
-impl Add<f64> for Row {
+impl Add<f64> for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: f64) -> Self {
@@ -144,7 +144,7 @@ impl Add<f64> for Row {
     }
 }
 
-impl Sub<f64> for Row {
+impl Sub<f64> for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: f64) -> Self {
@@ -152,7 +152,7 @@ impl Sub<f64> for Row {
     }
 }
 
-impl Mul<f64> for Row {
+impl Mul<f64> for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
@@ -160,7 +160,7 @@ impl Mul<f64> for Row {
     }
 }
 
-impl Div<f64> for Row {
+impl Div<f64> for F64x8 {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: f64) -> Self {
@@ -168,7 +168,7 @@ impl Div<f64> for Row {
     }
 }
 
-impl Mul<Vec2<Self>> for Row {
+impl Mul<Vec2<Self>> for F64x8 {
     type Output = Vec2<Self>;
     #[inline(always)]
     fn mul(self, v: Vec2<Self>) -> Vec2<Self> {
@@ -176,35 +176,35 @@ impl Mul<Vec2<Self>> for Row {
     }
 }
 
-impl AddAssign for Row {
+impl AddAssign for F64x8 {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl SubAssign for Row {
+impl SubAssign for F64x8 {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl Fused for Row {
+impl Fused for F64x8 {
     #[inline(always)]
-    fn times_plus(self, factor: Self, term: Self) -> Self {
-        Self(std::array::from_fn(|k| times_plus(self.0[k], factor.0[k], term.0[k])))
+    fn multiply_add(self, factor: Self, term: Self) -> Self {
+        Self(std::array::from_fn(|k| multiply_add(self.0[k], factor.0[k], term.0[k])))
     }
 }
 
-impl Fused<f64> for Row {
+impl Fused<f64> for F64x8 {
     #[inline(always)]
-    fn times_plus(self, factor: f64, term: Self) -> Self {
-        self.times_plus(Self::constant(factor), term)
+    fn multiply_add(self, factor: f64, term: Self) -> Self {
+        self.multiply_add(Self::constant(factor), term)
     }
 }
 
-impl Real for Row {
+impl Real for F64x8 {
     const MANY: bool = true;
     type Lanes = [Self; LANES];
 
@@ -257,7 +257,7 @@ impl Real for Row {
     #[inline(always)]
     fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K] {
         let mut found = [(Self::ZERO, Self::ONE); K];
-        each!(true, k < K => {
+        unroll!(true, k < K => {
             let of_four = x[k].0.map(sin_cos::of_four);
             found[k] = (Self(of_four.map(|(sin, _)| sin)), Self(of_four.map(|(_, cos)| cos)));
         });

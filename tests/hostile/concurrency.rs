@@ -44,11 +44,11 @@ fn sixty_four_instances_in_eight_threads_are_what_each_is_alone() {
         // Made, run and freed while all the others are.
         march(&mine(thread).map(|number| (number, nth(number))).collect::<Vec<_>>())
     };
-    let crowd: Vec<Vec<Vec<u8>>> = thread::scope(|scope| {
+    let states: Vec<Vec<Vec<u8>>> = thread::scope(|scope| {
         let threads: Vec<_> = (0..THREADS).map(|thread| scope.spawn(move || together(thread))).collect();
         threads.into_iter().map(|thread| thread.join().expect("a run")).collect()
     });
-    for (thread, together) in crowd.iter().enumerate() {
+    for (thread, together) in states.iter().enumerate() {
         for (number, bytes) in mine(thread).zip(together) {
             assert_eq!(&march(&[(number, nth(number))])[0], bytes, "instance {number}");
         }

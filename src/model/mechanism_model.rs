@@ -1,16 +1,16 @@
 //! What a simulation asks of a mechanism besides its rates.
 
-use super::contact::Account;
+use super::contact::ContactEnergy;
 use super::drive::InputSignal;
 use super::joint::rectangle::CORNERS;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
-use super::state::{Contacts, Instant, Pose};
+use super::state::{Contacts, Evaluation, Pose};
 use crate::integrator::{Impulses, Unilateral};
 
 /// A mechanism in minimal coordinates.
-pub trait Plant: Unilateral<Discrete = Contacts> + Send {
+pub trait MechanismModel: Unilateral<Discrete = Contacts> + Send {
     /// Writes the state of a start pose in place of zeros.
     fn write_start(&self, pose: &StartPose, y: &mut [f64]);
 
@@ -30,17 +30,17 @@ pub trait Plant: Unilateral<Discrete = Contacts> + Send {
     fn set_start_time(&mut self, time: f64);
 
     /// Everything about one instant.
-    fn instant(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Instant;
+    fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Evaluation;
 
     /// The rates of a state and everything about that instant, at the cost of about one of them.
-    fn rates_and_instant(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Instant {
+    fn rates_and_evaluation(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
         self.rates(contacts, t, y, rates);
-        self.instant(contacts, t, y)
+        self.evaluation(contacts, t, y)
     }
 
     /// Everything about one instant of a motion with rigid contacts, whose forces are those of `impulses`.
-    fn instant_under(&self, _: &Impulses, t: f64, y: &[f64]) -> Instant {
-        self.instant(&Contacts::default(), t, y)
+    fn evaluation_under(&self, _: &Impulses, t: f64, y: &[f64]) -> Evaluation {
+        self.evaluation(&Contacts::default(), t, y)
     }
 
     /// The rates of that instant.
@@ -52,18 +52,23 @@ pub trait Plant: Unilateral<Discrete = Contacts> + Send {
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];
 
     /// Elastic energy of the closed contacts, and the powers that they take.
-    fn account(&self, _: &Contacts, _: &Pose, _: &[f64]) -> Account {
-        Account::default()
+    fn contact_energy(&self, _: &Contacts, _: &Pose, _: &[f64]) -> ContactEnergy {
+        ContactEnergy::default()
     }
 
     /// The rates with derivatives.
     fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);
 
-    /// [`Plant::instant`] and [`Plant::account`] with derivatives.
-    fn tangent_instant(&self, contacts: &Contacts, t: Tangent, y: &[Tangent]) -> (Instant<Tangent>, Account<Tangent>);
+    /// [`MechanismModel::evaluation`] and [`MechanismModel::contact_energy`] with derivatives.
+    fn tangent_evaluation(
+        &self,
+        contacts: &Contacts,
+        t: Tangent,
+        y: &[Tangent],
+    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>);
 
     /// Energies, works and losses; 0 without an audit.
-    fn energies(&self, _: &Contacts, _: &Instant, _: &[f64]) -> EnergyOutputs {
+    fn energies(&self, _: &Contacts, _: &Evaluation, _: &[f64]) -> EnergyOutputs {
         EnergyOutputs::default()
     }
 }

@@ -1,13 +1,13 @@
 //! The middle of a step, where velocities change.
 
 use crate::integrator::state::StepPoint;
-use crate::integrator::unilateral::{Impulses, MOST_STATES, Unilateral, padded};
+use crate::integrator::unilateral::{Impulses, MAX_RIGID_CONTACT_STATES, Unilateral, padded};
 
 /// A state, and zeros.
-pub type State = [f64; MOST_STATES];
+pub type State = [f64; MAX_RIGID_CONTACT_STATES];
 
 /// The middle of a step: where velocities change.
-pub struct Middle<'a> {
+pub struct Midpoint<'a> {
     /// Where the step starts.
     pub start: &'a StepPoint<Impulses>,
     /// [s] How long it is.
@@ -20,10 +20,10 @@ pub struct Middle<'a> {
     pub positions: usize,
 }
 
-impl<'a> Middle<'a> {
+impl<'a> Midpoint<'a> {
     /// Of a step of `h` from `start`.
     pub fn new<D: Copy>(system: &dyn Unilateral<Discrete = D>, start: &'a StepPoint<Impulses>, h: f64) -> Self {
-        let positions = system.extent().positions;
+        let positions = system.layout().positions;
         let mut y = padded(&start.y);
         for (position, velocity) in y.iter_mut().zip(&start.y[positions..2 * positions]) {
             *position += 0.5 * h * velocity;
@@ -35,7 +35,7 @@ impl<'a> Middle<'a> {
     /// the velocities of `moving`.
     pub fn free<D: Copy + Default>(&self, system: &dyn Unilateral<Discrete = D>, moving: &State) -> State {
         let n = self.states();
-        let mut rates = [0.0; MOST_STATES];
+        let mut rates = [0.0; MAX_RIGID_CONTACT_STATES];
         system.rates(&D::default(), self.t, &moving[..n], &mut rates[..n]);
         let mut y = self.y;
         for i in self.positions..2 * self.positions {

@@ -1,8 +1,8 @@
-//! Steps that end at kinks of the rates: sliding that turns round, against its closed form.
+//! Steps that end at discontinuities of the rates: sliding that turns round, against its closed form.
 
 use super::free::begin;
 use slidercrank::integrator::{
-    Discontinuities, Effort, Events, Extent, Linearizable, Ode, Settings, SeveralInstants, Statistics,
+    Discontinuities, Events, Linearizable, Ode, Settings, SeveralInstants, StateLayout, Statistics, WorkLimit,
 };
 
 /// Of the speeds over which friction turns round.
@@ -27,8 +27,8 @@ fn rubbing(v: f64) -> f64 {
 impl Ode for Sliding {
     type Discrete = ();
 
-    fn extent(&self) -> Extent {
-        Extent::second_order(2)
+    fn layout(&self) -> StateLayout {
+        StateLayout::second_order(2)
     }
 
     fn rates(&self, (): &(), _: f64, y: &[f64], rates: &mut [f64]) {
@@ -65,7 +65,7 @@ fn exact() -> f64 {
 /// Error of the speed at the end, and the work.
 fn slide(method: &str, tells: bool, tolerance: f64) -> (f64, Statistics) {
     let problem = Sliding { acceleration: rubbing, corners: if tells { &[WIDTH, -WIDTH] } else { &[] } };
-    let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
+    let settings = Settings { tolerance, fixed_step: 0.0, effort: WorkLimit::ANY };
     let mut integrator = begin(method, &problem, settings, 0.0, [0.0, -1.0], ());
     integrator.advance(&problem, END).expect("a motion without trouble");
     let (y, ()) = integrator.state_at(&problem, END);
@@ -106,7 +106,7 @@ fn a_motion_that_creeps_along_a_kink_is_not_cut_to_pieces() {
     for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
         let [blind, told] = [false, true].map(|tells| {
             let problem = Sliding { acceleration: creeping, corners: if tells { &[0.0] } else { &[] } };
-            let settings = Settings { tolerance, fixed_step: 0.0, effort: Effort::ANY };
+            let settings = Settings { tolerance, fixed_step: 0.0, effort: WorkLimit::ANY };
             let mut integrator = begin("verner7", &problem, settings, 0.0, [0.0, -1e-6], ());
             integrator.advance(&problem, 0.01).expect("a motion without trouble");
             integrator.state().statistics

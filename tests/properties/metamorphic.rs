@@ -1,8 +1,8 @@
 //! The same motion told in two ways.
 
 use super::scenes::{
-    Play, all_plays, at, at_tolerance, contacts, crooked, elastic, inputs, letters, reals, revolutes, speed_driven,
-    start, with_play, worst_difference,
+    JournalMotion, all_plays, at, at_tolerance, contacts, crooked, elastic, inputs, letters, reals, revolutes,
+    speed_driven, start, with_play, worst_difference,
 };
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, Scene};
@@ -14,7 +14,7 @@ fn side_by_side(one: &mut Simulation, other: &mut Simulation, shift: f64) -> Vec
     times.map(|t| (at(one, t), at(other, shift + t))).collect()
 }
 
-fn rubbing(play: Play) -> Scene {
+fn rubbing(play: JournalMotion) -> Scene {
     let mut scene = with_play(crooked(), play);
     for contact in contacts(&mut scene) {
         contact.friction.law = FrictionLaw::Tanh;
