@@ -127,7 +127,7 @@ fn a_snapshot_of_another_mechanism_is_refused() {
         let snapshot = start(scene).snapshot();
         for (other_name, other) in &all {
             let same_size =
-                Simulation::start(other, 0.0, INPUTS).expect("a start").snapshot().reals.len() == snapshot.reals.len();
+                Simulation::start(other, INPUTS).expect("a start").snapshot().reals.len() == snapshot.reals.len();
             let restored = Simulation::restore(other, &snapshot);
             assert_eq!(restored.is_ok(), same_size, "{name} as {other_name}");
         }

@@ -24,8 +24,8 @@ fn shipped() -> [(&'static str, Scene); 5] {
 fn it_starts_where_a_simulation_starts_and_is_as_large() {
     for (name, scene) in shipped() {
         let inputs = Inputs { crank_torque: 1.5, slider_load: -20.0 };
-        let mut simulation = Simulation::start(&scene, 0.0, inputs).expect("a closed loop");
-        let system = System::start(&scene, 0.0, inputs).expect("a closed loop");
+        let mut simulation = Simulation::start(&scene, inputs).expect("a closed loop");
+        let system = System::start(&scene, inputs).expect("a closed loop");
         assert_eq!(system.size(), simulation.size(), "{name}");
         let mut y = vec![0.0; system.size().states];
         system.write_start(&mut y);
@@ -38,8 +38,8 @@ fn it_starts_where_a_simulation_starts_and_is_as_large() {
 #[test]
 fn its_rates_are_the_slopes_of_a_simulation() {
     for (name, scene) in shipped() {
-        let mut simulation = Simulation::start(&scene, 0.0, Inputs::default()).expect("a closed loop");
-        let system = System::start(&scene, 0.0, Inputs::default()).expect("a closed loop");
+        let mut simulation = Simulation::start(&scene, Inputs::default()).expect("a closed loop");
+        let system = System::start(&scene, Inputs::default()).expect("a closed loop");
         let states = system.size().states;
         let (mut y, mut rates) = (vec![0.0; states], vec![0.0; states]);
         system.write_start(&mut y);
@@ -58,7 +58,7 @@ fn its_rates_are_the_slopes_of_a_simulation() {
 #[test]
 fn an_event_closes_its_contact_and_a_restart_opens_it() {
     let [(_, scene), ..] = shipped();
-    let mut system = System::start(&scene, 0.0, Inputs::default()).expect("a closed loop");
+    let mut system = System::start(&scene, Inputs::default()).expect("a closed loop");
     let mut y = vec![0.0; 4];
     system.write_start(&mut y);
     // The journal at a hundredth of the clearance beyond its bearing, moving outward.

@@ -10,6 +10,7 @@ use slidercrank::integrator::{Method, Ode, SeveralInstants, StepPoint};
 use slidercrank::math::{F64x8, ROW, Real};
 use slidercrank::model::Model;
 use slidercrank::model::mechanism_model::MechanismModel;
+use slidercrank::model::state::Conditions;
 use slidercrank::simulation::Simulation;
 use std::hint::black_box;
 
@@ -29,8 +30,8 @@ fn main() -> anyhow::Result<()> {
     for name in [names(&directory()), ladder()].concat() {
         let mut file = Scenario::find(&name)?.file;
         file.scene.energy.audit = false;
-        let mut simulation = Simulation::start(&file.scene, 0.0, inputs_at_start(&file))?;
-        let models = [Model::assemble(&file.scene, 0.0), Model::assemble(&file.scene, 0.0).general()];
+        let mut simulation = Simulation::start(&file.scene, inputs_at_start(&file))?;
+        let models = [Model::assemble(&file.scene), Model::assemble(&file.scene).general()];
         let span = file.run.stop(&file.scene).min(SPAN);
         let (mut stage, mut eight) = ([0.0; 2], [0.0; 2]);
         for state in 1..=STATES {
@@ -49,7 +50,7 @@ fn main() -> anyhow::Result<()> {
 }
 
 fn of_stage(model: &Model, time: f64, states: &[f64]) -> f64 {
-    let mut start = StepPoint::new(time, states, model.start_contacts(time, states));
+    let mut start = StepPoint::new(time, states, Conditions::without_inputs(model.start_contacts(time, states)));
     model.rates(&start.discrete, time, states, &mut start.rates);
     let (mut end, mut attempt) = (start.clone(), Attempt::new(states.len()));
     let mut method = Explicit::new(&VERNER7, states.len());
@@ -59,11 +60,11 @@ fn of_stage(model: &Model, time: f64, states: &[f64]) -> f64 {
 }
 
 fn of_eight(model: &Model, time: f64, states: &[f64]) -> f64 {
-    let contacts = model.start_contacts(time, states);
+    let conditions = Conditions::without_inputs(model.start_contacts(time, states));
     let time = F64x8::constant(time);
     let states: Vec<F64x8> = states.iter().map(|state| F64x8::constant(*state)).collect();
     let mut rates = vec![F64x8::ZERO; states.len()];
-    repeated(|| model.rates_in_row(&contacts, &time, black_box(&states), &mut rates))
+    repeated(|| model.rates_in_row(&conditions, &time, black_box(&states), &mut rates))
 }
 
 /// [s] The fastest of some runs of so many calls.

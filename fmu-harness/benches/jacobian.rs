@@ -17,7 +17,7 @@ fn main() -> anyhow::Result<()> {
     println!("scene                  states  ns per evaluation  ns per Jacobian  ratio");
     for name in [names(&directory()), ladder()].concat() {
         let file = Scenario::find(&name)?.file;
-        let mut simulation = Simulation::start(&file.scene, 0.0, inputs_at_start(&file))?;
+        let mut simulation = Simulation::start(&file.scene, inputs_at_start(&file))?;
         let Size { states, .. } = simulation.size();
         let span = file.run.stop(&file.scene).min(SPAN);
         let (mut evaluation, mut jacobian) = (0.0, 0.0);

@@ -56,7 +56,7 @@ fn run(scene: &Scene, method: Method, tolerance: f64, span: f64, points: usize) 
     let mut scene = scene.clone();
     scene.solver.method = method;
     scene.solver.tolerance = tolerance;
-    let mut simulation = Simulation::start(&scene, 0.0, Inputs::default())?;
+    let mut simulation = Simulation::start(&scene, Inputs::default())?;
     let start = ThreadTime::now();
     let outputs = (1..=points)
         .map(|point| {

@@ -65,7 +65,7 @@ impl Price {
             Ok(column.last().context("a run without an end")? / span)
         };
         let (evaluations, steps, events) = (count("evaluations")?, count("steps")?, count("events")?);
-        let simulation = Simulation::start(&file.scene, 0.0, inputs_at_start(file))?;
+        let simulation = Simulation::start(&file.scene, inputs_at_start(file))?;
         let size = simulation.size();
         let evaluation = evaluation(simulation, span)?;
         let time = spent.as_secs_f64() / span;

@@ -236,14 +236,14 @@ impl<D: Copy> Integrator<D> {
     }
 
     /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
-    /// step of its own. To be called with the system that made the step.
+    /// step of its own.
     pub fn truncate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         truncate::truncate(&mut self.stepper, system, t);
     }
 
-    /// To be called when the system has changed at the front: rates and event functions are computed anew.
-    pub fn refresh(&mut self, system: &dyn System<Discrete = D>) {
-        self.stepper.refresh(system);
+    /// Gives the front another discrete state: rates and event functions are computed anew.
+    pub fn set_discrete(&mut self, system: &dyn System<Discrete = D>, discrete: D) {
+        self.stepper.set_discrete(system, discrete);
     }
 }
 

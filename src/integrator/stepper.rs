@@ -118,7 +118,13 @@ impl<D: Copy> Stepper<D> {
         }
     }
 
-    /// To be called when the system has changed at the front: rates and event functions are computed anew.
+    /// Gives the front another discrete state.
+    pub(super) fn set_discrete(&mut self, system: &dyn System<Discrete = D>, discrete: D) {
+        self.state.front_mut().discrete = discrete;
+        self.refresh(system);
+    }
+
+    /// Computes rates and event functions at the front anew, whose discrete state has changed.
     pub(super) fn refresh(&mut self, system: &dyn System<Discrete = D>) {
         self.method.forget();
         let StepPoint { t, y, rates, discrete, .. } = self.state.front_mut();

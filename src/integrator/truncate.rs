@@ -5,7 +5,7 @@ use super::stepper::Stepper;
 use super::system::System;
 
 /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
-/// step of its own. To be called with the system that made the step.
+/// step of its own.
 pub fn truncate<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t: f64) {
     let state = &mut stepper.state;
     if t >= state.front().t {

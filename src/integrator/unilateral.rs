@@ -27,8 +27,8 @@ pub struct Relative {
 /// A system of second order with unilateral contacts. Whatever is not asked for here stays as the defaults have it:
 /// no contact at all.
 ///
-/// In the default of the discrete state no contact exerts a force: [`rates`](super::Ode::rates) are then those of the
-/// motion without contacts.
+/// Its discrete state is one in which no contact exerts a force: [`rates`](super::Ode::rates) are those of the motion without
+/// contacts.
 pub trait Unilateral: System {
     /// Of every contact.
     fn contact_laws(&self) -> [ContactLaw; MAX_CONTACTS] {

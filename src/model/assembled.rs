@@ -13,7 +13,7 @@ use super::rod::{Modes, RodCapacity};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
-use super::state::{Contacts, Evaluation, Pose};
+use super::state::{Conditions, Contacts, Evaluation, Pose};
 use super::unilateral::StepForces;
 use crate::integrator::complementarity::MAX_CONTACTS;
 use crate::integrator::{
@@ -36,9 +36,9 @@ pub struct Model {
 }
 
 impl Model {
-    /// Assembles the model of a scene that starts at `time` [s].
-    pub fn assemble(scene: &Scene, time: f64) -> Self {
-        let mechanism = Mechanism::assemble(scene, time);
+    /// Assembles the model of a scene. Nothing in it changes afterwards: time, states, contacts and inputs are arguments.
+    pub fn assemble(scene: &Scene) -> Self {
+        let mechanism = Mechanism::assemble(scene);
         let (structure, states) = (mechanism.structure, mechanism.states());
         assert!(states <= MAX_STATES, "room for every state");
         let scale = Scale::of(scene);
@@ -88,15 +88,15 @@ impl Model {
 }
 
 impl Ode for Model {
-    type Discrete = Contacts;
+    type Discrete = Conditions;
 
     fn layout(&self) -> StateLayout {
         let states = self.scales.len();
         StateLayout { positions: self.mechanism.positions(), weighted: states, states }
     }
 
-    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
-        (self.compiled.rates)(&self.mechanism, contacts, t, y, rates);
+    fn rates(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
+        (self.compiled.rates)(&self.mechanism, conditions, t, y, rates);
     }
 
     fn scales(&self) -> &[f64] {
@@ -107,16 +107,16 @@ impl Ode for Model {
         self.longest_step
     }
 
-    fn stages(&self, tableau: &Tableau, contacts: &Contacts, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
+    fn stages(&self, tableau: &Tableau, conditions: &Conditions, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
         // With bristles, there are more states than the compiled loops have places for.
         let second_order = self.scales.len() == 2 * self.mechanism.positions();
-        second_order && (self.compiled.stages)(&self.mechanism, tableau, contacts, t, y, h, k)
+        second_order && (self.compiled.stages)(&self.mechanism, tableau, conditions, t, y, h, k)
     }
 }
 
 impl SeveralInstants for Model {
-    fn rates_in_row(&self, contacts: &Contacts, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
-        (self.compiled.rates_of_eight)(&self.mechanism, contacts, *t, y, rates);
+    fn rates_in_row(&self, conditions: &Conditions, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
+        (self.compiled.rates_of_eight)(&self.mechanism, conditions, *t, y, rates);
     }
 
     fn suits_blocks(&self) -> bool {
@@ -125,10 +125,10 @@ impl SeveralInstants for Model {
 }
 
 impl Linearizable for Model {
-    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
+    fn jacobian(&self, conditions: &Conditions, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let states = self.scales.len();
         differentiate::<MAX_STATES>(states, states, t, y, jacobian, &|t, y, rates| {
-            self.tangent_rates(contacts, t, y, rates)
+            self.tangent_rates(conditions, t, y, rates)
         });
     }
 }
@@ -138,24 +138,24 @@ impl Events for Model {
         self.mechanism.event_count()
     }
 
-    fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
-        self.mechanism.event_functions(contacts, t, y, functions);
+    fn event_functions(&self, conditions: &Conditions, t: f64, y: &[f64], functions: &mut EventFunctions) {
+        self.mechanism.event_functions(&conditions.contacts, t, y, functions);
     }
 
     fn rates_and_event_functions(
         &self,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: f64,
         y: &[f64],
         rates: &mut [f64],
         functions: &mut EventFunctions,
     ) {
-        (self.compiled.ends)(&self.mechanism, contacts, t, y, rates, functions);
+        (self.compiled.ends)(&self.mechanism, conditions, t, y, rates, functions);
     }
 
-    fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
+    fn discontinuities(&self, conditions: &Conditions, t: f64, y: &[f64], functions: &mut Discontinuities) {
         let Mechanism { structure, clearances, .. } = &self.mechanism;
-        clearances.discontinuities(structure.play, contacts, &self.mechanism.pose(t, y), functions);
+        clearances.discontinuities(structure.play, &conditions.contacts, &self.mechanism.pose(t, y), functions);
     }
 
     fn is_dead_end(&self, _: usize) -> bool {
@@ -166,13 +166,16 @@ impl Events for Model {
         self.event_scale
     }
 
-    fn reset(&self, contacts: &Contacts, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Contacts> {
+    fn reset(&self, conditions: &Conditions, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Conditions> {
         let Mechanism { structure, clearances, .. } = &self.mechanism;
         if structure.closed {
-            return Reset { discrete: *contacts, impact: None };
+            return Reset { discrete: *conditions, impact: None };
         }
         let pose = self.mechanism.pose(t, y);
-        clearances.cross(structure.play, contacts, &pose, triggered, &mut y[2 * self.mechanism.positions()..])
+        let bristles = &mut y[2 * self.mechanism.positions()..];
+        let Reset { discrete: contacts, impact } =
+            clearances.cross(structure.play, &conditions.contacts, &pose, triggered, bristles);
+        Reset { discrete: Conditions { contacts, ..*conditions }, impact }
     }
 }
 
@@ -206,36 +209,20 @@ impl MechanismModel for Model {
         self.mechanism.clearances.start(self.mechanism.structure.play, &self.mechanism.pose(t, y))
     }
 
-    fn set_signal(&mut self, signal: InputSignal) {
-        self.mechanism.signal = signal;
+    fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64]) -> Evaluation {
+        self.mechanism.evaluation(conditions, t, y, &mut [0.0; MAX_STATES][..y.len()])
     }
 
-    fn signal(&self) -> &InputSignal {
-        &self.mechanism.signal
+    fn rates_and_evaluation(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
+        self.mechanism.evaluation(conditions, t, y, rates)
     }
 
-    fn start_time(&self) -> f64 {
-        self.mechanism.rotor.start_time
+    fn evaluation_under(&self, impulses: &Impulses, inputs: &InputSignal, t: f64, y: &[f64]) -> Evaluation {
+        self.mechanism.evaluation_under(&acting(impulses, y.len()), inputs, t, y, &mut [0.0; MAX_STATES][..y.len()])
     }
 
-    fn set_start_time(&mut self, time: f64) {
-        self.mechanism.rotor.start_time = time;
-    }
-
-    fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Evaluation {
-        self.mechanism.evaluation(contacts, t, y, &mut [0.0; MAX_STATES][..y.len()])
-    }
-
-    fn rates_and_evaluation(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
-        self.mechanism.evaluation(contacts, t, y, rates)
-    }
-
-    fn evaluation_under(&self, impulses: &Impulses, t: f64, y: &[f64]) -> Evaluation {
-        self.mechanism.evaluation_under(&acting(impulses, y.len()), t, y, &mut [0.0; MAX_STATES][..y.len()])
-    }
-
-    fn rates_under(&self, impulses: &Impulses, t: f64, y: &[f64], rates: &mut [f64]) {
-        self.mechanism.evaluation_under(&acting(impulses, y.len()), t, y, rates);
+    fn rates_under(&self, impulses: &Impulses, inputs: &InputSignal, t: f64, y: &[f64], rates: &mut [f64]) {
+        self.mechanism.evaluation_under(&acting(impulses, y.len()), inputs, t, y, rates);
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
@@ -246,16 +233,16 @@ impl MechanismModel for Model {
         self.mechanism.contact_energy(contacts, pose, y)
     }
 
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
-        self.mechanism.tangent_rates(contacts, t, y, rates);
+    fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+        self.mechanism.tangent_rates(conditions, t, y, rates);
     }
 
     fn tangent_evaluation(
         &self,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
-        self.mechanism.tangent_evaluation(contacts, t, y, &mut [Tangent::ZERO; MAX_STATES][..y.len()])
+        self.mechanism.tangent_evaluation(conditions, t, y, &mut [Tangent::ZERO; MAX_STATES][..y.len()])
     }
 }

@@ -20,7 +20,7 @@ use super::reactions::reactions;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
-use super::state::{Contacts, Evaluation, Pose};
+use super::state::{Conditions, Contacts, Evaluation, Pose};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::integrator::{
     Discontinuities, EventFunctions, Events, Jacobian, Linearizable, MAX_STATES, Ode, Reset, SeveralInstants,
@@ -114,12 +114,18 @@ impl Audited {
     }
 
     /// [W] Rates of the audit's states.
-    fn powers<R: Real>(&self, t: R, evaluation: &Evaluation<R>, contact_energy: &ContactEnergy<R>) -> [R; STATES] {
+    fn powers<R: Real>(
+        &self,
+        inputs: &InputSignal,
+        t: R,
+        evaluation: &Evaluation<R>,
+        contact_energy: &ContactEnergy<R>,
+    ) -> [R; STATES] {
         let Evaluation { pose, loads, flexible, .. } = evaluation;
         let torque = if self.topology.speed {
             reactions(self.topology, &self.bodies, self.gravity, evaluation).torque
         } else {
-            self.model.signal().at(t).crank_torque
+            inputs.at(t).crank_torque
         };
         [
             torque * pose.rotations.speed[CRANK],
@@ -149,18 +155,18 @@ impl Audited {
 }
 
 impl Ode for Audited {
-    type Discrete = Contacts;
+    type Discrete = Conditions;
 
     fn layout(&self) -> StateLayout {
         let StateLayout { positions, weighted, states } = self.model.layout();
         StateLayout { positions, weighted, states: states + STATES }
     }
 
-    fn rates(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
+    fn rates(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
         let first = self.first();
-        let evaluation = self.model.rates_and_evaluation(contacts, t, &y[..first], &mut rates[..first]);
-        let contact_energy = self.model.contact_energy(contacts, &evaluation.pose, &y[..first]);
-        rates[first..][..STATES].copy_from_slice(&self.powers(t, &evaluation, &contact_energy));
+        let evaluation = self.model.rates_and_evaluation(conditions, t, &y[..first], &mut rates[..first]);
+        let contact_energy = self.model.contact_energy(&conditions.contacts, &evaluation.pose, &y[..first]);
+        rates[first..][..STATES].copy_from_slice(&self.powers(&conditions.inputs, t, &evaluation, &contact_energy));
     }
 
     fn scales(&self) -> &[f64] {
@@ -181,10 +187,10 @@ impl SeveralInstants for Audited {
 
 impl Linearizable for Audited {
     /// The audit's own rows are exact, too; its columns are 0.
-    fn jacobian(&self, contacts: &Contacts, t: f64, y: &[f64], jacobian: &mut Jacobian) {
+    fn jacobian(&self, conditions: &Conditions, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let first = self.first();
         differentiate::<MAX_STATES>(first + STATES, first, t, y, jacobian, &|t, y, rates| {
-            self.tangent_rates(contacts, t, y, rates);
+            self.tangent_rates(conditions, t, y, rates);
         });
     }
 }
@@ -194,25 +200,25 @@ impl Events for Audited {
         self.model.event_count()
     }
 
-    fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut EventFunctions) {
-        self.model.event_functions(contacts, t, &y[..self.first()], functions);
+    fn event_functions(&self, conditions: &Conditions, t: f64, y: &[f64], functions: &mut EventFunctions) {
+        self.model.event_functions(conditions, t, &y[..self.first()], functions);
     }
 
     fn is_dead_end(&self, event: usize) -> bool {
         self.model.is_dead_end(event)
     }
 
-    fn discontinuities(&self, contacts: &Contacts, t: f64, y: &[f64], functions: &mut Discontinuities) {
-        self.model.discontinuities(contacts, t, &y[..self.first()], functions);
+    fn discontinuities(&self, conditions: &Conditions, t: f64, y: &[f64], functions: &mut Discontinuities) {
+        self.model.discontinuities(conditions, t, &y[..self.first()], functions);
     }
 
     fn event_scale(&self) -> f64 {
         self.model.event_scale()
     }
 
-    fn reset(&self, contacts: &Contacts, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Contacts> {
+    fn reset(&self, conditions: &Conditions, t: f64, y: &mut [f64], triggered: &Triggered) -> Reset<Conditions> {
         let first = self.first();
-        self.model.reset(contacts, t, &mut y[..first], triggered)
+        self.model.reset(conditions, t, &mut y[..first], triggered)
     }
 }
 
@@ -223,9 +229,10 @@ impl MechanismModel for Audited {
         let first = self.first();
         let (own, sums) = y.split_at_mut(first);
         self.model.write_start(pose, own);
-        let t = self.model.start_time();
-        let contacts = self.model.start_contacts(t, own);
-        let evaluation = self.model.evaluation(&contacts, t, own);
+        let contacts = self.model.start_contacts(0.0, own);
+        // No energy that is stored depends on the inputs.
+        let conditions = Conditions::without_inputs(contacts);
+        let evaluation = self.model.evaluation(&conditions, 0.0, own);
         let stored = self.stored(&evaluation, &self.model.contact_energy(&contacts, &evaluation.pose, own));
         sums[NORMAL_WORK] = stored.contact;
         sums[STATES - 1] = stored.kinetic + stored.potential;
@@ -235,24 +242,8 @@ impl MechanismModel for Audited {
         self.model.start_contacts(t, &y[..self.first()])
     }
 
-    fn set_signal(&mut self, signal: InputSignal) {
-        self.model.set_signal(signal);
-    }
-
-    fn signal(&self) -> &InputSignal {
-        self.model.signal()
-    }
-
-    fn start_time(&self) -> f64 {
-        self.model.start_time()
-    }
-
-    fn set_start_time(&mut self, time: f64) {
-        self.model.set_start_time(time);
-    }
-
-    fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Evaluation {
-        self.model.evaluation(contacts, t, &y[..self.first()])
+    fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64]) -> Evaluation {
+        self.model.evaluation(conditions, t, &y[..self.first()])
     }
 
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS] {
@@ -263,20 +254,20 @@ impl MechanismModel for Audited {
         self.model.contact_energy(contacts, pose, &y[..self.first()])
     }
 
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+    fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         let first = self.first();
-        self.model.tangent_rates(contacts, t, &y[..first], &mut rates[..first]);
-        let (evaluation, contact_energy) = self.model.tangent_evaluation(contacts, t, &y[..first]);
-        rates[first..][..STATES].copy_from_slice(&self.powers(t, &evaluation, &contact_energy));
+        self.model.tangent_rates(conditions, t, &y[..first], &mut rates[..first]);
+        let (evaluation, contact_energy) = self.model.tangent_evaluation(conditions, t, &y[..first]);
+        rates[first..][..STATES].copy_from_slice(&self.powers(&conditions.inputs, t, &evaluation, &contact_energy));
     }
 
     fn tangent_evaluation(
         &self,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
-        self.model.tangent_evaluation(contacts, t, &y[..self.first()])
+        self.model.tangent_evaluation(conditions, t, &y[..self.first()])
     }
 
     fn energies(&self, contacts: &Contacts, evaluation: &Evaluation, y: &[f64]) -> EnergyOutputs {

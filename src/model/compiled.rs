@@ -15,19 +15,19 @@ use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
 use super::rod::{Chord, CompiledCounts, FixedCounts, RodCapacity, RuntimeCounts};
 use super::scalar::{Scalar, Tangent};
 use super::stages::of_so_many;
-use super::state::{Contacts, Evaluation, Pose};
+use super::state::{Conditions, Evaluation, Pose};
 use super::structure::{Structure, Topology};
 use crate::integrator::{EventFunctions, Tableau};
 use crate::math::F64x8;
 
 /// Writes the rates of a state.
-type Rates = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64]);
+type Rates = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64]);
 /// Writes the rates of eight states at their times.
-type RatesOfEight = fn(&Mechanism, &Contacts, F64x8, &[F64x8], &mut [F64x8]);
+type RatesOfEight = fn(&Mechanism, &Conditions, F64x8, &[F64x8], &mut [F64x8]);
 /// Writes the rates of a state, and the event functions.
-type Ends = fn(&Mechanism, &Contacts, f64, &[f64], &mut [f64], &mut EventFunctions);
+type Ends = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64], &mut EventFunctions);
 /// See [`Ode::stages`](crate::integrator::Ode::stages).
-type Stages = fn(&Mechanism, &Tableau, &Contacts, f64, &[f64], f64, &mut [f64]) -> bool;
+type Stages = fn(&Mechanism, &Tableau, &Conditions, f64, &[f64], f64, &mut [f64]) -> bool;
 
 /// The equations of motion, compiled for one structure or for all.
 #[derive(Clone, Copy, Debug)]
@@ -47,22 +47,22 @@ pub struct Compiled {
 macro_rules! code {
     ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {
         Compiled {
-            rates: |mechanism, contacts, t, y, rates| {
-                mechanism.$rates$(::<_, $counts>)?(&$structure, contacts, t, y, rates);
+            rates: |mechanism, conditions, t, y, rates| {
+                mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
             },
             rates_of_eight: if const { suits_rows(&$structure) } {
-                |mechanism, contacts, t, y, rates| {
-                    mechanism.$rates$(::<_, $counts>)?(&$structure, contacts, t, y, rates);
+                |mechanism, conditions, t, y, rates| {
+                    mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 }
             } else {
                 Mechanism::rates_of_eight
             },
-            ends: |mechanism, contacts, t, y, rates, event_functions| {
-                mechanism.$ends$(::<$counts>)?(&$structure, contacts, t, y, rates, event_functions);
+            ends: |mechanism, conditions, t, y, rates, event_functions| {
+                mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
             },
-            stages: |mechanism, tableau, contacts, t, y, h, k| {
+            stages: |mechanism, tableau, conditions, t, y, h, k| {
                 of_so_many::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
-                    mechanism.$rates$(::<_, $counts>)?(&$structure, contacts, t, y, rates);
+                    mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 })
             },
         }
@@ -151,8 +151,8 @@ fn stages_of_all(states: usize) -> Stages {
     macro_rules! of {
         ($($n:literal)*) => {
             match states {
-                $($n => |mechanism, tableau, contacts, t, y, h, k| {
-                    of_so_many::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(contacts, t, y, rates))
+                $($n => |mechanism, tableau, conditions, t, y, h, k| {
+                    of_so_many::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(conditions, t, y, rates))
                 },)*
                 _ => |_, _, _, _, _, _, _| false,
             }
@@ -177,28 +177,28 @@ macro_rules! with_capacity {
 impl Mechanism {
     /// Rates of a state.
     #[inline(never)]
-    pub fn rates_of_one(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) {
+    pub fn rates_of_one(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
-            None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<f64>(rod, contacts, t, y, rates)),
+            None => self.rates(&self.structure, conditions, t, y, rates),
+            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<f64>(rod, conditions, t, y, rates)),
         }
     }
 
     /// Rates of eight states at their times.
     #[inline(never)]
-    pub fn rates_of_eight(&self, contacts: &Contacts, t: F64x8, y: &[F64x8], rates: &mut [F64x8]) {
+    pub fn rates_of_eight(&self, conditions: &Conditions, t: F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         match &self.rod {
-            None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.flexible_rates_of_eight(rod, contacts, t, y, rates)),
+            None => self.rates(&self.structure, conditions, t, y, rates),
+            Some(rod) => with_capacity!(rod, self.flexible_rates_of_eight(rod, conditions, t, y, rates)),
         }
     }
 
     /// Rates with derivatives.
     #[inline(never)]
-    pub fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+    pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
-            None => self.rates(&self.structure, contacts, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<Tangent>(rod, contacts, t, y, rates)),
+            None => self.rates(&self.structure, conditions, t, y, rates),
+            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates)),
         }
     }
 
@@ -206,15 +206,15 @@ impl Mechanism {
     #[inline(never)]
     pub fn ends(
         &self,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: f64,
         y: &[f64],
         rates: &mut [f64],
         event_functions: &mut EventFunctions,
     ) {
         match &self.rod {
-            None => self.rates_and_event_functions(&self.structure, contacts, t, y, rates, event_functions),
-            Some(rod) => with_capacity!(rod, self.flexible_ends(rod, contacts, t, y, rates, event_functions)),
+            None => self.rates_and_event_functions(&self.structure, conditions, t, y, rates, event_functions),
+            Some(rod) => with_capacity!(rod, self.flexible_ends(rod, conditions, t, y, rates, event_functions)),
         }
     }
 
@@ -231,10 +231,10 @@ impl Mechanism {
 
     /// Everything about an instant, and its rates.
     #[inline(never)]
-    pub fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
+    pub fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
         match &self.rod {
-            None => self.rates_and_evaluation(&self.structure, contacts, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.flexible_instant::<f64>(rod, contacts, t, y, rates)),
+            None => self.rates_and_evaluation(&self.structure, conditions, t, y, rates),
+            Some(rod) => with_capacity!(rod, self.flexible_instant::<f64>(rod, conditions, t, y, rates)),
         }
     }
 
@@ -242,16 +242,16 @@ impl Mechanism {
     #[inline(never)]
     pub fn tangent_evaluation(
         &self,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
         rates: &mut [Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
         let evaluation = match &self.rod {
-            None => self.rates_and_evaluation(&self.structure, contacts, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.flexible_instant::<Tangent>(rod, contacts, t, y, rates)),
+            None => self.rates_and_evaluation(&self.structure, conditions, t, y, rates),
+            Some(rod) => with_capacity!(rod, self.flexible_instant::<Tangent>(rod, conditions, t, y, rates)),
         };
-        let contact_energy = self.contact_energy(contacts, &evaluation.pose, y);
+        let contact_energy = self.contact_energy(&conditions.contacts, &evaluation.pose, y);
         (evaluation, contact_energy)
     }
 
@@ -260,13 +260,13 @@ impl Mechanism {
     fn counted_rates<R: Scalar, C: CompiledCounts>(
         &self,
         of: &Structure,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) {
         if let Some(rod) = &self.rod {
-            self.flexible_rates::<R, C, 4, 12>(of, rod, contacts, t, y, rates);
+            self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates);
         }
     }
 
@@ -275,15 +275,15 @@ impl Mechanism {
     fn counted_rates_and_guards<C: CompiledCounts>(
         &self,
         of: &Structure,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: f64,
         y: &[f64],
         rates: &mut [f64],
         event_functions: &mut EventFunctions,
     ) {
         if let Some(rod) = &self.rod {
-            let motion = self.flexible_rates::<f64, C, 4, 12>(of, rod, contacts, t, y, rates);
-            motion.event_functions(self, of, contacts, event_functions);
+            let motion = self.flexible_rates::<f64, C, 4, 12>(of, rod, conditions, t, y, rates);
+            motion.event_functions(self, of, &conditions.contacts, event_functions);
         }
     }
 
@@ -291,38 +291,38 @@ impl Mechanism {
     fn flexible_ends<const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: f64,
         y: &[f64],
         rates: &mut [f64],
         event_functions: &mut EventFunctions,
     ) {
-        let motion = self.flexible_motion::<f64, K, F>(rod, contacts, t, y, rates);
-        motion.event_functions(self, &self.structure, contacts, event_functions);
+        let motion = self.flexible_motion::<f64, K, F>(rod, conditions, t, y, rates);
+        motion.event_functions(self, &self.structure, &conditions.contacts, event_functions);
     }
 
     #[inline(never)]
     fn flexible_rates_of_eight<const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: F64x8,
         y: &[F64x8],
         rates: &mut [F64x8],
     ) {
-        self.flexible_rates::<F64x8, RuntimeCounts, K, F>(&self.structure, rod, contacts, t, y, rates);
+        self.flexible_rates::<F64x8, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates);
     }
 
     #[inline(never)]
     fn flexible_motion<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) -> FlexibleMotion<R, K, F> {
-        self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, contacts, t, y, rates)
+        self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates)
     }
 
     /// Rates alone, by the same code.
@@ -330,23 +330,23 @@ impl Mechanism {
     fn drop_flexible_motion<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) {
-        self.flexible_motion::<R, K, F>(rod, contacts, t, y, rates);
+        self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates);
     }
 
     #[inline(never)]
     fn flexible_instant<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) -> Evaluation<R> {
-        self.flexible_motion::<R, K, F>(rod, contacts, t, y, rates).evaluation(self, rod, y, rates)
+        self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates).evaluation(self, rod, y, rates)
     }
 }

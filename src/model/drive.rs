@@ -40,11 +40,9 @@ impl InputSignal {
     }
 }
 
-/// The prescribed rotation θ1 = θ0 + ω0·(t − t0).
+/// The prescribed rotation θ1 = θ0 + ω0·t, t counted from the start of the run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotor {
-    /// [s] t0.
-    pub start_time: f64,
     /// [rad] θ0.
     pub angle: f64,
     /// [rad/s] ω0.
@@ -52,15 +50,15 @@ pub struct Rotor {
 }
 
 impl Rotor {
-    /// Of a scene that starts at `time` [s].
-    pub fn new(scene: &Scene, time: f64) -> Self {
-        Self { start_time: time, angle: scene.crank.angle_start, speed: scene.crank.speed_start }
+    /// Of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        Self { angle: scene.crank.angle_start, speed: scene.crank.speed_start }
     }
 
     /// [rad] at `t`.
     #[inline(always)]
     pub fn at<R: Real>(&self, t: R) -> R {
-        (t - self.start_time).multiply_add(self.speed, R::constant(self.angle))
+        t.multiply_add(self.speed, R::constant(self.angle))
     }
 }
 

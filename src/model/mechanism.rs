@@ -9,7 +9,7 @@
 use super::bodies::{AugmentedBodies, RodInChain, bodies};
 use super::clearances::Clearances;
 use super::contact::ContactEnergy;
-use super::drive::{InputSignal, RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
+use super::drive::{RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::{Accelerations, accelerate};
 use super::ideal::{IdealMechanism, IdealMotion};
 use super::inertial_load::InertialLoad;
@@ -20,13 +20,13 @@ use super::plane::{Vec2, cross, perp};
 use super::rod::{Arrays, Chord, CompiledCounts, Inertia, Modes, Rod, Shape};
 use super::scalar::Scalar;
 use super::start::StartPose;
-use super::state::{Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
+use super::state::{Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
 use super::structure::{CRANK, Link, ROD, Roots, Structure, Topology};
 use crate::integrator::EventFunctions;
 use crate::math::{self, unroll};
 use crate::scene::Scene;
 
-/// A mechanism. Nothing but its inputs changes while time runs.
+/// A mechanism. Nothing in it changes while time runs.
 #[derive(Clone, Debug)]
 pub struct Mechanism {
     /// What hangs on what.
@@ -43,8 +43,6 @@ pub struct Mechanism {
     pub clearances: Clearances,
     rotary_dampers: Vec<RotaryDamper>,
     guide_damping: Option<f64>,
-    /// Inputs in time.
-    pub signal: InputSignal,
 }
 
 /// A flexible rod in its mechanism.
@@ -78,8 +76,8 @@ pub(super) struct FlexibleMotion<R, const K: usize, const F: usize> {
 }
 
 impl Mechanism {
-    /// Assembles the mechanism of a scene that starts at `time` [s].
-    pub fn assemble(scene: &Scene, time: f64) -> Self {
+    /// Assembles the mechanism of a scene.
+    pub fn assemble(scene: &Scene) -> Self {
         let (topology, rod) = (Topology::of(scene), Rod::new(scene));
         let structure = Structure::with_rod(topology, rod.is_some());
         let bodies = bodies(scene);
@@ -88,7 +86,7 @@ impl Mechanism {
             augmented: AugmentedBodies::new(&bodies, &structure),
             gravity: scene.gravity,
             ideal: IdealMechanism::new(scene),
-            rotor: Rotor::new(scene, time),
+            rotor: Rotor::new(scene),
             rod: rod.map(|rod| FlexibleRod {
                 modes: Modes::new(&rod),
                 chain: RodInChain::new(&bodies, &structure),
@@ -97,15 +95,14 @@ impl Mechanism {
             clearances: Clearances::new(scene),
             rotary_dampers: rotary_dampers(scene),
             guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
-            signal: InputSignal::default(),
         }
     }
 
     /// Writes the rates of the state `y` at `t`, of a mechanism with a rigid rod: velocities, accelerations, and those of
     /// bristles. `of` is the mechanism's structure, or the same as a constant.
     #[inline(always)]
-    pub fn rates<R: Scalar>(&self, of: &Structure, contacts: &Contacts, t: R, y: &[R], rates: &mut [R]) {
-        self.motion(of, contacts, t, y, rates);
+    pub fn rates<R: Scalar>(&self, of: &Structure, conditions: &Conditions, t: R, y: &[R], rates: &mut [R]) {
+        self.motion(of, conditions, t, y, rates);
     }
 
     /// The same, and the event functions at this instant.
@@ -113,14 +110,14 @@ impl Mechanism {
     pub fn rates_and_event_functions(
         &self,
         of: &Structure,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: f64,
         y: &[f64],
         rates: &mut [f64],
         event_functions: &mut EventFunctions,
     ) {
-        let (configuration, ..) = self.motion(of, contacts, t, y, rates);
-        self.event_functions_at(of, contacts, &configuration.pose, [self.ideal.rod, 0.0], event_functions);
+        let (configuration, ..) = self.motion(of, conditions, t, y, rates);
+        self.event_functions_at(of, &conditions.contacts, &configuration.pose, [self.ideal.rod, 0.0], event_functions);
     }
 
     /// The same, and everything else about this instant.
@@ -128,12 +125,12 @@ impl Mechanism {
     pub fn rates_and_evaluation<R: Scalar>(
         &self,
         of: &Structure,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) -> Evaluation<R> {
-        let (configuration, loads, accelerations) = self.motion(of, contacts, t, y, rates);
+        let (configuration, loads, accelerations) = self.motion(of, conditions, t, y, rates);
         evaluation(of, configuration, loads, &accelerations)
     }
 
@@ -142,14 +139,14 @@ impl Mechanism {
     fn motion<R: Scalar>(
         &self,
         of: &Structure,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
     ) -> (Configuration<R>, Loads<R>, Accelerations<R>) {
         let configuration = self.configuration(of, t, y);
         let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let loads = self.loads(of, contacts, t, &y[2 * of.positions..], &configuration.pose, bristle_rates);
+        let loads = self.loads(of, conditions, t, &y[2 * of.positions..], &configuration.pose, bristle_rates);
         let accelerations = self.accelerations(of, &configuration, &loads);
         write(of, &accelerations, y, moving);
         (configuration, loads, accelerations)
@@ -162,7 +159,7 @@ impl Mechanism {
         &self,
         of: &Structure,
         rod: &FlexibleRod,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
@@ -176,7 +173,7 @@ impl Mechanism {
         let configuration = self.flexible_configuration(of, t, positions, speeds, &shape);
         let (moving, bristle_rates) = rates.split_at_mut(2 * p);
         let (velocities, forced) = moving.split_at_mut(p);
-        let loads = self.loads(of, contacts, t, &y[2 * p..], &configuration.pose, bristle_rates);
+        let loads = self.loads(of, conditions, t, &y[2 * p..], &configuration.pose, bristle_rates);
         let Configuration { pose, arms, closing } = &configuration;
         let inertia = modes.inertia::<R, C>(&shape, eta, rate, pose.rotations.speed[ROD]);
         let bent = BentRod { modes, chain: rod.chain, shape: &shape, inertia: &inertia, eta, rate };
@@ -274,13 +271,13 @@ impl Mechanism {
     pub(super) fn loads<R: Scalar>(
         &self,
         of: &Structure,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: R,
         bristles: &[R],
         pose: &Pose<R>,
         bristle_rates: &mut [R],
     ) -> Loads<R> {
-        let inputs = self.signal.at(t);
+        let inputs = conditions.inputs.at(t);
         let slider_load = inputs.slider_load;
         let mut loads = Loads { pin: Vec2::new(slider_load, R::ZERO), slider_load, ..Loads::default() };
         if !of.topology.speed {
@@ -291,7 +288,7 @@ impl Mechanism {
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
         }
-        self.clearances.add_loads(of.play, contacts, pose, bristles, bristle_rates, &mut loads);
+        self.clearances.add_loads(of.play, &conditions.contacts, pose, bristles, bristle_rates, &mut loads);
         loads
     }
 

@@ -6,46 +6,34 @@ use super::joint::rectangle::CORNERS;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
-use super::state::{Contacts, Evaluation, Pose};
+use super::state::{Conditions, Contacts, Evaluation, Pose};
 use crate::integrator::{Impulses, Unilateral};
 
 /// A mechanism in minimal coordinates.
-pub trait MechanismModel: Unilateral<Discrete = Contacts> + Send {
+pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     /// Writes the state of a start pose in place of zeros.
     fn write_start(&self, pose: &StartPose, y: &mut [f64]);
 
     /// The contacts of a state that no motion has led to: those that penetrate are closed.
     fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts;
 
-    /// Inputs from a communication point on.
-    fn set_signal(&mut self, signal: InputSignal);
-
-    /// The inputs in force.
-    fn signal(&self) -> &InputSignal;
-
-    /// [s] t0, from which a prescribed crank angle counts.
-    fn start_time(&self) -> f64;
-
-    /// Sets t0.
-    fn set_start_time(&mut self, time: f64);
-
     /// Everything about one instant.
-    fn evaluation(&self, contacts: &Contacts, t: f64, y: &[f64]) -> Evaluation;
+    fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64]) -> Evaluation;
 
     /// The rates of a state and everything about that instant, at the cost of about one of them.
-    fn rates_and_evaluation(&self, contacts: &Contacts, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
-        self.rates(contacts, t, y, rates);
-        self.evaluation(contacts, t, y)
+    fn rates_and_evaluation(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
+        self.rates(conditions, t, y, rates);
+        self.evaluation(conditions, t, y)
     }
 
     /// Everything about one instant of a motion with rigid contacts, whose forces are those of `impulses`.
-    fn evaluation_under(&self, _: &Impulses, t: f64, y: &[f64]) -> Evaluation {
-        self.evaluation(&Contacts::default(), t, y)
+    fn evaluation_under(&self, _: &Impulses, inputs: &InputSignal, t: f64, y: &[f64]) -> Evaluation {
+        self.evaluation(&Conditions::without_contacts(*inputs), t, y)
     }
 
     /// The rates of that instant.
-    fn rates_under(&self, _: &Impulses, t: f64, y: &[f64], rates: &mut [f64]) {
-        self.rates(&Contacts::default(), t, y, rates);
+    fn rates_under(&self, _: &Impulses, inputs: &InputSignal, t: f64, y: &[f64], rates: &mut [f64]) {
+        self.rates(&Conditions::without_contacts(*inputs), t, y, rates);
     }
 
     /// [m] Penetration in the joints A, B, C and of the guide's corners at a pose, −∞ in an ideal joint.
@@ -57,12 +45,12 @@ pub trait MechanismModel: Unilateral<Discrete = Contacts> + Send {
     }
 
     /// The rates with derivatives.
-    fn tangent_rates(&self, contacts: &Contacts, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);
+    fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);
 
     /// [`MechanismModel::evaluation`] and [`MechanismModel::contact_energy`] with derivatives.
     fn tangent_evaluation(
         &self,
-        contacts: &Contacts,
+        conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>);

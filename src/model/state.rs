@@ -1,7 +1,7 @@
 //! A mechanism at one instant, the same for every topology: what outputs are made from.
 
 use super::contact::ContactState;
-use super::drive::Rotor;
+use super::drive::{InputSignal, Rotor};
 use super::inertial_load::InertialLoad;
 use super::joint::rectangle::{CORNERS, SliderPose};
 use super::joint::revolute::JournalMotion;
@@ -16,8 +16,29 @@ use crate::math::Real;
 /// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.
 pub const CONTACTS: usize = 3 + CORNERS;
 
-/// The discrete state: every contact's memory.
+/// The state of every contact.
 pub type Contacts = [ContactState; CONTACTS];
+
+/// What is constant within a step of the integrator: the state of every contact, and the course of the inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Conditions {
+    /// The discrete state.
+    pub contacts: Contacts,
+    /// Inputs as a function of time.
+    pub inputs: InputSignal,
+}
+
+impl Conditions {
+    /// These contacts, and inputs that are 0 throughout.
+    pub fn without_inputs(contacts: Contacts) -> Self {
+        Self { contacts, inputs: InputSignal::default() }
+    }
+
+    /// These inputs, and open contacts.
+    pub fn without_contacts(inputs: InputSignal) -> Self {
+        Self { contacts: Contacts::default(), inputs }
+    }
+}
 
 /// Angles, positions and velocities of an open mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,6 +4,7 @@
 //! the response to an impulse is the acceleration under that force alone, at rest and without weight.
 
 use super::clearances::Clearances;
+use super::drive::InputSignal;
 use super::dynamics::{Accelerations, accelerate};
 use super::ideal::IdealMotion;
 use super::joint::rectangle::CORNERS;
@@ -11,7 +12,7 @@ use super::joint_set::{JointSet, Pin};
 use super::kinematics::BodyRotations;
 use super::loads::Loads;
 use super::mechanism::{Mechanism, evaluation, write};
-use super::state::{CONTACTS, Contacts, Evaluation, Pose};
+use super::state::{CONTACTS, Conditions, Evaluation, Pose};
 use super::structure::Structure;
 use crate::integrator::Relative;
 use crate::integrator::complementarity::{MAX_CONTACTS, Pairs};
@@ -88,12 +89,19 @@ impl Mechanism {
     }
 
     /// Everything about an instant of a motion with rigid contacts, and its rates.
-    pub fn evaluation_under(&self, acting: &StepForces<'_>, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
+    pub fn evaluation_under(
+        &self,
+        acting: &StepForces<'_>,
+        inputs: &InputSignal,
+        t: f64,
+        y: &[f64],
+        rates: &mut [f64],
+    ) -> Evaluation {
         let of = &self.structure;
         let configuration = self.place(t, y);
         let (moving, bristle_rates) = rates.split_at_mut(2 * of.positions);
-        let mut loads =
-            self.loads(of, &Contacts::default(), t, &y[2 * of.positions..], &configuration.pose, bristle_rates);
+        let open = Conditions::without_contacts(*inputs);
+        let mut loads = self.loads(of, &open, t, &y[2 * of.positions..], &configuration.pose, bristle_rates);
         if acting.acts.contains(&true) {
             let there = self.pose(acting.t, acting.y);
             for contact in (0..CONTACTS).filter(|&contact| acting.acts[contact]) {

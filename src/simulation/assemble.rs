@@ -10,17 +10,16 @@ use crate::model::mechanism_model::MechanismModel;
 use crate::model::start::StartPose;
 use crate::scene::{Method, Scene};
 
-/// Starts the mechanism of `scene` at `time` [s] from `pose`, and reckons the energy up where the scene asks for it.
+/// Starts the mechanism of `scene` from `pose` at time 0 under `inputs`, and reckons the energy up where the scene asks for it.
 /// Integrators are compiled once and call the mechanism through a table of functions. Only the loop over a step's stages
 /// is compiled for some small mechanisms on its own; see [`Ode::stages`](crate::integrator::Ode::stages).
-pub fn start(scene: &Scene, time: f64, pose: &StartPose, signal: InputSignal) -> Box<dyn Motion> {
-    let mut model: Box<dyn MechanismModel> = Box::new(Model::assemble(scene, time));
+pub fn start(scene: &Scene, pose: &StartPose, inputs: InputSignal) -> Box<dyn Motion> {
+    let mut model: Box<dyn MechanismModel> = Box::new(Model::assemble(scene));
     if scene.energy.audit {
         model = Box::new(Audited::new(scene, model));
     }
-    model.set_signal(signal);
     match scene.solver.method {
-        Method::Moreau => Box::new(TimeStepping::start(scene, time, pose, model)),
-        _ => Box::new(Run::start(scene, time, pose, model)),
+        Method::Moreau => Box::new(TimeStepping::start(scene, pose, inputs, model)),
+        _ => Box::new(Run::start(scene, pose, inputs, model)),
     }
 }

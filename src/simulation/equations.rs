@@ -5,7 +5,7 @@ use crate::integrator::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, S
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::signals::Outputs;
-use crate::model::state::Contacts;
+use crate::model::state::Conditions;
 
 /// How large the equations of motion are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,14 +44,14 @@ pub trait Equations: Send {
 pub struct EquationSystem {
     model: Box<dyn MechanismModel>,
     observer: Observer,
-    start: (Vec<f64>, Contacts),
-    contacts: Contacts,
+    start: (Vec<f64>, Conditions),
+    conditions: Conditions,
 }
 
 impl EquationSystem {
     /// From a mechanism and where it starts.
-    pub fn new(model: Box<dyn MechanismModel>, observer: Observer, y: Vec<f64>, contacts: Contacts) -> Self {
-        Self { model, observer, start: (y, contacts), contacts }
+    pub fn new(model: Box<dyn MechanismModel>, observer: Observer, y: Vec<f64>, conditions: Conditions) -> Self {
+        Self { model, observer, start: (y, conditions), conditions }
     }
 
     fn states(&self) -> usize {
@@ -61,7 +61,7 @@ impl EquationSystem {
     #[inline(always)]
     fn events(&self, t: f64, y: &[f64]) -> EventFunctions {
         let mut functions = [EventFunction::default(); MAX_EVENTS];
-        self.model.event_functions(&self.contacts, t, &y[..self.states()], &mut functions);
+        self.model.event_functions(&self.conditions, t, &y[..self.states()], &mut functions);
         functions
     }
 }
@@ -103,10 +103,10 @@ impl Equations for EquationSystem {
     fn write_rates(&self, t: f64, y: &[f64], rates: &mut [f64]) {
         let n = self.states();
         if y.len() == n && rates.len() == n {
-            return self.model.rates(&self.contacts, t, y, rates);
+            return self.model.rates(&self.conditions, t, y, rates);
         }
         let mut all = [0.0; MAX_STATES];
-        self.model.rates(&self.contacts, t, &filled(y)[..n], &mut all[..n]);
+        self.model.rates(&self.conditions, t, &filled(y)[..n], &mut all[..n]);
         write(&all[..n], rates);
     }
 
@@ -125,15 +125,15 @@ impl Equations for EquationSystem {
             let EventFunction { value, rate } = events[i];
             *place = crossed.get(i).is_some_and(|crossed| *crossed) || value <= 0.0 && rate < 0.0;
         }
-        self.contacts = self.model.reset(&self.contacts, t, &mut state[..n], &all).discrete;
+        self.conditions = self.model.reset(&self.conditions, t, &mut state[..n], &all).discrete;
         write(&state[..n], y);
     }
 
     fn restart(&mut self) {
-        self.contacts = self.start.1;
+        self.conditions = self.start.1;
     }
 
     fn outputs(&self, t: f64, y: &[f64]) -> Outputs {
-        observe(self.model.as_ref(), &self.observer, &self.contacts, t, &filled(y)[..self.states()])
+        observe(self.model.as_ref(), &self.observer, &self.conditions, t, &filled(y)[..self.states()])
     }
 }

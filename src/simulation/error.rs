@@ -9,13 +9,23 @@ pub enum SimulationError {
     Scene(String),
     /// The integrator gave up at `time`; the state is that of `time`, still usable.
     Integration {
-        /// [s] Last time reached.
+        /// [s] Last time reached, counted from the start.
         time: f64,
         /// One line: component and cause.
         cause: String,
     },
     /// A snapshot does not fit this scene.
     Snapshot(String),
+}
+
+impl SimulationError {
+    /// The same error in times of an importer whose run started at `start` [s].
+    pub fn counted_from(self, start: f64) -> Self {
+        match self {
+            Self::Integration { time, cause } => Self::Integration { time: start + time, cause },
+            other => other,
+        }
+    }
 }
 
 impl fmt::Display for SimulationError {

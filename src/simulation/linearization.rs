@@ -3,7 +3,7 @@
 use super::equations::write;
 use crate::integrator::{Jacobian, StateLayout};
 use crate::model::mechanism_model::MechanismModel;
-use crate::model::state::Contacts;
+use crate::model::state::Conditions;
 
 /// ẏ ≈ rates + by_state·Δy + by_time·Δt near one state and instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,20 +23,20 @@ pub struct Linearization {
 }
 
 /// Rates of the `states` at `time` [s].
-pub fn rates_at(model: &dyn MechanismModel, contacts: &Contacts, time: f64, states: &[f64]) -> Vec<f64> {
+pub fn rates_at(model: &dyn MechanismModel, conditions: &Conditions, time: f64, states: &[f64]) -> Vec<f64> {
     let n = model.layout().states;
     let mut rates = vec![0.0; n];
-    model.rates(contacts, time, &filled(states, n), &mut rates);
+    model.rates(conditions, time, &filled(states, n), &mut rates);
     rates
 }
 
 /// The equations of motion of `model` near `states` and `time` [s].
-pub fn linearization(model: &dyn MechanismModel, contacts: &Contacts, time: f64, states: &[f64]) -> Linearization {
+pub fn linearization(model: &dyn MechanismModel, conditions: &Conditions, time: f64, states: &[f64]) -> Linearization {
     let StateLayout { positions, states: n, .. } = model.layout();
     let states = filled(states, n);
     let (mut rates, mut jacobian) = (vec![0.0; n], Jacobian::new(n));
-    model.rates(contacts, time, &states, &mut rates);
-    model.jacobian(contacts, time, &states, &mut jacobian);
+    model.rates(conditions, time, &states, &mut rates);
+    model.jacobian(conditions, time, &states, &mut jacobian);
     let by_state = (0..n).map(|i| jacobian.row(i).to_vec()).collect();
     Linearization { time, states, positions, rates, by_state, by_time: jacobian.time }
 }

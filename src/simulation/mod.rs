@@ -42,16 +42,16 @@ pub struct Simulation {
 const DEAD_END: &str = "the rod stands across the guide, where ideal joints leave open which way the slider goes on";
 
 impl Simulation {
-    /// Assembles the scene's mechanism and puts it in its start position at `time` [s].
+    /// Assembles the scene's mechanism and puts it in its start position. Time is counted from here.
     ///
     /// # Errors
     /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
-    pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
+    pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
-        Ok(Self { motion: start::start(scene, time, inputs)?, time })
+        Ok(Self { motion: start::start(scene, inputs)?, time: 0.0 })
     }
 
-    /// [s] The communication point reached.
+    /// [s] The communication point reached, counted from the start.
     pub fn time(&self) -> f64 {
         self.time
     }
@@ -59,7 +59,7 @@ impl Simulation {
     /// Sets inputs and their first time derivatives from the communication point on:
     /// u(t) = `inputs` + `rates`·(t − time). The same bits as those in force change nothing.
     pub fn set_inputs(&mut self, inputs: Inputs, rates: Inputs) {
-        self.motion.set_signal(InputSignal { at: self.time, value: inputs, rate: rates });
+        self.motion.set_inputs(InputSignal { at: self.time, value: inputs, rate: rates });
     }
 
     /// Moves to `time` (≥ the time reached).
@@ -182,7 +182,7 @@ impl Simulation {
     /// `Snapshot` if it is not one of a run of a scene with these joints and this drive; `Scene` as in
     /// [`Simulation::start`].
     pub fn restore(scene: &Scene, snapshot: &Snapshot) -> Result<Self, SimulationError> {
-        let mut simulation = Self::start(scene, 0.0, Inputs::default())?;
+        let mut simulation = Self::start(scene, Inputs::default())?;
         let mut reader = Reader::new(snapshot);
         let restored = reader.real().filter(|&time| simulation.motion.load(time, &mut reader).is_some());
         match restored {

@@ -19,8 +19,8 @@ pub trait Motion: Send {
     fn place(&mut self, phase: &Phase);
     /// What size of difference is noticeable in a point of phase space.
     fn phase_scales(&self) -> PhaseScales;
-    /// Inputs from the communication point `signal.at` on.
-    fn set_signal(&mut self, signal: InputSignal);
+    /// Sets the inputs from the communication point `inputs.at` on.
+    fn set_inputs(&mut self, inputs: InputSignal);
     /// Outputs at `t` in the last step.
     fn outputs(&mut self, t: f64) -> Outputs;
     /// Their time derivatives.

@@ -4,15 +4,15 @@ use crate::integrator::Statistics;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::signals::{Outputs, SolverOutputs};
-use crate::model::state::Contacts;
+use crate::model::state::Conditions;
 
 /// Outputs of the state `y` at `t`.
-pub fn observe(model: &dyn MechanismModel, observer: &Observer, contacts: &Contacts, t: f64, y: &[f64]) -> Outputs {
-    let evaluation = model.evaluation(contacts, t, y);
+pub fn observe(model: &dyn MechanismModel, observer: &Observer, conditions: &Conditions, t: f64, y: &[f64]) -> Outputs {
+    let evaluation = model.evaluation(conditions, t, y);
     let penetration = model.penetration(&evaluation.pose);
-    let torque = model.signal().at(t).crank_torque;
-    let mut outputs = observer.outputs(&evaluation, contacts, &penetration, torque);
-    outputs.energy = model.energies(contacts, &evaluation, y);
+    let torque = conditions.inputs.at(t).crank_torque;
+    let mut outputs = observer.outputs(&evaluation, &conditions.contacts, &penetration, torque);
+    outputs.energy = model.energies(&conditions.contacts, &evaluation, y);
     outputs
 }
 

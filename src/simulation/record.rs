@@ -5,7 +5,7 @@ use crate::model::contact::ContactState;
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::Inputs;
-use crate::model::state::{CONTACTS, Contacts};
+use crate::model::state::{CONTACTS, Conditions, Contacts};
 
 /// The discrete part of a state.
 pub trait Discrete: Copy {
@@ -15,21 +15,37 @@ pub trait Discrete: Copy {
     fn load(states: usize, reader: &mut Reader<'_>) -> Option<Self>;
 }
 
-impl Discrete for Contacts {
+impl Discrete for InputSignal {
     fn save(&self, _: usize, snapshot: &mut Snapshot) {
-        snapshot.reals.extend(self.iter().map(|state| state.approach));
-        snapshot.integers.extend(self.iter().map(|state| u64::from(state.closed)));
+        let Self { at, value, rate } = self;
+        snapshot.reals.extend([*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load]);
     }
 
     fn load(_: usize, reader: &mut Reader<'_>) -> Option<Self> {
+        let [at, torque, load, torque_rate, load_rate] = reader.reals()?;
+        let value = Inputs { crank_torque: torque, slider_load: load };
+        let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
+        Some(Self { at, value, rate })
+    }
+}
+
+impl Discrete for Conditions {
+    fn save(&self, states: usize, snapshot: &mut Snapshot) {
+        self.inputs.save(states, snapshot);
+        snapshot.reals.extend(self.contacts.iter().map(|contact| contact.approach));
+        snapshot.integers.extend(self.contacts.iter().map(|contact| u64::from(contact.closed)));
+    }
+
+    fn load(states: usize, reader: &mut Reader<'_>) -> Option<Self> {
+        let inputs = InputSignal::load(states, reader)?;
         let approach = reader.reals::<CONTACTS>()?;
-        let mut states = Self::default();
-        for (state, approach) in states.iter_mut().zip(approach) {
+        let mut contacts = Contacts::default();
+        for (contact, approach) in contacts.iter_mut().zip(approach) {
             if reader.integer()? != 0 {
-                *state = ContactState::closing(approach, approach);
+                *contact = ContactState::closing(approach, approach);
             }
         }
-        Some(states)
+        Some(Self { contacts, inputs })
     }
 }
 
@@ -54,15 +70,12 @@ impl Discrete for Impulses {
     }
 }
 
-/// Appends the inputs in force and what the integrator remembers.
-pub fn save<D: Discrete>(model: &dyn MechanismModel, state: &SolverState<D>, snapshot: &mut Snapshot) {
+/// Appends what the integrator remembers.
+pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
     let SolverState { step, last_error, cuts, crossings, statistics, .. } = state;
-    let InputSignal { at, value, rate } = model.signal();
-    let inputs = [*at, value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load];
     let states = state.front().y.len();
     snapshot.integers.push(states as u64);
-    snapshot.reals.extend(inputs);
-    snapshot.reals.extend([model.start_time(), *step, *last_error]);
+    snapshot.reals.extend([*step, *last_error]);
     for StepPoint { t, y, rates, discrete, impact_end } in [state.start(), state.end(), state.front()] {
         snapshot.reals.extend([*t, *impact_end]);
         snapshot.reals.extend(y.iter().chain(rates));
@@ -72,17 +85,13 @@ pub fn save<D: Discrete>(model: &dyn MechanismModel, state: &SolverState<D>, sna
     snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
 }
 
-/// Takes back what [`save`] appended of a run at `time` [s]: the model gets its inputs, what the integrator remembers is
-/// returned.
-pub fn load<D: Discrete>(model: &mut dyn MechanismModel, time: f64, reader: &mut Reader<'_>) -> Option<SolverState<D>> {
+/// What [`save`] appended of a run of `model` at `time` [s].
+pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Reader<'_>) -> Option<SolverState<D>> {
     let states = model.layout().states;
     if reader.integer()? != states as u64 {
         return None;
     }
-    let [at, torque, load, torque_rate, load_rate] = reader.reals()?;
-    let value = Inputs { crank_torque: torque, slider_load: load };
-    let rate = Inputs { crank_torque: torque_rate, slider_load: load_rate };
-    let [start_time, step, last_error] = reader.reals()?;
+    let [step, last_error] = reader.reals()?;
     let points = [take_point(states, reader)?, take_point(states, reader)?, take_point(states, reader)?];
     let mut state = SolverState::of(points, step);
     state.last_error = last_error;
@@ -94,8 +103,6 @@ pub fn load<D: Discrete>(model: &mut dyn MechanismModel, time: f64, reader: &mut
         evaluations: reader.integer()?,
         events: reader.integer()?,
     };
-    model.set_signal(InputSignal { at, value, rate });
-    model.set_start_time(start_time);
     state.is_sound(time, model.longest_step()).then_some(state)
 }
 

@@ -17,41 +17,38 @@ use crate::model::outputs::Observer;
 use crate::model::scales::Scale;
 use crate::model::signals::{Inputs, Outputs};
 use crate::model::start::StartPose;
-use crate::model::state::Contacts;
+use crate::model::state::Conditions;
 use crate::scene::Scene;
 use std::hint::black_box;
 
 /// A mechanism under a method with event location, or without.
 pub struct Run {
     model: Box<dyn MechanismModel>,
-    integrator: Integrator<Contacts>,
+    integrator: Integrator<Conditions>,
     observer: Observer,
     /// [m/s] A noticeable difference of approach speeds.
     approach_scale: f64,
 }
 
 impl Run {
-    /// Starts `model` at `time` from `pose`.
-    pub fn start(scene: &Scene, time: f64, pose: &StartPose, model: Box<dyn MechanismModel>) -> Self {
+    /// Starts `model` from `pose` at time 0 under `inputs`.
+    pub fn start(scene: &Scene, pose: &StartPose, inputs: InputSignal, model: Box<dyn MechanismModel>) -> Self {
         let settings = settings(scene);
         let n = model.layout().states;
         let mut y = vec![0.0; n];
         model.write_start(pose, &mut y);
-        let contacts = model.start_contacts(time, &y);
+        let conditions = Conditions { contacts: model.start_contacts(0.0, &y), inputs };
         let method = named(scene.solver.method.name(), n).expect("every declared method is made");
-        let integrator = Integrator::start(model.as_ref(), method, settings, time, &y, contacts);
+        let integrator = Integrator::start(model.as_ref(), method, settings, 0.0, &y, conditions);
         let Scale { length, frequency, .. } = Scale::of(scene);
         Self { model, integrator, observer: Observer::new(scene), approach_scale: length * frequency }
     }
 
     /// Outputs under other inputs, the state held.
     fn observe_under(&mut self, t: f64, inputs: Inputs) -> Outputs {
-        let signal = *self.model.signal();
-        let (y, contacts) = self.integrator.state_at(self.model.as_ref(), t);
-        self.model.set_signal(InputSignal { at: t, value: inputs, rate: Inputs::default() });
-        let outputs = observe(self.model.as_ref(), &self.observer, &contacts, t, y);
-        self.model.set_signal(signal);
-        outputs
+        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
+        let inputs = InputSignal { at: t, value: inputs, rate: Inputs::default() };
+        observe(self.model.as_ref(), &self.observer, &Conditions { inputs, ..conditions }, t, y)
     }
 }
 
@@ -66,20 +63,21 @@ impl Motion for Run {
 
     fn phase(&mut self, t: f64) -> Phase {
         self.integrator.truncate(self.model.as_ref(), t);
-        let (y, contacts) = self.integrator.state_at(self.model.as_ref(), t);
+        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
         let weighted = self.model.layout().weighted;
-        let approach = contacts.iter().map(|contact| Some(contact.approach).filter(|_| contact.closed)).collect();
+        let approach =
+            conditions.contacts.iter().map(|contact| Some(contact.approach).filter(|_| contact.closed)).collect();
         Phase { time: t, states: y[..weighted].to_vec(), approach }
     }
 
     fn place(&mut self, phase: &Phase) {
-        let (y, mut contacts) = self.integrator.state_at(self.model.as_ref(), phase.time);
+        let (y, mut conditions) = self.integrator.state_at(self.model.as_ref(), phase.time);
         let mut y = y.to_vec();
         write(&phase.states, &mut y);
-        for (contact, approach) in contacts.iter_mut().zip(&phase.approach) {
+        for (contact, approach) in conditions.contacts.iter_mut().zip(&phase.approach) {
             *contact = approach.map_or(ContactState::default(), |approach| ContactState::closing(approach, approach));
         }
-        self.integrator.place(self.model.as_ref(), phase.time, &y, contacts);
+        self.integrator.place(self.model.as_ref(), phase.time, &y, conditions);
     }
 
     fn phase_scales(&self) -> PhaseScales {
@@ -87,29 +85,29 @@ impl Motion for Run {
         PhaseScales { states: self.model.scales()[..weighted].to_vec(), approach: self.approach_scale }
     }
 
-    fn set_signal(&mut self, signal: InputSignal) {
-        if signal.continues(self.model.signal()) {
+    fn set_inputs(&mut self, inputs: InputSignal) {
+        if inputs.continues(&self.integrator.state().front().discrete.inputs) {
             return;
         }
-        self.integrator.truncate(self.model.as_ref(), signal.at);
-        self.model.set_signal(signal);
-        self.integrator.refresh(self.model.as_ref());
+        self.integrator.truncate(self.model.as_ref(), inputs.at);
+        let conditions = self.integrator.state().front().discrete;
+        self.integrator.set_discrete(self.model.as_ref(), Conditions { inputs, ..conditions });
     }
 
     fn outputs(&mut self, t: f64) -> Outputs {
-        let (y, contacts) = self.integrator.state_at(self.model.as_ref(), t);
-        let mut outputs = observe(self.model.as_ref(), &self.observer, &contacts, t, y);
+        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
+        let mut outputs = observe(self.model.as_ref(), &self.observer, &conditions, t, y);
         outputs.solver = solver_outputs(self.integrator.state().statistics_at(t));
         outputs
     }
 
     fn output_rates(&mut self, t: f64) -> Outputs {
-        let (y, contacts) = self.integrator.state_at(self.model.as_ref(), t);
+        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
         let (mut rates, model, observer) = ([0.0; MAX_STATES], self.model.as_ref(), &self.observer);
         let rates = &mut rates[..y.len()];
-        model.rates(&contacts, t, y, rates);
-        let mut slopes = slopes(model, t, y, rates, |t, y| observe(model, observer, &contacts, t, y));
-        observer.set_known_rates(&model.evaluation(&contacts, t, y), &mut slopes);
+        model.rates(&conditions, t, y, rates);
+        let mut slopes = slopes(model, t, y, rates, |t, y| observe(model, observer, &conditions, t, y));
+        observer.set_known_rates(&model.evaluation(&conditions, t, y), &mut slopes);
         slopes
     }
 
@@ -159,12 +157,12 @@ impl Motion for Run {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        record::save(self.model.as_ref(), self.integrator.state(), snapshot);
+        record::save(self.integrator.state(), snapshot);
         self.integrator.method().save(snapshot);
     }
 
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
-        let state = record::load(self.model.as_mut(), time, reader)?;
+        let state = record::load(self.model.as_ref(), time, reader)?;
         self.integrator.set_state(self.model.as_ref(), state);
         self.integrator.load_method(reader)
     }

@@ -8,14 +8,14 @@ use crate::model::signals::Inputs;
 use crate::model::start::StartPose;
 use crate::scene::Scene;
 
-/// The mechanism of `scene` in its start position at `time` [s], under constant `inputs`.
+/// The mechanism of `scene` in its start position at time 0, under constant `inputs`.
 ///
 /// # Errors
 /// `Scene` if the start position does not close the loop.
-pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Box<dyn Motion>, SimulationError> {
+pub fn start(scene: &Scene, inputs: Inputs) -> Result<Box<dyn Motion>, SimulationError> {
     let pose = StartPose::of(scene).ok_or_else(|| {
         SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
     })?;
-    let signal = InputSignal { at: time, value: inputs, rate: Inputs::default() };
-    Ok(assemble::start(scene, time, &pose, signal))
+    let signal = InputSignal { at: 0.0, value: inputs, rate: Inputs::default() };
+    Ok(assemble::start(scene, &pose, signal))
 }

@@ -17,12 +17,12 @@ pub struct System {
 }
 
 impl System {
-    /// The equations of `scene` from `time` [s] on, under constant `inputs`.
+    /// The equations of `scene`, whose time starts at 0, under constant `inputs`.
     ///
     /// # Errors
     /// `Scene` if the start position does not close the loop.
-    pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
-        Ok(Self { equations: start(scene, time, inputs)?.equations() })
+    pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
+        Ok(Self { equations: start(scene, inputs)?.equations() })
     }
 
     /// How many freedoms, states and event functions there are.

@@ -6,7 +6,7 @@ use super::linearization::{Linearization, filled, linearization, rates_at};
 use super::motion::Motion;
 use super::observation::solver_outputs;
 use super::phase::{Phase, PhaseScales};
-use super::record;
+use super::record::{self, Discrete};
 use super::settings::settings;
 use crate::integrator::{
     Impulses, IntegrationError, Jacobian, MAX_STATES, Moreau, Reader, Settings, Snapshot, StateLayout, StepPoint,
@@ -16,7 +16,7 @@ use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::signals::{Inputs, Outputs};
 use crate::model::start::StartPose;
-use crate::model::state::{CONTACTS, Contacts};
+use crate::model::state::{CONTACTS, Conditions, Contacts};
 use crate::scene::Scene;
 use std::hint::black_box;
 
@@ -24,36 +24,44 @@ use std::hint::black_box;
 /// from its start to its end; accelerations and reactions are those of the instant under these forces.
 pub struct TimeStepping {
     model: Box<dyn MechanismModel>,
-    integrator: Moreau,
+    integrator: Moreau<Conditions>,
     settings: Settings,
     observer: Observer,
 }
 
 impl TimeStepping {
-    /// Starts `model` at `time` from `pose`.
-    pub fn start(scene: &Scene, time: f64, pose: &StartPose, model: Box<dyn MechanismModel>) -> Self {
+    /// Starts `model` from `pose` at time 0 under `inputs`.
+    pub fn start(scene: &Scene, pose: &StartPose, inputs: InputSignal, model: Box<dyn MechanismModel>) -> Self {
         let settings = settings(scene);
         let mut y = vec![0.0; model.layout().states];
         model.write_start(pose, &mut y);
-        let integrator = Moreau::start(settings, time, &y);
+        let integrator = Moreau::start(settings, 0.0, &y, Conditions::without_contacts(inputs));
         Self { model, integrator, settings, observer: Observer::new(scene) }
     }
 
     /// Outputs under other inputs, state and contact forces held.
     fn observe_under(&mut self, t: f64, inputs: Inputs) -> Outputs {
-        let signal = *self.model.signal();
         let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
-        self.model.set_signal(InputSignal { at: t, value: inputs, rate: Inputs::default() });
-        let outputs = observe(self.model.as_ref(), &self.observer, &impulses, t, y);
-        self.model.set_signal(signal);
-        outputs
+        let inputs = InputSignal { at: t, value: inputs, rate: Inputs::default() };
+        observe(self.model.as_ref(), &self.observer, &impulses, &inputs, t, y)
+    }
+
+    fn inputs(&self) -> InputSignal {
+        self.integrator.open().inputs
     }
 }
 
-fn observe(model: &dyn MechanismModel, observer: &Observer, impulses: &Impulses, t: f64, y: &[f64]) -> Outputs {
-    let evaluation = model.evaluation_under(impulses, t, y);
+fn observe(
+    model: &dyn MechanismModel,
+    observer: &Observer,
+    impulses: &Impulses,
+    inputs: &InputSignal,
+    t: f64,
+    y: &[f64],
+) -> Outputs {
+    let evaluation = model.evaluation_under(impulses, inputs, t, y);
     let penetration = model.penetration(&evaluation.pose);
-    let torque = model.signal().at(t).crank_torque;
+    let torque = inputs.at(t).crank_torque;
     let mut contacts = Contacts::default();
     for (index, contact) in contacts.iter_mut().enumerate().take(CONTACTS) {
         contact.closed = impulses.acts(index);
@@ -85,26 +93,27 @@ impl Motion for TimeStepping {
         PhaseScales { states, approach: 1.0 }
     }
 
-    fn set_signal(&mut self, signal: InputSignal) {
-        if !signal.continues(self.model.signal()) {
-            self.integrator.truncate(self.model.as_ref(), signal.at);
-            self.model.set_signal(signal);
+    fn set_inputs(&mut self, inputs: InputSignal) {
+        if !inputs.continues(&self.inputs()) {
+            self.integrator.truncate(self.model.as_ref(), inputs.at);
+            self.integrator.set_open(Conditions::without_contacts(inputs));
         }
     }
 
     fn outputs(&mut self, t: f64) -> Outputs {
-        let solver = solver_outputs(self.integrator.state().statistics_at(t));
+        let (solver, inputs) = (solver_outputs(self.integrator.state().statistics_at(t)), self.inputs());
         let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
-        Outputs { solver, ..observe(self.model.as_ref(), &self.observer, &impulses, t, y) }
+        Outputs { solver, ..observe(self.model.as_ref(), &self.observer, &impulses, &inputs, t, y) }
     }
 
     fn output_rates(&mut self, t: f64) -> Outputs {
+        let inputs = self.inputs();
         let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
         let (mut rates, model, observer) = ([0.0; MAX_STATES], self.model.as_ref(), &self.observer);
         let rates = &mut rates[..y.len()];
-        model.rates_under(&impulses, t, y, rates);
-        let mut slopes = slopes(model, t, y, rates, |t, y| observe(model, observer, &impulses, t, y));
-        observer.set_known_rates(&model.evaluation_under(&impulses, t, y), &mut slopes);
+        model.rates_under(&impulses, &inputs, t, y, rates);
+        let mut slopes = slopes(model, t, y, rates, |t, y| observe(model, observer, &impulses, &inputs, t, y));
+        observer.set_known_rates(&model.evaluation_under(&impulses, &inputs, t, y), &mut slopes);
         slopes
     }
 
@@ -121,7 +130,7 @@ impl Motion for TimeStepping {
         let StepPoint { t, y, .. } = self.integrator.state().front();
         let mut rates = vec![0.0; y.len()];
         for _ in 0..times {
-            self.model.rates(&Contacts::default(), *t, black_box(y), &mut rates);
+            self.model.rates(self.integrator.open(), *t, black_box(y), &mut rates);
             black_box(&rates);
         }
     }
@@ -130,7 +139,7 @@ impl Motion for TimeStepping {
         let StepPoint { t, y, .. } = self.integrator.state().front();
         let mut jacobian = Jacobian::new(y.len());
         for _ in 0..times {
-            self.model.jacobian(&Contacts::default(), *t, black_box(y), &mut jacobian);
+            self.model.jacobian(self.integrator.open(), *t, black_box(y), &mut jacobian);
             black_box(&jacobian);
         }
     }
@@ -141,26 +150,28 @@ impl Motion for TimeStepping {
     }
 
     fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
-        rates_at(self.model.as_ref(), &Contacts::default(), time, states)
+        rates_at(self.model.as_ref(), self.integrator.open(), time, states)
     }
 
     fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
-        linearization(self.model.as_ref(), &Contacts::default(), time, states)
+        linearization(self.model.as_ref(), self.integrator.open(), time, states)
     }
 
     fn equations(self: Box<Self>) -> Box<dyn Equations> {
         let StepPoint { t, y, .. } = self.integrator.state().front();
-        let (y, contacts) = (y.clone(), self.model.start_contacts(*t, y));
-        Box::new(EquationSystem::new(self.model, self.observer, y, contacts))
+        let conditions = Conditions { contacts: self.model.start_contacts(*t, y), ..*self.integrator.open() };
+        Box::new(EquationSystem::new(self.model, self.observer, y.clone(), conditions))
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        record::save(self.model.as_ref(), self.integrator.state(), snapshot);
+        self.inputs().save(0, snapshot);
+        record::save(self.integrator.state(), snapshot);
     }
 
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
-        let state = record::load(self.model.as_mut(), time, reader)?;
-        self.integrator = Moreau::resume(self.settings, state);
+        let open = Conditions::without_contacts(InputSignal::load(0, reader)?);
+        let state = record::load(self.model.as_ref(), time, reader)?;
+        self.integrator = Moreau::resume(self.settings, state, open);
         Some(())
     }
 }

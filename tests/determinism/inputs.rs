@@ -10,7 +10,7 @@ fn setting_the_same_inputs_changes_nothing() {
     for torque in [4.0, 0.0, 1e-300] {
         let same = Inputs { crank_torque: torque, slider_load: 0.1 };
         for (name, scene) in mechanisms(Method::Verner7) {
-            let begin = || Simulation::start(&scene, 0.0, same).expect("a start");
+            let begin = || Simulation::start(&scene, same).expect("a start");
             let (mut quiet, mut talkative) = (begin(), begin());
             for i in 1..=200 {
                 let t = END * f64::from(i) / 200.0;
@@ -30,9 +30,9 @@ fn a_slope_that_goes_on_changes_nothing() {
     let at = |t: f64| Inputs { crank_torque: 1.0 + 1024.0 * t, slider_load: -4096.0 * t };
     let step = 1.0 / 8192.0;
     for (name, scene) in mechanisms(Method::Verner7) {
-        let mut quiet = Simulation::start(&scene, 0.0, at(0.0)).expect("a start");
+        let mut quiet = Simulation::start(&scene, at(0.0)).expect("a start");
         quiet.set_inputs(at(0.0), rate);
-        let mut talkative = Simulation::start(&scene, 0.0, at(0.0)).expect("a start");
+        let mut talkative = Simulation::start(&scene, at(0.0)).expect("a start");
         for i in 0..100 {
             let t = step * f64::from(i);
             talkative.set_inputs(at(t), rate);
@@ -99,7 +99,7 @@ fn in_free_flight_the_load_s_impulse_counts_from_the_change_on() {
     for method in METHODS {
         scene.solver.method = method;
         for change in [0.0, 1e-9, 0.003_3, 0.007_777] {
-            let mut simulation = Simulation::start(&scene, 0.0, Inputs::default()).expect("a start");
+            let mut simulation = Simulation::start(&scene, Inputs::default()).expect("a start");
             advance(&mut simulation, change);
             simulation.set_inputs(Inputs { crank_torque: 0.0, slider_load: 14.0 }, Inputs::default());
             // 14 N, 0.14 kg: 100 m/s²; then 1000 N/s on top, from 0.002 s after the change.
@@ -132,11 +132,11 @@ fn a_slope_is_the_limit_of_many_small_changes() {
     for (name, mut scene) in mechanisms(Method::Verner7).filter(|(name, _)| name.contains("Torque")) {
         scene.solver.tolerance = 1e-9;
         let end = 0.002;
-        let mut sloped = Simulation::start(&scene, 0.0, load(0.0)).expect("a start");
+        let mut sloped = Simulation::start(&scene, load(0.0)).expect("a start");
         sloped.set_inputs(load(0.0), Inputs { crank_torque: rate, slider_load: 0.0 });
         let wanted = outputs_at(&mut sloped, end);
         let errors = [20, 80].map(|count| {
-            let mut stepped = Simulation::start(&scene, 0.0, load(0.0)).expect("a start");
+            let mut stepped = Simulation::start(&scene, load(0.0)).expect("a start");
             for i in 0..count {
                 let h = end / f64::from(count);
                 stepped.set_inputs(load(h * (f64::from(i) + 0.5)), Inputs::default());

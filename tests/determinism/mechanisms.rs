@@ -70,7 +70,7 @@ pub const INPUTS: Inputs = Inputs { crank_torque: 4.0, slider_load: -60.0 };
 
 pub fn start(scene: &Scene) -> Simulation {
     scene.check().expect("a legal scene");
-    Simulation::start(scene, 0.0, INPUTS).expect("a scene whose loop closes")
+    Simulation::start(scene, INPUTS).expect("a scene whose loop closes")
 }
 
 pub fn advance(simulation: &mut Simulation, t: f64) {

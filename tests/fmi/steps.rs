@@ -41,6 +41,45 @@ fn time_is_the_importers() {
     assert_eq!(slave.last_time().to_bits(), point.to_bits());
 }
 
+/// Every output of a worn pin after steps of 1/32768 s from `start` [s], and after one that turned back.
+fn worn_pin_from(start: f64) -> String {
+    const STEP: f64 = 1.0 / 32768.0;
+    let slave = Slave::new();
+    assert_eq!(slave.setup_raw(0, 0.0, start, 0, 0.0), Status::Ok);
+    assert_eq!(slave.set("crank.speed_start", 500.0), Status::Ok);
+    assert_eq!(slave.set_integer("joint.C.model", 2), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    for step in 0..200 {
+        assert_eq!(slave.set("slider.load", if step < 100 { 0.0 } else { -300.0 }), Status::Ok);
+        assert_eq!(slave.step(start + f64::from(step) * STEP, STEP), Status::Ok, "{:?}", slave.log.take());
+    }
+    assert_eq!(slave.last_time().to_bits(), (start + 200.0 * STEP).to_bits());
+    format!("{:?}", slave.picture())
+}
+
+#[test]
+fn a_run_has_the_same_bits_from_any_start_time() {
+    let wanted = worn_pin_from(0.0);
+    // 1.7e9 s is now, counted from 1970.
+    for start in [3.0, -1024.5, 1e6, 1.7e9] {
+        assert_eq!(worn_pin_from(start), wanted, "from {start} s");
+    }
+}
+
+#[test]
+fn a_step_that_cannot_go_on_names_the_importers_time() {
+    let slave = Slave::new();
+    assert_eq!(slave.setup_raw(0, 0.0, 1000.0, 0, 0.0), Status::Ok);
+    assert_eq!(slave.set("crank.speed_start", 500.0), Status::Ok);
+    assert_eq!(slave.set_integer("joint.C.model", 2), Status::Ok);
+    assert_eq!(slave.set_integer("solver.max_evaluations", 2000), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    assert_eq!(slave.step(1000.0, 10.0), Status::Discard);
+    let text = slave.log.only().text;
+    assert!(text.contains("at t = 1000."), "{text}");
+    assert!((1000.0..1010.0).contains(&slave.last_time()), "{}", slave.last_time());
+}
+
 #[test]
 fn another_communication_point_is_refused_and_changes_nothing() {
     let slave = from_to(1.0, None);

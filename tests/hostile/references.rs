@@ -5,7 +5,7 @@ use crate::stage::{STATES, Stage};
 use slidercrank::fmi::slave::variables::{Access, VARIABLES, Variable};
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::lifecycle::Call::{self, *};
-use slidercrank::fmi::v2::lifecycle::SurfaceContact;
+use slidercrank::fmi::v2::lifecycle::Touch;
 use slidercrank::scene::parameter::{Kind, Parameter};
 
 /// What a variable is to the functions that reach it.
@@ -13,35 +13,20 @@ struct Nature {
     /// The type of `fmi2Get…` and `fmi2Set…`.
     get: Call,
     set: Call,
-    reading: SurfaceContact,
-    writing: SurfaceContact,
+    reading: Touch,
+    writing: Touch,
     /// Its start value, or any.
     value: f64,
 }
 
 fn nature(variable: &Variable) -> Nature {
-    let output = |get, set| Nature {
-        get,
-        set,
-        reading: SurfaceContact::GetOutput,
-        writing: SurfaceContact::SetOutput,
-        value: 1.0,
-    };
-    let parameter = |get, set, value| Nature {
-        get,
-        set,
-        reading: SurfaceContact::GetParameter,
-        writing: SurfaceContact::SetParameter,
-        value,
-    };
+    let output = |get, set| Nature { get, set, reading: Touch::GetOutput, writing: Touch::SetOutput, value: 1.0 };
+    let parameter =
+        |get, set, value| Nature { get, set, reading: Touch::GetParameter, writing: Touch::SetParameter, value };
     match variable.access {
-        Access::Input { start, .. } => Nature {
-            get: GetReal,
-            set: SetReal,
-            reading: SurfaceContact::GetInput,
-            writing: SurfaceContact::SetInput,
-            value: start,
-        },
+        Access::Input { start, .. } => {
+            Nature { get: GetReal, set: SetReal, reading: Touch::GetInput, writing: Touch::SetInput, value: start }
+        }
         Access::RealOutput(_) => output(GetReal, SetReal),
         Access::IntegerOutput(_) => output(GetInteger, SetInteger),
         Access::BooleanOutput(_) => output(GetBoolean, SetBoolean),

@@ -170,7 +170,7 @@ fn by_reference(case: &Case, times: &[f64], tolerance: f64) -> (Vec<Outputs>, Ve
 }
 
 fn by_product(case: &Case, times: &[f64]) -> Vec<Outputs> {
-    let mut product = Simulation::start(&case.scene, 0.0, case.inputs).expect("the scene is in order");
+    let mut product = Simulation::start(&case.scene, case.inputs).expect("the scene is in order");
     if case.rates != Inputs::default() {
         product.set_inputs(case.inputs, case.rates);
     }

@@ -1,16 +1,16 @@
 //! Mechanisms with a flexible rod, elastic faces, lugre's bristles, and an account of energy.
 
-use crate::scenes::{ALL, C, Case, JournalMotion, NONE, T, brisk, case, each_contact, loaded, worn_pin};
+use crate::scenes::{ALL, C, Case, NONE, Play, T, brisk, case, each_contact, loaded, worn_pin};
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::{Contact, DampingLaw, DriveMode, FrictionLaw, Point, Scene, Surface};
 
-const A: JournalMotion = [true, false, false, false];
-const B: JournalMotion = [false, true, false, false];
-const AB: JournalMotion = [true, true, false, false];
-const BC: JournalMotion = [false, true, true, false];
-const BT: JournalMotion = [false, true, false, true];
-const CT: JournalMotion = [false, false, true, true];
-const ABC: JournalMotion = [true, true, true, false];
+const A: Play = [true, false, false, false];
+const B: Play = [false, true, false, false];
+const AB: Play = [true, true, false, false];
+const BC: Play = [false, true, true, false];
+const BT: Play = [false, true, false, true];
+const CT: Play = [false, false, true, true];
+const ABC: Play = [true, true, true, false];
 const DRIVES: [DriveMode; 2] = [DriveMode::Torque, DriveMode::Speed];
 /// [s] Some periods of the softest bending.
 const SHORT: f64 = 2e-3;
@@ -46,17 +46,17 @@ fn short(name: String, scene: Scene, change: impl FnOnce(&mut Scene)) -> Case {
     loaded(Case { longest: SHORT, ..case }, inputs, Inputs::default())
 }
 
-fn letters(play: JournalMotion) -> String {
+fn letters(play: Play) -> String {
     "ABCT".chars().zip(play).map(|(joint, has)| if has { joint } else { '-' }).collect()
 }
 
 /// Both drives.
-fn driven(name: &str, play: JournalMotion, change: impl Fn(&mut Scene)) -> [Case; 2] {
+fn driven(name: &str, play: Play, change: impl Fn(&mut Scene)) -> [Case; 2] {
     DRIVES.map(|mode| short(format!("{name}, {mode:?} {}", letters(play)), brisk(mode, play), &change))
 }
 
 /// Both drives, and every one of these joints.
-fn each(name: &str, plays: &[JournalMotion], change: impl Fn(&mut Scene)) -> Vec<Case> {
+fn each(name: &str, plays: &[Play], change: impl Fn(&mut Scene)) -> Vec<Case> {
     plays.iter().flat_map(|&play| driven(name, play, &change)).collect()
 }
 

@@ -18,13 +18,13 @@ pub struct Case {
 }
 
 /// The joints with clearance.
-pub type JournalMotion = [bool; 4];
+pub type Play = [bool; 4];
 /// [s]
 pub const LONGEST: f64 = 0.02;
-pub const NONE: JournalMotion = [false; 4];
-pub const C: JournalMotion = [false, false, true, false];
-pub const T: JournalMotion = [false, false, false, true];
-pub const ALL: JournalMotion = [true; 4];
+pub const NONE: Play = [false; 4];
+pub const C: Play = [false, false, true, false];
+pub const T: Play = [false, false, false, true];
+pub const ALL: Play = [true; 4];
 
 /// The worn pin of the literature: clearance at C, 5000 rpm, from dead centre.
 pub fn worn_pin() -> Scene {
@@ -36,7 +36,7 @@ pub fn worn_pin() -> Scene {
 }
 
 /// A fast mechanism off dead centre with small clearances, so that impacts come soon.
-pub fn brisk(mode: DriveMode, play: JournalMotion) -> Scene {
+pub fn brisk(mode: DriveMode, play: Play) -> Scene {
     let mut scene = Scene::default();
     scene.drive.mode = mode;
     scene.crank.angle_start = 0.7;
@@ -84,7 +84,7 @@ fn combinations() -> Vec<Case> {
     let mut cases = Vec::new();
     for mode in [DriveMode::Torque, DriveMode::Speed] {
         for bits in 0..16 {
-            let play: JournalMotion = [0, 1, 2, 3].map(|joint| bits >> joint & 1 == 1);
+            let play: Play = [0, 1, 2, 3].map(|joint| bits >> joint & 1 == 1);
             let letters: String = "ABCT".chars().zip(play).map(|(j, has)| if has { j } else { '-' }).collect();
             let with = case(format!("{mode:?} {letters}"), brisk(mode, play), |s| {
                 s.gravity = 9.81;
@@ -175,7 +175,7 @@ fn contact_variants() -> Vec<Case> {
 }
 
 fn geometries() -> Vec<Case> {
-    let shaped = |name: &str, play: JournalMotion, change: &dyn Fn(&mut Scene)| {
+    let shaped = |name: &str, play: Play, change: &dyn Fn(&mut Scene)| {
         [DriveMode::Torque, DriveMode::Speed].map(|mode| {
             case(format!("{name}, {mode:?}"), brisk(mode, play), |s| {
                 each_contact(s, |c| c.friction.law = FrictionLaw::Ambrosio);

@@ -54,7 +54,7 @@ fn changed(scene: &Scene, parameter: &Parameter) -> Option<Scene> {
 }
 
 fn at_start(scene: &Scene, inputs: Inputs) -> Vec<f64> {
-    let outputs: Outputs = Simulation::start(scene, 0.0, inputs).expect("a start").outputs();
+    let outputs: Outputs = Simulation::start(scene, inputs).expect("a start").outputs();
     let value = |access: &Access| match access {
         Access::RealOutput(get) => get(&outputs),
         Access::IntegerOutput(get) => f64::from(get(&outputs)),

@@ -77,7 +77,7 @@ fn pulled_at_once(method: &str, pull: f64, bend: f64) -> [f64; 4] {
     integrator.advance(&free, 1.0).expect("nothing acts");
     integrator.truncate(&free, 1.0);
     let pulled = Pulled { pull, bend, blind_until: 0.0 };
-    integrator.refresh(&pulled);
+    integrator.set_discrete(&pulled, ());
     let end = 1.0 + 0.5 / pull.sqrt();
     integrator.advance(&pulled, end).unwrap_or_else(|error| unreachable!("{method} at {pull:e}, {bend:e}: {error}"));
     let (y, ()) = integrator.state_at(&pulled, end);

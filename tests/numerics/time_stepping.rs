@@ -80,7 +80,7 @@ fn a_ball_bounces_and_comes_to_rest_in_the_time_that_it_takes() {
     // The sum of its bounces: (2·v/g)·(e + e² + …) after a fall of v/g.
     for floors in [1, 2, MAX_CONTACTS] {
         let ball = Ball { floors, ..BALL };
-        let mut run = Moreau::start(SETTINGS, 0.0, &[0.2, 0.0]);
+        let mut run = Moreau::start(SETTINGS, 0.0, &[0.2, 0.0], ());
         let fall = 2.0 / ball.weight;
         let rest = fall * (1.0 + 2.0 * ball.restitution / (1.0 - ball.restitution));
         run.advance(&ball, rest + 50.0 * STEP).expect("a motion without trouble");
@@ -97,7 +97,7 @@ fn a_ball_bounces_and_comes_to_rest_in_the_time_that_it_takes() {
 fn an_impact_returns_the_share_that_it_is_asked_for() {
     for restitution in [0.0, 0.3, 1.0] {
         let ball = Ball { weight: 0.0, restitution, ..BALL };
-        let mut run = Moreau::start(SETTINGS, 0.0, &[0.0105, -1.0]);
+        let mut run = Moreau::start(SETTINGS, 0.0, &[0.0105, -1.0], ());
         run.advance(&ball, 0.02).expect("a motion without trouble");
         assert!((run.state().front().y[1] - restitution).abs() < 1e-15, "{:?}", run.state().front().y);
         // It comes back from as deep as it was when the impact was noticed.
@@ -109,7 +109,7 @@ fn an_impact_returns_the_share_that_it_is_asked_for() {
 #[test]
 fn a_contact_that_no_impulse_moves_is_an_error_with_the_state_intact() {
     let ball = Ball { response: 0.0, ..BALL };
-    let mut run = Moreau::start(SETTINGS, 0.0, &[0.2, 0.0]);
+    let mut run = Moreau::start(SETTINGS, 0.0, &[0.2, 0.0], ());
     let error = run.advance(&ball, 1.0).expect_err("there is no way on");
     assert_eq!(error, IntegrationError::Complementarity { time: run.state().front().t, contacts: 1 });
     assert_eq!(error.to_string(), "no impulses satisfy the laws of 1 closed contacts at once");
@@ -124,7 +124,7 @@ fn a_contact_that_no_impulse_moves_is_an_error_with_the_state_intact() {
 #[test]
 fn forces_that_are_no_numbers_are_an_error_where_they_begin() {
     let ball = Ball { lost: 0.1, ..BALL };
-    let mut run = Moreau::start(SETTINGS, 0.0, &[0.2, 0.0]);
+    let mut run = Moreau::start(SETTINGS, 0.0, &[0.2, 0.0], ());
     let error = run.advance(&ball, 1.0).expect_err("there is no way on");
     assert!(matches!(error, IntegrationError::NotFinite { component: 0, .. }), "{error:?}");
     // Forces are those of a step's middle.
@@ -134,6 +134,6 @@ fn forces_that_are_no_numbers_are_an_error_where_they_begin() {
 
 #[test]
 fn steps_that_move_no_time_are_an_error() {
-    let mut run = Moreau::start(Settings { fixed_step: 1e-10, ..SETTINGS }, 1e9, &[0.2, 0.0]);
+    let mut run = Moreau::start(Settings { fixed_step: 1e-10, ..SETTINGS }, 1e9, &[0.2, 0.0], ());
     assert!(matches!(run.advance(&BALL, 2e9), Err(IntegrationError::StepUnderflow { .. })));
 }

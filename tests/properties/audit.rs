@@ -15,7 +15,7 @@ fn shipped(name: &str) -> Scene {
 
 fn run(scene: &Scene, span: f64, points: u32) -> Vec<Outputs> {
     let inputs = Inputs { crank_torque: 40.0, slider_load: -500.0 };
-    let mut simulation = Simulation::start(scene, 0.0, inputs).expect("a scene whose loop closes");
+    let mut simulation = Simulation::start(scene, inputs).expect("a scene whose loop closes");
     let points = (1..=points).map(|i| span * f64::from(i) / f64::from(points));
     points
         .map(|t| {

@@ -1,9 +1,7 @@
 //! As a joint's clearance goes to zero its mechanism tends to the one in which it is ideal.
 
 use super::motion::Vec2;
-use super::scenes::{
-    JournalMotion, at, at_tolerance, contacts, crooked, letters, revolutes, speed_driven, start, with_play,
-};
+use super::scenes::{Play, at, at_tolerance, contacts, crooked, letters, revolutes, speed_driven, start, with_play};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::Scene;
 
@@ -26,7 +24,7 @@ fn times() -> impl Iterator<Item = f64> {
 }
 
 /// Largest differences over the run in position of the slider [m] and in rod angle [rad].
-fn difference(play: JournalMotion, clearance: f64) -> [f64; 2] {
+fn difference(play: Play, clearance: f64) -> [f64; 2] {
     let scene = speed_driven(crooked());
     let (mut ideal, mut clear) = (start(&scene, Inputs::default()), {
         let scene = with_clearance(with_play(scene.clone(), play), clearance);

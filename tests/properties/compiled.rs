@@ -10,11 +10,11 @@ use slidercrank::model::mechanism_model::MechanismModel;
 use slidercrank::model::rod::RodCapacity;
 use slidercrank::model::scalar::Tangent;
 use slidercrank::model::start::StartPose;
-use slidercrank::model::state::Contacts;
+use slidercrank::model::state::Conditions;
 use slidercrank::scene::{DriveMode, FrictionLaw, Scene};
 
 /// A state of a motion that leaves nothing out.
-fn moving(scene: &Scene, model: &Model) -> (Vec<f64>, Contacts) {
+fn moving(scene: &Scene, model: &Model) -> (Vec<f64>, Conditions) {
     let positions = model.layout().positions;
     let mut y = vec![0.0; model.layout().states];
     model.write_start(&StartPose::of(scene).expect("the loop closes"), &mut y);
@@ -23,20 +23,20 @@ fn moving(scene: &Scene, model: &Model) -> (Vec<f64>, Contacts) {
         // Some bearings touch.
         *state += if i < positions { chance.between(-8e-4, 8e-4) } else { chance.between(-2.0, 2.0) };
     }
-    let contacts = model.start_contacts(0.0, &y);
-    (y, contacts)
+    let conditions = Conditions::without_inputs(model.start_contacts(0.0, &y));
+    (y, conditions)
 }
 
 /// Its rates, in plain numbers and in those with derivatives, which are put at 0.
 fn rates(scene: &Scene, model: &Model) -> [Vec<f64>; 2] {
-    let (y, contacts) = moving(scene, model);
+    let (y, conditions) = moving(scene, model);
     let states = y.len();
     let (mut plain, mut tangent) = (vec![0.0; states], vec![Tangent::ZERO; states]);
-    model.rates(&contacts, 0.0, &y, &mut plain);
+    model.rates(&conditions, 0.0, &y, &mut plain);
     let constants: Vec<_> = y.iter().map(|y| Tangent::constant(*y)).collect();
-    model.tangent_rates(&contacts, Tangent::ZERO, &constants, &mut tangent);
+    model.tangent_rates(&conditions, Tangent::ZERO, &constants, &mut tangent);
     let (mut again, mut events) = (vec![0.0; states], Default::default());
-    model.rates_and_event_functions(&contacts, 0.0, &y, &mut again, &mut events);
+    model.rates_and_event_functions(&conditions, 0.0, &y, &mut again, &mut events);
     assert_eq!(plain, again, "rates with and without event functions");
     [plain, tangent.iter().map(|rate| rate.value()).collect()]
 }
@@ -67,11 +67,11 @@ fn differ(name: &str, one: &[f64], other: &[f64]) {
 /// All numbers, code for every structure, and all rooms that are large enough move `scenes` alike.
 fn move_alike(scenes: Vec<(String, Scene)>, rooms: &[RodCapacity]) {
     for (name, scene) in scenes {
-        let [own, tangent] = rates(&scene, &Model::assemble(&scene, 0.0));
+        let [own, tangent] = rates(&scene, &Model::assemble(&scene));
         differ(&name, &own, &tangent);
-        differ(&name, &own, &rates(&scene, &Model::assemble(&scene, 0.0).general())[0]);
+        differ(&name, &own, &rates(&scene, &Model::assemble(&scene).general())[0]);
         for room in rooms {
-            let model = Model::assemble(&scene, 0.0).with_capacity(*room);
+            let model = Model::assemble(&scene).with_capacity(*room);
             differ(&format!("{name}, {room:?}"), &own, &rates(&scene, &model)[0]);
         }
     }
@@ -81,7 +81,7 @@ fn move_alike(scenes: Vec<(String, Scene)>, rooms: &[RodCapacity]) {
 fn a_rigid_rod_moves_alike_by_code_of_its_own_structure_and_of_all() {
     let mut scenes = scenes(0, 0, true);
     // A prescribed crank without any play leaves nothing that moves by itself.
-    scenes.retain(|(_, scene)| Model::assemble(scene, 0.0).layout().states > 0);
+    scenes.retain(|(_, scene)| Model::assemble(scene).layout().states > 0);
     move_alike(scenes, &[]);
 }
 

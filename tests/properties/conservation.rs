@@ -2,7 +2,7 @@
 
 use super::motion::{Motion, motion};
 use super::scenes::{
-    JournalMotion, all_plays, at_tolerance, contacts, crooked, elastic, inputs, letters, revolutes, start, with_play,
+    Play, all_plays, at_tolerance, contacts, crooked, elastic, inputs, letters, revolutes, start, with_play,
 };
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::{FrictionLaw, Scene};
@@ -10,7 +10,7 @@ use slidercrank::scene::{FrictionLaw, Scene};
 const STIFFNESS: [f64; 4] = [3e10, 5e10, 6e10, 8e9];
 
 /// Gravity, offsets, no dissipation, given stiffnesses.
-fn conservative(play: JournalMotion) -> Scene {
+fn conservative(play: Play) -> Scene {
     let mut scene = elastic(with_play(crooked(), play));
     for (contact, stiffness) in contacts(&mut scene).into_iter().zip(STIFFNESS) {
         contact.stiffness = stiffness;
@@ -22,7 +22,7 @@ const TORQUE: f64 = 2.0;
 const LOAD: f64 = -40.0;
 
 /// Total energy less the inputs' work.
-fn energy(scene: &Scene, play: JournalMotion, m: &Motion) -> f64 {
+fn energy(scene: &Scene, play: Play, m: &Motion) -> f64 {
     // An ideal guide's corners and an ideal joint's penetration carry nothing.
     let stiffness: [f64; 4] = std::array::from_fn(|i| if play[i] { STIFFNESS[i] } else { 0.0 });
     m.kinetic() + m.weight(scene.gravity) + m.elastic(stiffness)
@@ -31,7 +31,7 @@ fn energy(scene: &Scene, play: JournalMotion, m: &Motion) -> f64 {
 }
 
 /// Largest change of the energy relative to the kinetic energy, and the events met.
-fn drift(play: JournalMotion, tolerance: f64) -> (f64, i32) {
+fn drift(play: Play, tolerance: f64) -> (f64, i32) {
     let scene = at_tolerance(conservative(play), tolerance);
     let mut simulation = start(&scene, inputs(TORQUE, LOAD));
     let first = motion(&scene, &mut simulation);
@@ -80,7 +80,7 @@ pub fn momentum_change(scene: &Scene) -> (f64, f64, i32) {
 }
 
 /// No gravity, and ground joints too wide to be met within the run.
-pub fn afloat(play: JournalMotion) -> Scene {
+pub fn afloat(play: Play) -> Scene {
     let mut scene = with_play(crooked(), play);
     scene.gravity = 0.0;
     scene.crank.speed_start = 40.0;

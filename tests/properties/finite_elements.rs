@@ -192,8 +192,7 @@ fn a_table_of_finite_elements_moves_as_the_built_in_beam() {
     let mut exported = built_in.clone();
     exported.rod.flexible.table = Some(Mesh::of(&built_in).table());
     exported.check().expect("a legal table");
-    let mut runs =
-        [&built_in, &exported].map(|scene| Simulation::start(scene, 0.0, Inputs::default()).expect("closes"));
+    let mut runs = [&built_in, &exported].map(|scene| Simulation::start(scene, Inputs::default()).expect("closes"));
     let (mut error, mut most, mut stretch) = (0.0f64, 0.0f64, 0.0f64);
     for i in 1..=100 {
         let outputs = runs.each_mut().map(|run| {

@@ -28,7 +28,7 @@ fn bending_frequency(scene: &Scene, mode: f64) -> f64 {
 }
 
 fn after(scene: &Scene, inputs: Inputs, time: f64) -> Outputs {
-    let mut simulation = Simulation::start(scene, 0.0, inputs).expect("a scene whose loop closes");
+    let mut simulation = Simulation::start(scene, inputs).expect("a scene whose loop closes");
     simulation.advance_to(time).expect("no trouble");
     simulation.outputs()
 }

@@ -3,8 +3,8 @@
 use super::chance::Chance;
 use super::motion::{Motion, motion};
 use super::scenes::{
-    JournalMotion, all_plays, at, at_tolerance, contacts, crooked, elastic, inputs, letters, reals, speed_driven,
-    start, with_play,
+    Play, all_plays, at, at_tolerance, contacts, crooked, elastic, inputs, letters, reals, speed_driven, start,
+    with_play,
 };
 use super::symmetry::{mirror, mirrored};
 use slidercrank::integrator::methods::named;
@@ -15,6 +15,7 @@ use slidercrank::model::joint::guide::Guide;
 use slidercrank::model::mechanism_model::MechanismModel;
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::model::start::StartPose;
+use slidercrank::model::state::Conditions;
 use slidercrank::scene::{DampingLaw, FrictionLaw, Method, Scene, Surface};
 use slidercrank::simulation::Simulation;
 
@@ -26,12 +27,12 @@ const TORQUE: f64 = 2.0;
 const LOAD: f64 = -40.0;
 
 /// The eight plays with a clear guide.
-fn plays() -> impl Iterator<Item = JournalMotion> {
+fn plays() -> impl Iterator<Item = Play> {
     all_plays().filter(|play| play[3])
 }
 
 /// A mechanism without symmetry that rattles in its guide on both faces, turned and flat.
-fn faced(play: JournalMotion) -> Scene {
+fn faced(play: Play) -> Scene {
     let mut scene = with_play(crooked(), play);
     (scene.joint.t.surface, scene.joint.t.foundation_stiffness) = (Surface::Foundation, BED);
     scene.joint.t.clearance = 1e-4;
@@ -42,7 +43,7 @@ fn faced(play: JournalMotion) -> Scene {
 }
 
 /// [J] Energy of a motion less the inputs' work.
-fn energy(scene: &Scene, play: JournalMotion, m: &Motion) -> f64 {
+fn energy(scene: &Scene, play: Play, m: &Motion) -> f64 {
     let revolute: [f64; 4] = std::array::from_fn(|i| if play[i] { STIFFNESS[i] } else { 0.0 });
     let half = 0.5 * scene.slider.length;
     let face = |front: usize| {
@@ -58,7 +59,7 @@ fn energy(scene: &Scene, play: JournalMotion, m: &Motion) -> f64 {
 
 /// The energies of a run relative to the first kinetic energy, the corners met on it together, and the
 /// events.
-fn ledger(scene: &Scene, play: JournalMotion) -> (Vec<f64>, [bool; 4], i32) {
+fn ledger(scene: &Scene, play: Play) -> (Vec<f64>, [bool; 4], i32) {
     let mut simulation = start(scene, inputs(TORQUE, LOAD));
     let first = motion(scene, &mut simulation);
     let (origin, size) = (energy(scene, play, &first), first.kinetic());
@@ -125,7 +126,7 @@ fn damping_and_friction_only_take_energy() {
 }
 
 /// Friction that holds a tilted slider, eccentric starts, damping.
-fn jamming(play: JournalMotion) -> Scene {
+fn jamming(play: Play) -> Scene {
     let mut scene = at_tolerance(faced(play), 1e-7);
     scene.joint.t.offset_start = 5e-5;
     scene.joint.t.foundation_stiffness = 0.0;
@@ -144,22 +145,22 @@ fn jamming(play: JournalMotion) -> Scene {
 fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
     let scene = at_tolerance(faced([false, false, false, true]), 1e-8);
     let guide = Guide::new(&scene);
-    let model = Model::assemble(&scene, 0.0);
+    let model = Model::assemble(&scene);
     let mut y = vec![0.0; model.layout().states];
     model.write_start(&StartPose::of(&scene).expect("a loop that closes"), &mut y);
-    let contacts = model.start_contacts(0.0, &y);
+    let conditions = Conditions::without_inputs(model.start_contacts(0.0, &y));
     let settings = Settings { tolerance: 1e-8, fixed_step: 1e-6, effort: WorkLimit::ANY };
     let mut integrator =
-        Integrator::start(&model, named("verner7", y.len()).expect("a method"), settings, 0.0, &y, contacts);
+        Integrator::start(&model, named("verner7", y.len()).expect("a method"), settings, 0.0, &y, conditions);
     let (mut closings, mut passages) = (0, 0);
-    let (mut before, mut before_count) = (contacts, [0; 2]);
+    let (mut before, mut before_count) = (conditions, [0; 2]);
     while integrator.state().front().t < 0.03 {
         integrator.advance(&model, integrator.state().front().t.next_up()).expect("a motion without trouble");
         let StepPoint { t, y, discrete: states, .. } = integrator.state().front();
         let pose = model.evaluation(states, *t, y).pose.slider();
         let depths = guide.penetrations(&pose);
         for face in 0..2 {
-            let (was, is) = (before[3 + face], states[3 + face]);
+            let (was, is) = (before.contacts[3 + face], states.contacts[3 + face]);
             let count = depths[2 * face..][..2].iter().filter(|depth| **depth > 0.0).count();
             if is.closed && !was.closed {
                 let faster = guide.approaches(&pose)[face].1;
@@ -173,7 +174,7 @@ fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
             }
             before_count[face] = count;
         }
-        assert!(!states[5].closed && !states[6].closed);
+        assert!(!states.contacts[5].closed && !states.contacts[6].closed);
         before = *states;
     }
     println!("{closings} closings, {passages} passages between corner and face");
@@ -185,13 +186,16 @@ fn a_face_closed_at_the_start_has_the_least_approach_speed() {
     for (offset, upper) in [(1.2e-4, true), (-1.2e-4, false)] {
         let mut scene = faced([false, false, false, true]);
         scene.joint.t.offset_start = offset;
-        let model = Model::assemble(&scene, 0.0);
+        let model = Model::assemble(&scene);
         let mut y = vec![0.0; model.layout().states];
         model.write_start(&StartPose::of(&scene).expect("a loop that closes"), &mut y);
-        let contacts = model.start_contacts(0.0, &y);
-        assert_eq!((contacts[3].closed, contacts[4].closed), (upper, !upper));
-        assert_eq!(contacts[3].approach.max(contacts[4].approach), scene.joint.t.contact.speed_floor);
-        assert!(!contacts[5].closed && !contacts[6].closed);
+        let conditions = Conditions::without_inputs(model.start_contacts(0.0, &y));
+        assert_eq!((conditions.contacts[3].closed, conditions.contacts[4].closed), (upper, !upper));
+        assert_eq!(
+            conditions.contacts[3].approach.max(conditions.contacts[4].approach),
+            scene.joint.t.contact.speed_floor
+        );
+        assert!(!conditions.contacts[5].closed && !conditions.contacts[6].closed);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Friction: the laws, and where the mechanism applies them.
 
 use super::motion::{Motion, Vec2, motion, perp};
-use super::scenes::{JournalMotion, at_tolerance, contacts, crooked, elastic, inputs, letters, start, with_play};
+use super::scenes::{Play, at_tolerance, contacts, crooked, elastic, inputs, letters, start, with_play};
 use slidercrank::model::friction::Friction as Law;
 use slidercrank::scene::{Friction, FrictionLaw, Scene};
 
@@ -59,7 +59,7 @@ fn each_law_is_its_formula_odd_and_continuous() {
 }
 
 /// Elastic contacts with this friction in the joints of `play`.
-fn rubbing(play: JournalMotion, friction: Friction) -> Scene {
+fn rubbing(play: Play, friction: Friction) -> Scene {
     let mut scene = elastic(with_play(crooked(), play));
     for (contact, stiffness) in contacts(&mut scene).into_iter().zip(STIFFNESS) {
         (contact.friction, contact.stiffness) = (friction, stiffness);
@@ -71,7 +71,7 @@ const STIFFNESS: [f64; 4] = [3e10, 5e10, 6e10, 8e9];
 
 /// Normal and tangential force of each closed contact, with its sliding speed: of the force on the journal,
 /// or on the slider at its only closed corner.
-fn touching(scene: &Scene, play: JournalMotion, m: &Motion) -> Vec<(f64, f64, f64)> {
+fn touching(scene: &Scene, play: Play, m: &Motion) -> Vec<(f64, f64, f64)> {
     let o = &m.outputs;
     let mut list = vec![];
     let on_journal = [(&o.joint_a, 1.0, 0.0), (&o.joint_b, -1.0, o.rod.speed), (&o.joint_c, 1.0, o.rod.speed)];

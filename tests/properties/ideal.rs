@@ -190,12 +190,12 @@ fn every_output_of_the_ideal_mechanism_is_the_closed_form_under_a_speed_drive() 
 }
 
 #[test]
-fn a_speed_drive_turns_at_its_speed_from_the_start_time() {
+fn a_speed_drive_turns_at_its_speed() {
     let scene = speed_driven(crooked());
-    let mut simulation = slidercrank::simulation::Simulation::start(&scene, 3.0, Inputs::default()).expect("a start");
-    for t in [3.0, 3.001, 3.5, 11.0] {
+    let mut simulation = slidercrank::simulation::Simulation::start(&scene, Inputs::default()).expect("a start");
+    for t in [0.0, 0.001, 0.5, 8.0] {
         let outputs = at(&mut simulation, t);
-        let angle = 0.4 + 150.0 * (t - 3.0);
+        let angle = 0.4 + 150.0 * t;
         assert!((outputs.crank.angle - angle).abs() <= 2.0 * f64::EPSILON * angle);
         assert_eq!((outputs.crank.speed, outputs.crank.acceleration), (150.0, 0.0));
     }

@@ -8,7 +8,7 @@ use slidercrank::integrator::methods::named;
 use slidercrank::integrator::{Integrator, Settings, WorkLimit};
 use slidercrank::model::Model;
 use slidercrank::model::mechanism_model::MechanismModel;
-use slidercrank::model::state::Evaluation;
+use slidercrank::model::state::{Conditions, Evaluation};
 use slidercrank::scene::modal::{AxialMode, BendingMode, ModalTable};
 use slidercrank::scene::{DriveMode, Scene};
 use std::f64::consts::PI;
@@ -112,18 +112,19 @@ fn at_the_end(factor: f64) -> (Evaluation, [f64; 4]) {
     let f = &mut scene.rod.flexible;
     (f.bending_modes, f.axial_modes, f.damping_ratio, f.geometric_stiffness) = (2, 2, 0.0, false);
     f.table = Some(table);
-    let model = Model::assemble(&scene, 0.0);
+    let model = Model::assemble(&scene);
     // Positions and rates of the set's initial state.
     let [a, b] = amplitudes(nodes, [0.103339863e-4, 0.169327969e-4]);
     let [c, d] = amplitudes(nodes, [-0.178591076e-5, -0.268938672e-5]);
     let y = [0.0, 0.0, a, b, 0.444896105, 0.463434311e-2, c, d];
-    let contacts = model.start_contacts(0.0, &y);
+    let conditions = Conditions::without_inputs(model.start_contacts(0.0, &y));
     let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: WorkLimit::ANY };
-    let mut integrator = Integrator::start(&model, named("verner7", 8).expect("a method"), settings, 0.0, &y, contacts);
+    let mut integrator =
+        Integrator::start(&model, named("verner7", 8).expect("a method"), settings, 0.0, &y, conditions);
     integrator.advance(&model, 0.1).expect("no trouble");
-    let (y, contacts) = integrator.state_at(&model, 0.1);
+    let (y, conditions) = integrator.state_at(&model, 0.1);
     let node = |k: usize| y[2] * nodes[0][k] + y[3] * nodes[1][k];
-    (model.evaluation(&contacts, 0.1, y), [y[0], y[1], node(0), node(1)])
+    (model.evaluation(&conditions, 0.1, y), [y[0], y[1], node(0), node(1)])
 }
 
 fn relative(found: f64, wanted: f64) -> f64 {

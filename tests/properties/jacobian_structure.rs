@@ -11,7 +11,7 @@ use slidercrank::model::contact::ContactState;
 use slidercrank::model::mechanism_model::MechanismModel;
 use slidercrank::model::scalar::Tangent;
 use slidercrank::model::start::StartPose;
-use slidercrank::model::state::Contacts;
+use slidercrank::model::state::Conditions;
 use slidercrank::scene::{FrictionLaw, Scene};
 use slidercrank::simulation::Simulation;
 
@@ -23,7 +23,7 @@ const P: usize = N / 2;
 type Loose = Model;
 
 /// Three bodies that touch each other at crank pin and slider pin alone: state and contacts.
-fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) {
+fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Conditions) {
     let mut scene = with_play(crooked(), [true; 4]);
     scene.gravity = 0.0;
     for joint in revolutes(&mut scene) {
@@ -32,7 +32,7 @@ fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) 
     for contact in contacts(&mut scene) {
         contact.friction.law = law;
     }
-    let model = Loose::assemble(&scene, 0.0);
+    let model = Loose::assemble(&scene);
     let mut y = [0.0; N];
     model.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut y);
     // Rod and slider each a play and a penetration off, in any direction.
@@ -44,11 +44,11 @@ fn afloat(chance: &mut Chance, law: FrictionLaw) -> (Loose, [f64; N], Contacts) 
     for rate in &mut y[P..] {
         *rate += chance.between(-0.3, 0.3);
     }
-    let mut contacts = Contacts::default();
-    for contact in &mut contacts[1..3] {
+    let mut conditions = Conditions::default();
+    for contact in &mut conditions.contacts[1..3] {
         *contact = ContactState::closing(0.2, 1e-3);
     }
-    (model, y, contacts)
+    (model, y, conditions)
 }
 
 /// ∂ẏ along `direction`.
@@ -67,10 +67,10 @@ fn moving_turning_and_boosting_the_whole_changes_no_force() {
     let mut chance = Chance(11);
     for law in [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Stribeck] {
         for _ in 0..50 {
-            let (model, y, contacts) = afloat(&mut chance, law);
+            let (model, y, conditions) = afloat(&mut chance, law);
             let (mut jacobian, mut rates) = (Jacobian::new(N), [0.0; N]);
-            model.jacobian(&contacts, 0.0, &y, &mut jacobian);
-            model.rates(&contacts, 0.0, &y, &mut rates);
+            model.jacobian(&conditions, 0.0, &y, &mut jacobian);
+            model.rates(&conditions, 0.0, &y, &mut rates);
             // Rounding: of sums of the rows' terms.
             let row = |i: usize| jacobian.row(i).iter().map(|slope| slope.abs()).sum::<f64>();
             let size = 1e-14 * (0..N).map(row).fold(0.0, f64::max);
@@ -102,10 +102,10 @@ fn values_beside_derivatives_have_the_bits_of_the_rates() {
     let mut chance = Chance(12);
     for law in [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck] {
         for _ in 0..50 {
-            let (model, y, contacts) = afloat(&mut chance, law);
+            let (model, y, conditions) = afloat(&mut chance, law);
             let (mut rates, mut found) = ([0.0; N], [Tangent::ZERO; N]);
-            model.rates(&contacts, 0.1, &y, &mut rates);
-            model.tangent_rates(&contacts, Tangent::constant(0.1), &y.map(Tangent::constant), &mut found);
+            model.rates(&conditions, 0.1, &y, &mut rates);
+            model.tangent_rates(&conditions, Tangent::constant(0.1), &y.map(Tangent::constant), &mut found);
             assert_eq!(found.map(|rate| rate.value.to_bits()), rates.map(f64::to_bits));
             assert!(found.iter().all(|rate| rate.slope.iter().all(|slope| *slope == 0.0)));
         }
@@ -120,7 +120,7 @@ fn it_is_finite_where_journals_are_centred_and_contacts_just_touch() {
         for contact in contacts(&mut scene) {
             contact.friction.law = law;
         }
-        let model = Model::assemble(&scene, 0.0);
+        let model = Model::assemble(&scene);
         let n = model.layout().states;
         let mut centred = vec![0.0; n];
         model.write_start(&StartPose::of(&scene).expect("the loop closes"), &mut centred);
@@ -128,7 +128,7 @@ fn it_is_finite_where_journals_are_centred_and_contacts_just_touch() {
         touching[1] = scene.joint.a.clearance; // exactly, in the main bearing: roots are centres of mass
         for y in [centred, touching] {
             let mut jacobian = Jacobian::new(n);
-            model.jacobian(&[ContactState::closing(0.1, 1e-3); 7], 0.0, &y, &mut jacobian);
+            model.jacobian(&Conditions::without_inputs([ContactState::closing(0.1, 1e-3); 7]), 0.0, &y, &mut jacobian);
             let rows = (0..n).flat_map(|i| jacobian.row(i));
             assert!(rows.chain(&jacobian.time).all(|slope| slope.is_finite()), "{law:?}");
         }

@@ -25,7 +25,7 @@ fn resting(law: FrictionLaw) -> Scene {
 
 /// Under the load, at 0.3 s and 0.2 s later.
 fn late(scene: &Scene) -> [Outputs; 2] {
-    let mut simulation = Simulation::start(scene, 0.0, inputs(0.0, LOAD)).expect("a scene whose loop closes");
+    let mut simulation = Simulation::start(scene, inputs(0.0, LOAD)).expect("a scene whose loop closes");
     [0.3, 0.5].map(|t| {
         simulation.advance_to(t).expect("no trouble");
         simulation.outputs()
@@ -52,7 +52,7 @@ fn bristles_hold_what_ambrosio_s_ramp_lets_creep() {
 #[test]
 fn a_load_beyond_static_friction_breaks_the_bristles_loose() {
     let scene = resting(FrictionLaw::Lugre);
-    let mut simulation = Simulation::start(&scene, 0.0, inputs(0.0, -40.0)).expect("a scene whose loop closes");
+    let mut simulation = Simulation::start(&scene, inputs(0.0, -40.0)).expect("a scene whose loop closes");
     simulation.advance_to(0.02).expect("no trouble");
     assert!(simulation.outputs().slider.v < -0.5, "{}", simulation.outputs().slider.v);
 }

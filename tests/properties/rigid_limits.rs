@@ -1,7 +1,7 @@
 //! Rigid contacts: order of the steps, and what compliant contacts tend to as they stiffen.
 
 use super::rigid_scenes::{guideplay, rigid, rubbing, wide};
-use super::scenes::{JournalMotion, at, at_tolerance, inputs, speed_driven, start, with_play};
+use super::scenes::{Play, at, at_tolerance, inputs, speed_driven, start, with_play};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::{DampingLaw, Method, Scene};
 use std::f64::consts::TAU;
@@ -29,7 +29,7 @@ const STEPS: [f64; 2] = [1.0 / 16_384.0, 1.0 / 131_072.0];
 #[test]
 fn where_nothing_touches_the_order_is_two() {
     let inputs = inputs(3.0, -50.0);
-    let plays: [JournalMotion; 5] =
+    let plays: [Play; 5] =
         [[false; 4], [false, false, true, false], [true, true, false, false], [false, true, true, true], [true; 4]];
     for play in plays {
         for scene in [wide(play), speed_driven(wide(play))] {

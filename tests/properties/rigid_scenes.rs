@@ -1,6 +1,6 @@
 //! Mechanisms with rigid contacts that more than one property is asserted of.
 
-use super::scenes::{JournalMotion, at_tolerance, contacts, crooked, speed_driven, with_play};
+use super::scenes::{Play, at_tolerance, contacts, crooked, speed_driven, with_play};
 use slidercrank::scene::read::read;
 use slidercrank::scene::{FrictionLaw, Method, Scene};
 
@@ -42,7 +42,7 @@ pub fn guideplay() -> Scene {
 }
 
 /// Plays that nothing meets in a few hundredths of a second.
-pub fn wide(play: JournalMotion) -> Scene {
+pub fn wide(play: Play) -> Scene {
     let mut scene = at_tolerance(with_play(crooked(), play), 1e-12);
     let joint = &mut scene.joint;
     for revolute in [&mut joint.a, &mut joint.b, &mut joint.c] {

@@ -2,13 +2,14 @@
 //! contacts that touch and that do not.
 
 use super::chance::Chance;
-use super::scenes::{JournalMotion, all_plays, contacts, crooked, letters, revolutes, with_play};
+use super::scenes::{Play, all_plays, contacts, crooked, letters, revolutes, with_play};
 use slidercrank::integrator::SeveralInstants;
 use slidercrank::integrator::system::one_by_one;
 use slidercrank::math::{F64x8, ROW, Real};
 use slidercrank::model::Model;
 use slidercrank::model::mechanism_model::MechanismModel;
 use slidercrank::model::start::StartPose;
+use slidercrank::model::state::Conditions;
 use slidercrank::scene::{DampingLaw, DriveMode, Elasticity, FrictionLaw, Scene, Surface};
 
 /// States that the model may be in, with the contacts of one of them, and its rates together and one by one.
@@ -28,14 +29,14 @@ fn agree<P: MechanismModel>(name: &str, scene: &Scene, model: P, chance: &mut Ch
         }
         y
     });
-    let modes = model.start_contacts(0.0, &states[0]);
+    let conditions = Conditions::without_inputs(model.start_contacts(0.0, &states[0]));
     let times: [f64; ROW] = std::array::from_fn(|k| 1e-4 * k as f64);
     let y: Vec<F64x8> = (0..n).map(|i| F64x8::of(std::array::from_fn(|k| states[k][i]))).collect();
     let mut together = vec![F64x8::ZERO; n];
-    model.rates_in_row(&modes, &F64x8::of(times), &y, &mut together);
+    model.rates_in_row(&conditions, &F64x8::of(times), &y, &mut together);
     for k in 0..ROW {
         let mut alone = vec![0.0; n];
-        model.rates(&modes, times[k], &states[k], &mut alone);
+        model.rates(&conditions, times[k], &states[k], &mut alone);
         for i in 0..n {
             let together = together[i].numbers()[k];
             assert_eq!(
@@ -49,7 +50,7 @@ fn agree<P: MechanismModel>(name: &str, scene: &Scene, model: P, chance: &mut Ch
 }
 
 /// With contacts of all kinds.
-fn laws(play: JournalMotion, drive: DriveMode) -> Vec<(String, Scene)> {
+fn laws(play: Play, drive: DriveMode) -> Vec<(String, Scene)> {
     let mut all = vec![];
     let frictions =
         [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck, FrictionLaw::Lugre];
@@ -83,7 +84,7 @@ fn a_rigid_mechanism_moves_alike() {
         for drive in [DriveMode::Torque, DriveMode::Speed] {
             for (name, scene) in laws(play, drive) {
                 for _ in 0..4 {
-                    agree(&name, &scene, Model::assemble(&scene, 0.0), &mut chance);
+                    agree(&name, &scene, Model::assemble(&scene), &mut chance);
                 }
             }
         }
@@ -99,7 +100,7 @@ fn a_mechanism_with_a_flexible_rod_moves_alike() {
                 let (name, mut scene) = laws(play, drive).swap_remove(8);
                 (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (bending, axial);
                 let name = format!("{name}, {bending} + {axial} modes");
-                agree(&name, &scene, Model::assemble(&scene, 0.0), &mut chance);
+                agree(&name, &scene, Model::assemble(&scene), &mut chance);
             }
         }
     }
@@ -108,7 +109,7 @@ fn a_mechanism_with_a_flexible_rod_moves_alike() {
 #[test]
 fn a_problem_that_knows_no_rows_is_asked_for_each_state() {
     let scene = crooked();
-    let model = Model::assemble(&scene, 0.0);
+    let model = Model::assemble(&scene);
     let rows = [F64x8::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
     let mut alone = [F64x8::ZERO; 2];
     one_by_one(&model, &Default::default(), &F64x8::ZERO, &rows, &mut alone);

@@ -5,21 +5,21 @@ use slidercrank::scene::{Contact, DampingLaw, DriveMode, FrictionLaw, JointModel
 use slidercrank::simulation::Simulation;
 
 /// Which of A, B, C, T have clearance.
-pub type JournalMotion = [bool; 4];
+pub type Play = [bool; 4];
 
 /// All sixteen.
-pub fn all_plays() -> impl Iterator<Item = JournalMotion> {
+pub fn all_plays() -> impl Iterator<Item = Play> {
     (0..16).map(|bits| std::array::from_fn(|i| bits >> i & 1 == 1))
 }
 
 /// The letters of the joints with clearance.
-pub fn letters(play: JournalMotion) -> String {
+pub fn letters(play: Play) -> String {
     let letters = ['A', 'B', 'C', 'T'].into_iter().zip(play);
     letters.map(|(letter, clear)| if clear { letter } else { '-' }).collect()
 }
 
 /// Gives clearance to the joints of `play`.
-pub fn with_play(mut scene: Scene, play: JournalMotion) -> Scene {
+pub fn with_play(mut scene: Scene, play: Play) -> Scene {
     let model = play.map(|clear| if clear { JointModel::Clearance } else { JointModel::Ideal });
     [scene.joint.a.model, scene.joint.b.model, scene.joint.c.model, scene.joint.t.model] = model;
     scene
@@ -73,7 +73,7 @@ pub fn at_tolerance(mut scene: Scene, tolerance: f64) -> Scene {
 /// Starts at time 0.
 pub fn start(scene: &Scene, inputs: Inputs) -> Simulation {
     scene.check().expect("a legal scene");
-    Simulation::start(scene, 0.0, inputs).expect("a scene whose loop closes")
+    Simulation::start(scene, inputs).expect("a scene whose loop closes")
 }
 
 /// Outputs at `t`.

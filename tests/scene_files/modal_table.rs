@@ -112,7 +112,7 @@ fn a_beam_told_by_its_table_moves_as_the_beam() {
     told.rod.flexible.table = Some(model::rod::beam::table(&flexible(3, 2)));
     let run = |scene: &Scene| {
         scene.check().expect("a legal scene");
-        let mut simulation = Simulation::start(scene, 0.0, Inputs::default()).expect("a start");
+        let mut simulation = Simulation::start(scene, Inputs::default()).expect("a start");
         simulation.advance_to(2e-3).expect("a motion without trouble");
         simulation.outputs()
     };

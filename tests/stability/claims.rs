@@ -1,6 +1,6 @@
 //! What may be claimed of a case, and how each claim is put to the test.
 
-use crate::law::JournalMotion;
+use crate::law::Play;
 use crate::run::{Trace, not_finite, run};
 use crate::statistics;
 use slidercrank::model::bristles::bristled_contacts;
@@ -89,7 +89,7 @@ fn energy(name: &str, file: &SceneFile, trace: &Trace, share: f64) {
 
 /// No joint deeper than its law needs.
 fn depth(name: &str, file: &SceneFile, trace: &Trace, times: f64) {
-    for play in JournalMotion::of(&file.scene) {
+    for play in Play::of(&file.scene) {
         let force = trace.greatest(|o| play.force(o));
         let allowed = times * play.depth_of(force);
         let deepest = trace.outputs.iter().map(|o| play.depth(o)).fold(f64::NEG_INFINITY, f64::max);

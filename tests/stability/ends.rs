@@ -67,7 +67,7 @@ fn extremes(parameter: &Parameter) -> Vec<f64> {
 /// Runs with communication steps that grow while they are cheap; the time reached.
 fn run(what: &str, scene: &Scene) -> f64 {
     let inputs = Inputs { crank_torque: 3.0, slider_load: -20.0 };
-    let mut simulation = match Simulation::start(scene, 0.0, inputs) {
+    let mut simulation = match Simulation::start(scene, inputs) {
         Ok(simulation) => simulation,
         Err(error) => panic!("{what}: {error}"),
     };

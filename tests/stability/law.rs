@@ -4,7 +4,7 @@ use slidercrank::model::signals::Outputs;
 use slidercrank::scene::{Contact, JointModel, Scene};
 
 /// A joint with clearance, at work.
-pub struct JournalMotion {
+pub struct Play {
     /// A, B, C or T.
     pub letter: char,
     stiffness: f64,
@@ -19,7 +19,7 @@ fn compliance(contact: &Contact) -> f64 {
     sigma(contact.young.bearing, contact.poisson.bearing) + sigma(contact.young.journal, contact.poisson.journal)
 }
 
-impl JournalMotion {
+impl Play {
     /// Those of a scene whose contacts are Hertzian, or of a given stiffness.
     pub fn of(scene: &Scene) -> Vec<Self> {
         let joint = &scene.joint;

@@ -67,7 +67,7 @@ pub fn inputs(file: &SceneFile, time: f64, crank_angle: f64) -> Inputs {
 /// The scene at its start, with its inputs.
 pub fn start(file: &SceneFile) -> Simulation {
     let inputs = inputs(file, 0.0, file.scene.crank.angle_start);
-    Simulation::start(&file.scene, 0.0, inputs).expect("a scene whose loop closes")
+    Simulation::start(&file.scene, inputs).expect("a scene whose loop closes")
 }
 
 /// Runs it to its end, or as far as it comes. Inputs are set at each communication point and held.

@@ -50,7 +50,7 @@ pub fn modes(data: &[u8]) {
 /// Starts a legal scene and takes a step.
 fn run(mut file: SceneFile) {
     file.scene.solver.max_evaluations = EVALUATIONS;
-    let mut simulation = Simulation::start(&file.scene, 0.0, Inputs::default()).expect("a legal scene starts");
+    let mut simulation = Simulation::start(&file.scene, Inputs::default()).expect("a legal scene starts");
     let stepped = simulation.advance_to(STEP);
     let outputs = simulation.outputs();
     assert!(stepped.is_err() || outputs.is_finite(), "{outputs:?}");

@@ -37,7 +37,7 @@ fn open(file: &str) -> Result<System, String> {
     let Profiles { crank_torque, slider_load } = &scene.inputs;
     let [crank_torque, slider_load] =
         [crank_torque, slider_load].map(|profile| profile.value(0.0, scene.scene.crank.angle_start));
-    System::start(&scene.scene, 0.0, Inputs { crank_torque, slider_load }).map_err(|error| error.to_string())
+    System::start(&scene.scene, Inputs { crank_torque, slider_load }).map_err(|error| error.to_string())
 }
 
 /// Closes what `equations_open` returned.

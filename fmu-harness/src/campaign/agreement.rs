@@ -30,7 +30,7 @@ pub fn parts(file: &SceneFile) -> Option<String> {
         let mut file = file.clone();
         (file.scene.solver.method, file.scene.solver.tolerance) = (method, tolerance);
         let start = inputs(&file, 0.0, file.scene.crank.angle_start);
-        runs.push((Simulation::start(&file.scene, 0.0, start).ok()?, file));
+        runs.push((Simulation::start(&file.scene, start).ok()?, file));
     }
     let turn = std::f64::consts::TAU / scene.crank.speed_start.abs();
     let points = (f64::min(TURNS * turn, file.run.stop(scene)) / file.run.step) as usize;

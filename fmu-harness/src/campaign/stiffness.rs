@@ -35,7 +35,7 @@ impl Stiffness {
     pub fn of(file: &SceneFile) -> Self {
         let mut seen = Self::default();
         let start = inputs(file, 0.0, file.scene.crank.angle_start);
-        let Ok(mut simulation) = Simulation::start(&file.scene, 0.0, start) else { return seen };
+        let Ok(mut simulation) = Simulation::start(&file.scene, start) else { return seen };
         let points = (file.run.stop(&file.scene) / file.run.step).round().max(1.0) as usize;
         let mut looks = 0.0;
         for point in 1..=points {

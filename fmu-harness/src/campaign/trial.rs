@@ -121,7 +121,7 @@ struct Saved {
 impl<'a> Trial<'a> {
     fn run(file: &'a SceneFile, terms: Terms, cost: &mut Cost) -> Result<(), Stop> {
         let inputs = inputs(file, 0.0, file.scene.crank.angle_start);
-        let simulation = Simulation::start(&file.scene, 0.0, inputs).map_err(Stop::Ended)?;
+        let simulation = Simulation::start(&file.scene, inputs).map_err(Stop::Ended)?;
         let mut trial = Self { file, simulation, inputs, outputs: Outputs::default(), residual: 0.0, turned_over: 0.0 };
         trial.look(0)?;
         let points = trial.points();
@@ -260,7 +260,7 @@ impl<'a> Trial<'a> {
 
 /// [J] Energy of a motion that the error norm just notices, whatever the tolerance: below it, a balance means nothing.
 fn noticeable(scene: &Scene) -> f64 {
-    let Ok(system) = System::start(scene, 0.0, Inputs::default()) else { return 0.0 };
+    let Ok(system) = System::start(scene, Inputs::default()) else { return 0.0 };
     let positions = system.size().degrees_of_freedom;
     let [mut y, mut scales] = [(); 2].map(|()| vec![0.0; system.size().states]);
     system.write_start(&mut y);

@@ -106,7 +106,7 @@ fn begin(bar: &ProgressBar, what: &'static str, ticks: usize) {
 }
 
 fn called_for(file: &SceneFile) -> Result<Section> {
-    let size = Simulation::start(&file.scene, 0.0, inputs_at_start(file))?.size();
+    let size = Simulation::start(&file.scene, inputs_at_start(file))?.size();
     Ok(Section::new("What the scene calls for").saying(calls::sentence(&size)).telling(calls::table(file)))
 }
 

@@ -34,7 +34,7 @@ impl Machine {
         ensure!(scene.crank.speed_start != 0.0, "crank.speed_start = 0 rad/s: a crank that stands has no turns");
         let changes = |profile: &Profile| !matches!(profile, Profile::Constant(_));
         let step = (changes(&inputs.crank_torque) || changes(&inputs.slider_load)).then_some(run.step);
-        let simulation = Simulation::start(scene, 0.0, values(inputs, 0.0, scene.crank.angle_start))?;
+        let simulation = Simulation::start(scene, values(inputs, 0.0, scene.crank.angle_start))?;
         let scales = simulation.phase_scales();
         Ok(Self { simulation, scene: scene.clone(), inputs: inputs.clone(), step, scales })
     }

@@ -144,7 +144,7 @@ pub fn contest(mut task: Task, budget: Duration, progress: impl Fn(&str)) -> Res
     let ruler = Ruler::new(&mut task)?;
     let task = &task;
     let mut series = ours::series(task, &ruler, &progress)?;
-    let system = System::start(&task.scenario.file.scene, 0.0, crate::effects::inputs_at_start(&task.scenario.file))?;
+    let system = System::start(&task.scenario.file.scene, crate::effects::inputs_at_start(&task.scenario.file))?;
     let tools = Tools::new(&progress);
     let programs = programs::of(&task.scenario.file.scene);
     let rigid = if programs.iter().any(|program| program.rigid) {

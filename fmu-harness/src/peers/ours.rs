@@ -63,7 +63,7 @@ fn point(task: &Task, ruler: &Ruler, method: Method, tolerance: f64) -> Result<P
     choose(&mut scene, method, tolerance);
     let mut evaluations = 0.0;
     let seconds = fastest(|| {
-        let mut simulation = Simulation::start(&scene, 0.0, inputs_at_start(&task.scenario.file))?;
+        let mut simulation = Simulation::start(&scene, inputs_at_start(&task.scenario.file))?;
         let start = ThreadTime::now();
         simulation.advance_to(task.span)?;
         let spent = start.elapsed();

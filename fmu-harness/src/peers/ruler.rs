@@ -85,7 +85,7 @@ impl Ruler {
     fn start(&self, task: &Task, method: Method, tolerance: f64) -> Result<Simulation> {
         let mut scene = self.scene.clone();
         choose(&mut scene, method, tolerance);
-        Ok(Simulation::start(&scene, 0.0, inputs_at_start(&task.scenario.file))?)
+        Ok(Simulation::start(&scene, inputs_at_start(&task.scenario.file))?)
     }
 
     fn at(&self, simulation: &mut Simulation, time: f64) -> Result<Vec<f64>> {

@@ -83,7 +83,7 @@ fn an_effect_adds_its_own_states_and_events_and_nothing_else() {
     for (name, added) in RUNGS {
         sum = std::array::from_fn(|i| sum[i] + added[i]);
         let file = file(&format!("effects/{name}"));
-        let simulation = Simulation::start(&file.scene, 0.0, inputs_at_start(&file)).expect("a closed loop");
+        let simulation = Simulation::start(&file.scene, inputs_at_start(&file)).expect("a closed loop");
         let [degrees_of_freedom, states, event_functions] = sum;
         assert_eq!(simulation.size(), Size { degrees_of_freedom, states, event_functions }, "{name}");
     }

@@ -62,7 +62,7 @@ fn scenes() -> Vec<(String, Scene)> {
 
 /// Everything that is remembered and everything that comes out, bit for bit.
 fn run(scene: &Scene) -> (Vec<u64>, Vec<u64>, String) {
-    let mut simulation = Simulation::start(scene, 0.0, Inputs::default()).expect("a closed loop");
+    let mut simulation = Simulation::start(scene, Inputs::default()).expect("a closed loop");
     simulation.advance_to(SPAN).expect("a motion without trouble");
     let Snapshot { reals, integers } = simulation.snapshot();
     // `Debug` prints floats so that they read back the same, signs of zero too.

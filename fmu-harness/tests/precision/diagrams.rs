@@ -70,7 +70,7 @@ fn a_method_keeps_the_properties_that_it_declares() {
             let run = |tolerance: f64, step: f64| {
                 let mut scene = subject.file.scene.clone();
                 (scene.solver.method, scene.solver.tolerance, scene.solver.step) = (*method, tolerance, step);
-                let mut simulation = Simulation::start(&scene, 0.0, Inputs::default()).expect("a closed loop");
+                let mut simulation = Simulation::start(&scene, Inputs::default()).expect("a closed loop");
                 simulation.advance_to(1e-3).expect("a motion without trouble");
                 let outputs = simulation.outputs();
                 (outputs.slider.x.to_bits(), outputs.solver.evaluations)

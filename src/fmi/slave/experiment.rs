@@ -18,7 +18,7 @@ pub struct Experiment {
 
 /// Two times are the same communication point when they differ by less than this part of the step …
 const PART_OF_STEP: f64 = 1e-9;
-/// … or of the time itself. Importers that add steps up, multiply them, or read them from text
+/// … or of the time since the start. Importers that add steps up, multiply them, or read them from text
 /// differ by some 1e-13 (measured: `fmuCheck` sends h = 0.0099999999999993).
 const PART_OF_TIME: f64 = 1e-12;
 
@@ -52,23 +52,33 @@ impl Experiment {
         Self::new(self.tolerance, self.start, self.stop).map(Self::limited) == Ok(*self)
     }
 
-    /// [s] Where a step of `size` from the importer's `point` ends, for an instance at `reached`.
+    /// [s] Where a step of `size` from the importer's `point` ends, for an instance at `reached`; `reached` and the end are
+    /// counted from the start.
     ///
     /// The standard's own step hc_s = (tc_i − tc_s) + hc_i from tc_s ends at the importer's next
-    /// point: so time is the importer's, and no rounding of ours adds up.
+    /// point: so time is the importer's, and no rounding of ours adds up. The importer's point less its start is exact
+    /// wherever both are near; so a run has the same bits from any start time, but for what the importer's own sums round.
     pub fn step_end(&self, reached: f64, point: f64, size: f64) -> Result<f64, TimeError> {
         finite("currentCommunicationPoint", point)?;
         positive("communicationStepSize", size)?;
-        if (point - reached).abs() > slack(size, point, reached) {
-            return Err(TimeError::Elsewhere { given: point, reached });
+        let elapsed = point - self.start;
+        if (elapsed - reached).abs() > slack(size, elapsed, reached) + self.rounding(point) {
+            return Err(TimeError::Elsewhere { given: point, reached: self.start + reached });
         }
         let end = point + size;
         finite("the end of the step", end)?;
         match self.stop {
-            Some(stop) if end - stop > slack(size, end, stop) => Err(TimeError::PastStop { end, stop }),
+            Some(stop) if end - stop > slack(size, elapsed + size, stop - self.start) + self.rounding(end) => {
+                Err(TimeError::PastStop { end, stop })
+            }
             // A step below the rounding of time must not lead back.
-            _ => Ok(end.max(reached)),
+            _ => Ok((elapsed + size).max(reached)),
         }
+    }
+
+    /// [s] What an importer's sums may have lost on the way to the time `t`.
+    fn rounding(&self, t: f64) -> f64 {
+        4.0 * f64::EPSILON * t.abs().max(self.start.abs())
     }
 }
 
@@ -116,19 +126,35 @@ mod tests {
 
     #[test]
     fn a_step_ends_at_the_importers_next_point() {
-        let end = FROM_TWO_TO_THREE.step_end(2.1, 2.1_f64.next_up(), 0.1);
-        assert_eq!(end, Ok(2.1_f64.next_up() + 0.1));
+        let end = FROM_TWO_TO_THREE.step_end(2.1 - 2.0, 2.1_f64.next_up(), 0.1);
+        assert_eq!(end, Ok(2.1_f64.next_up() - 2.0 + 0.1));
     }
 
     #[test]
     fn the_last_step_may_overshoot_by_rounding_only() {
-        assert!(FROM_TWO_TO_THREE.step_end(2.9, 2.9, 3.0_f64.next_up() - 2.9).is_ok());
-        assert_eq!(FROM_TWO_TO_THREE.step_end(2.9, 2.9, 0.2), Err(TimeError::PastStop { end: 2.9 + 0.2, stop: 3.0 }));
+        assert!(FROM_TWO_TO_THREE.step_end(2.9 - 2.0, 2.9, 3.0_f64.next_up() - 2.9).is_ok());
+        assert_eq!(
+            FROM_TWO_TO_THREE.step_end(2.9 - 2.0, 2.9, 0.2),
+            Err(TimeError::PastStop { end: 2.9 + 0.2, stop: 3.0 })
+        );
     }
 
     #[test]
     fn a_step_below_rounding_does_not_move_time() {
-        assert_eq!(FROM_TWO_TO_THREE.step_end(2.5, 2.5, 1e-30), Ok(2.5));
-        assert_eq!(FROM_TWO_TO_THREE.step_end(2.5, 2.5_f64.next_down(), 1e-30), Ok(2.5));
+        assert_eq!(FROM_TWO_TO_THREE.step_end(0.5, 2.5, 1e-30), Ok(0.5));
+        assert_eq!(FROM_TWO_TO_THREE.step_end(0.5, 2.5_f64.next_down(), 1e-30), Ok(0.5));
+    }
+
+    #[test]
+    fn a_run_may_start_at_an_epoch() {
+        let start = 1.7e9;
+        let experiment = Experiment { start, stop: None, tolerance: None };
+        let (mut point, mut reached) = (start, 0.0);
+        for step in 1..=1000 {
+            reached = experiment.step_end(reached, point, 1e-5).expect("a step");
+            point += 1e-5;
+            assert!((reached - f64::from(step) * 1e-5).abs() < f64::from(step) * 2e-8, "{reached}");
+        }
+        assert!(experiment.step_end(reached, point + 1e-5, 1e-5).is_err(), "a step that skips another");
     }
 }

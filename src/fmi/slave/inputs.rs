@@ -1,4 +1,4 @@
-//! Inputs between communication points: u(t) = u + u̇·(t − t_set).
+//! Inputs between communication points: u(t) = u + u̇·(t − t_set), times counted from the start.
 //!
 //! Value and derivative set at one communication point belong together, in either order. A value
 //! set alone is held: its derivative becomes 0. A derivative set alone starts from the value
@@ -109,18 +109,17 @@ impl InputLines {
         since.is_finite() && lines.into_iter().flatten().all(Lines::are_finite) && are_finite(rates_set)
     }
 
-    /// Makes a simulation by `start` at `time`, with the inputs wanted there in force.
+    /// Makes a simulation by `start`, with the inputs wanted at its start in force.
     pub fn start(
         &mut self,
-        time: f64,
         start: impl FnOnce(Inputs) -> Result<Simulation, SimulationError>,
     ) -> Result<Simulation, SimulationError> {
-        let lines = self.at(time);
+        let lines = self.at(0.0);
         let mut simulation = start(lines.values)?;
         if lines.rates != Inputs::default() {
             simulation.set_inputs(lines.values, lines.rates);
         }
-        (self.since, self.in_force) = (time, lines);
+        (self.since, self.in_force) = (0.0, lines);
         Ok(simulation)
     }
 

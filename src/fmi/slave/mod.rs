@@ -65,7 +65,12 @@ impl Slave {
 
     /// [s] The communication point reached.
     pub fn time(&self) -> f64 {
-        self.simulation.as_ref().map_or(self.settings.experiment.start, Simulation::time)
+        self.settings.experiment.start + self.elapsed()
+    }
+
+    /// [s] The same, counted from the start: the simulation's time, which no start time rounds.
+    fn elapsed(&self) -> f64 {
+        self.simulation.as_ref().map_or(0.0, Simulation::time)
     }
 
     /// Sets times and tolerance. A tolerance that the solver cannot meet is limited: that limit.
@@ -106,7 +111,9 @@ impl Slave {
         for (&reference, value) in references.iter().zip(values) {
             let variable = variable(reference)?;
             *value = convert(match &variable.access {
-                Access::Input { get, .. } => finite_output(variable, get(&self.settings.inputs.values(self.time())))?,
+                Access::Input { get, .. } => {
+                    finite_output(variable, get(&self.settings.inputs.values(self.elapsed())))?
+                }
                 Access::RealOutput(get) => finite_output(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
@@ -126,7 +133,7 @@ impl Slave {
         convert: fn(T) -> f64,
     ) -> Result<(), Error> {
         // Inputs are set every step: the scene is copied only where one of its parameters is set.
-        let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.time());
+        let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.elapsed());
         for (&reference, &value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;
             permission.check_write(variable)?;
@@ -162,7 +169,7 @@ impl Slave {
 
     /// Sets first time derivatives of real inputs.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Error> {
-        let (mut inputs, time) = (self.settings.inputs, self.time());
+        let (mut inputs, time) = (self.settings.inputs, self.elapsed());
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let variable = variable(reference)?;
             let RealInput { set, .. } = real_input(variable)?;
@@ -212,10 +219,10 @@ impl Slave {
         fill(unknowns, &sensitivity, values)
     }
 
-    /// [s] Where a step of `size` from the importer's `point` ends. A refusal changes nothing.
+    /// [s] Where a step of `size` from the importer's `point` ends, counted from the start. A refusal changes nothing.
     pub fn step_end(&self, point: f64, size: f64) -> Result<f64, Error> {
-        let end = self.settings.experiment.step_end(self.time(), point, size)?;
-        let inputs = self.settings.inputs.values_until(self.time(), end);
+        let end = self.settings.experiment.step_end(self.elapsed(), point, size)?;
+        let inputs = self.settings.inputs.values_until(self.elapsed(), end);
         if !are_finite(&inputs) {
             // Names the first input whose slope leads beyond all numbers.
             VARIABLES.iter().try_for_each(|variable| match variable.access {
@@ -226,12 +233,13 @@ impl Slave {
         Ok(end)
     }
 
-    /// Moves the slave to `end`, or as far as it gets.
+    /// Moves the slave to `end`, counted from the start, or as far as it gets.
     pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
         let outcome = self.live()?.advance_to(end);
         self.settings.inputs.move_on();
         self.outputs = None;
-        Ok(outcome?)
+        let start = self.settings.experiment.start;
+        Ok(outcome.map_err(|error| error.counted_from(start))?)
     }
 
     /// Everything that the slave is: what was set, and the simulation once initialization is over.
@@ -262,10 +270,8 @@ impl Slave {
                 Ok(simulation)
             }
             absent => {
-                let time = self.settings.experiment.start;
                 let scene = self.settings.simulated_scene()?;
-                let start = |inputs| Simulation::start(&scene, time, inputs);
-                Ok(absent.insert(self.settings.inputs.start(time, start)?))
+                Ok(absent.insert(self.settings.inputs.start(|inputs| Simulation::start(&scene, inputs))?))
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::invoke::NULL;
 use crate::stage::Stage;
 use slidercrank::fmi::slave::variables::VARIABLES;
 use slidercrank::fmi::v2::lifecycle::Call::{self, *};
-use slidercrank::fmi::v2::lifecycle::SurfaceContact;
+use slidercrank::fmi::v2::lifecycle::Touch;
 
 /// A function that takes value references, and the instance to call it on.
 pub struct References<'a> {
@@ -38,13 +38,13 @@ impl<'a> References<'a> {
     }
 
     /// `words` unless variables may be touched so in the stage's state.
-    fn unless(&self, touch: SurfaceContact, words: &'static str) -> &'static str {
+    fn unless(&self, touch: Touch, words: &'static str) -> &'static str {
         if touch.allowed(self.stage.state) { "" } else { words }
     }
 
     pub fn read(&self) -> Vec<Argument> {
-        let output = |words| self.unless(SurfaceContact::GetOutput, words);
-        let seen = SurfaceContact::GetOutput.allowed(self.stage.state);
+        let output = |words| self.unless(Touch::GetOutput, words);
+        let seen = Touch::GetOutput.allowed(self.stage.state);
         let (references, values) = match self.call {
             GetReal => {
                 let others = [
@@ -83,7 +83,7 @@ impl<'a> References<'a> {
     }
 
     pub fn write(&self) -> Vec<Argument> {
-        let parameter = |words| self.unless(SurfaceContact::SetParameter, words);
+        let parameter = |words| self.unless(Touch::SetParameter, words);
         let (references, values) = match self.call {
             SetReal => {
                 let others = [
@@ -133,7 +133,7 @@ impl<'a> References<'a> {
 
     /// Refused in any case where the first variable cannot be touched so.
     fn settable(&self, references: Argument, words: &str) -> Argument {
-        if SurfaceContact::SetParameter.allowed(self.stage.state) { references } else { references.refused_as(words) }
+        if Touch::SetParameter.allowed(self.stage.state) { references } else { references.refused_as(words) }
     }
 
     /// Of functions for strings, of which there are none; so their values are never looked at.

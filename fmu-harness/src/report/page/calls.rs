@@ -3,7 +3,7 @@
 use crate::precision::ladder::{FIXED_STEP, RIGID_CONTACTS};
 use crate::report::table::Table;
 use crate::report::units::{Shown, grouped, significant};
-use slidercrank::scene::profile::{Against, Profile};
+use slidercrank::scene::profile::{Profile, ProfileArgument};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::{Contact, DampingLaw, DriveMode, FrictionLaw, JointModel, Revolute, Scene, Surface};
 use slidercrank::simulation::Size;
@@ -81,7 +81,7 @@ fn load(profile: &Profile) -> String {
         Profile::Constant(load) => Shown::of("N", *load).print(*load),
         Profile::Points { against, points } => {
             let peak = points.iter().map(|[_, load]| load.abs()).fold(0.0, f64::max);
-            let over = if *against == Against::Time { "time" } else { "the crank's angle" };
+            let over = if *against == ProfileArgument::Time { "time" } else { "the crank's angle" };
             format!("over {over}, at most {}", Shown::of("N", peak).print(peak))
         }
     }

@@ -17,13 +17,14 @@ pub struct AttemptedStep {
     pub evaluations: u64,
 }
 
-/// A step of `h` from `start`.
-pub fn attempt<D: Copy + Default>(
+/// A step of `h` from `start`, whose discrete state is `open` where no contact acts.
+pub fn attempt<D: Copy>(
     system: &dyn Unilateral<Discrete = D>,
+    open: D,
     start: &StepPoint<Impulses>,
     h: f64,
 ) -> Result<AttemptedStep, IntegrationError> {
-    let midpoint = Midpoint::new(system, start, h);
+    let midpoint = Midpoint::new(system, open, start, h);
     let free = midpoint.free(system, &midpoint.halfway(&midpoint.free(system, &midpoint.y)));
     let closed = ClosedContacts::new(system, &midpoint, &free);
     let made = if closed.count() == 0 {
@@ -39,9 +40,9 @@ pub fn attempt<D: Copy + Default>(
 
 /// A step with closed contacts, which would have the velocities `free` without them. Its impulses are found twice: with
 /// the velocities of the free step for what depends on velocity, and with those that came of it.
-fn through_contacts<D: Copy + Default>(
+fn through_contacts<D: Copy>(
     system: &dyn Unilateral<Discrete = D>,
-    midpoint: &Midpoint<'_>,
+    midpoint: &Midpoint<'_, D>,
     mut closed: ClosedContacts,
     free: &State,
 ) -> Result<AttemptedStep, IntegrationError> {

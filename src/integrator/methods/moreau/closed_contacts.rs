@@ -28,7 +28,7 @@ pub struct ClosedContacts {
 
 impl ClosedContacts {
     /// The contacts whose gap is gone by the middle of a step that would have the velocities `free` without them.
-    pub fn new<D: Copy>(system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, free: &State) -> Self {
+    pub fn new<D: Copy>(system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_, D>, free: &State) -> Self {
         let mut closed = Self {
             contacts: [0; MAX_CONTACTS],
             touching: ActiveContacts::default(),
@@ -60,7 +60,7 @@ impl ClosedContacts {
     }
 
     /// Laws, turning, responses and Delassus' matrix.
-    fn linearize<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, free: &State) {
+    fn linearize<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_, D>, free: &State) {
         let laws = system.contact_laws();
         let here = velocities(system, midpoint, free);
         let there = system.contacts(midpoint.start.t + midpoint.h, midpoint.of(&midpoint.end(free))).velocity;
@@ -97,7 +97,12 @@ impl ClosedContacts {
     }
 
     /// Sets what the laws hold for without impulses, when the step then has the velocities `free`.
-    pub fn set_bias<D: Copy>(&mut self, system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, free: &State) {
+    pub fn set_bias<D: Copy>(
+        &mut self,
+        system: &dyn Unilateral<Discrete = D>,
+        midpoint: &Midpoint<'_, D>,
+        free: &State,
+    ) {
         let without = velocities(system, midpoint, free);
         for slot in 0..self.count() {
             let velocity = without[self.contacts[slot]];
@@ -118,14 +123,14 @@ impl ClosedContacts {
     }
 
     /// The forces of the last step, in the order of these contacts.
-    pub fn last(&self, midpoint: &Midpoint<'_>) -> Pairs {
+    pub fn last<D: Copy>(&self, midpoint: &Midpoint<'_, D>) -> Pairs {
         let mut forces = self.contacts.map(|contact| midpoint.start.discrete.forces[contact]);
         forces[self.count()..].fill([0.0; 2]);
         forces
     }
 
     /// The velocities of `free` with these impulses.
-    pub fn after(&self, midpoint: &Midpoint<'_>, free: &State, impulses: &Pairs) -> State {
+    pub fn after<D: Copy>(&self, midpoint: &Midpoint<'_, D>, free: &State, impulses: &Pairs) -> State {
         let mut y = *free;
         for (responses, impulse) in self.response.iter().zip(impulses).take(self.count()) {
             for (response, impulse) in responses.iter().zip(impulse) {
@@ -142,7 +147,7 @@ impl ClosedContacts {
     pub fn press_back<D: Copy>(
         &self,
         system: &dyn Unilateral<Discrete = D>,
-        midpoint: &Midpoint<'_>,
+        midpoint: &Midpoint<'_, D>,
         impulses: &Pairs,
         y: &mut State,
     ) {
@@ -170,7 +175,7 @@ impl ClosedContacts {
 }
 
 /// Velocities in the contacts at the middle's positions with the velocities of `moving`.
-fn velocities<D: Copy>(system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_>, moving: &State) -> Pairs {
+fn velocities<D: Copy>(system: &dyn Unilateral<Discrete = D>, midpoint: &Midpoint<'_, D>, moving: &State) -> Pairs {
     let mut y = midpoint.y;
     let rates = midpoint.positions..2 * midpoint.positions;
     y[rates.clone()].copy_from_slice(&moving[rates]);

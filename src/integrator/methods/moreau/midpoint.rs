@@ -7,7 +7,9 @@ use crate::integrator::unilateral::{Impulses, MAX_RIGID_CONTACT_STATES, Unilater
 pub type State = [f64; MAX_RIGID_CONTACT_STATES];
 
 /// The middle of a step: where velocities change.
-pub struct Midpoint<'a> {
+pub struct Midpoint<'a, D> {
+    /// The discrete state with every contact open.
+    pub open: D,
     /// Where the step starts.
     pub start: &'a StepPoint<Impulses>,
     /// [s] How long it is.
@@ -20,23 +22,23 @@ pub struct Midpoint<'a> {
     pub positions: usize,
 }
 
-impl<'a> Midpoint<'a> {
+impl<'a, D: Copy> Midpoint<'a, D> {
     /// Of a step of `h` from `start`.
-    pub fn new<D: Copy>(system: &dyn Unilateral<Discrete = D>, start: &'a StepPoint<Impulses>, h: f64) -> Self {
+    pub fn new(system: &dyn Unilateral<Discrete = D>, open: D, start: &'a StepPoint<Impulses>, h: f64) -> Self {
         let positions = system.layout().positions;
         let mut y = padded(&start.y);
         for (position, velocity) in y.iter_mut().zip(&start.y[positions..2 * positions]) {
             *position += 0.5 * h * velocity;
         }
-        Self { start, h, t: start.t + 0.5 * h, y, positions }
+        Self { open, start, h, t: start.t + 0.5 * h, y, positions }
     }
 
     /// The middle's positions with the velocities that the step ends with when no contact acts and forces are those at
     /// the velocities of `moving`.
-    pub fn free<D: Copy + Default>(&self, system: &dyn Unilateral<Discrete = D>, moving: &State) -> State {
+    pub fn free(&self, system: &dyn Unilateral<Discrete = D>, moving: &State) -> State {
         let n = self.states();
         let mut rates = [0.0; MAX_RIGID_CONTACT_STATES];
-        system.rates(&D::default(), self.t, &moving[..n], &mut rates[..n]);
+        system.rates(&self.open, self.t, &moving[..n], &mut rates[..n]);
         let mut y = self.y;
         for i in self.positions..2 * self.positions {
             y[i] += self.h * rates[i];

@@ -39,28 +39,40 @@ use crate::integrator::unilateral::{Impulses, MAX_RIGID_CONTACT_STATES, Unilater
 use attempt::{AttemptedStep, attempt};
 
 /// Time stepping with a fixed step.
-pub struct Moreau {
+pub struct Moreau<D> {
     settings: Settings,
+    /// The discrete state of the system with every contact open.
+    open: D,
     state: SolverState<Impulses>,
     /// A state within the last step.
     inside: Vec<f64>,
 }
 
-impl Moreau {
-    /// Starts from the state `y` at `t`.
-    pub fn start(settings: Settings, t: f64, y: &[f64]) -> Self {
+impl<D: Copy> Moreau<D> {
+    /// Starts from the state `y` at `t`; `open` is the discrete state of the system with every contact open.
+    pub fn start(settings: Settings, t: f64, y: &[f64], open: D) -> Self {
         assert!(y.len() <= MAX_RIGID_CONTACT_STATES, "at most as many states as a rigid mechanism has");
         // Rates are of no use to it.
         let point = StepPoint::new(t, y, Impulses::none(t, y));
         let mut state = SolverState::new(&point, settings.fixed_step);
         state.last_error = 0.0;
-        Self::resume(settings, state)
+        Self::resume(settings, state, open)
     }
 
     /// Goes on from a saved state.
-    pub fn resume(settings: Settings, state: SolverState<Impulses>) -> Self {
+    pub fn resume(settings: Settings, state: SolverState<Impulses>, open: D) -> Self {
         let inside = state.front().y.clone();
-        Self { settings, state, inside }
+        Self { settings, open, state, inside }
+    }
+
+    /// The discrete state with every contact open.
+    pub fn open(&self) -> &D {
+        &self.open
+    }
+
+    /// Gives the next steps another discrete state with every contact open. Time must be at the front.
+    pub fn set_open(&mut self, open: D) {
+        self.open = open;
     }
 
     /// All that is needed to go on.
@@ -72,11 +84,7 @@ impl Moreau {
     ///
     /// # Errors
     /// See [`IntegrationError`]; the state at the error's time is intact.
-    pub fn advance<D: Copy + Default>(
-        &mut self,
-        system: &dyn Unilateral<Discrete = D>,
-        t: f64,
-    ) -> Result<(), IntegrationError> {
+    pub fn advance(&mut self, system: &dyn Unilateral<Discrete = D>, t: f64) -> Result<(), IntegrationError> {
         let longest = self.settings.fixed_step.min(system.longest_step());
         self.settings.effort.check(self.state.front().t, t, longest)?;
         self.march(system, t, |_| false)
@@ -87,7 +95,7 @@ impl Moreau {
     ///
     /// # Errors
     /// As [`Moreau::advance`].
-    pub fn advance_to_event<D: Copy + Default>(
+    pub fn advance_to_event(
         &mut self,
         system: &dyn Unilateral<Discrete = D>,
         after: f64,
@@ -101,12 +109,12 @@ impl Moreau {
     /// Starts anew from the state `y` at `t`.
     pub fn place(&mut self, t: f64, y: &[f64]) {
         let statistics = self.state.statistics;
-        *self = Self::start(self.settings, t, y);
+        *self = Self::start(self.settings, t, y, self.open);
         self.state.statistics = statistics;
     }
 
     /// Steps until `t` lies within the last step, or `done` is so.
-    fn march<D: Copy + Default>(
+    fn march(
         &mut self,
         system: &dyn Unilateral<Discrete = D>,
         t: f64,
@@ -126,8 +134,8 @@ impl Moreau {
             if end <= time {
                 return Err(IntegrationError::StepUnderflow { time, step, component: 0 });
             }
-            let made = attempt(system, self.state.front(), end - time)?;
-            if let Some(event) = dead_end(system, end, &made.y[..self.inside.len()]) {
+            let made = attempt(system, self.open, self.state.front(), end - time)?;
+            if let Some(event) = dead_end(system, &self.open, end, &made.y[..self.inside.len()]) {
                 return Err(IntegrationError::DeadEnd { time, event });
             }
             self.state.begin_step();
@@ -138,7 +146,7 @@ impl Moreau {
 
     /// State at `t` in the last step, and the step's impulses. Velocities change evenly within a step, at
     /// impacts too.
-    pub fn state_at<D: Copy>(&mut self, system: &dyn System<Discrete = D>, t: f64) -> (&[f64], Impulses) {
+    pub fn state_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> (&[f64], Impulses) {
         let (start, end, front) = (self.state.start(), self.state.end(), self.state.front());
         if t >= front.t {
             return (&front.y, front.discrete);
@@ -158,8 +166,8 @@ impl Moreau {
 
     /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a step of its own, or
     /// by interpolation should that step fail. Contact forces stay those of the whole step: the impulses of a part
-    /// over its length may be of any size. To be called with the system that made the step.
-    pub fn truncate<D: Copy + Default>(&mut self, system: &dyn Unilateral<Discrete = D>, t: f64) {
+    /// over its length may be of any size.
+    pub fn truncate(&mut self, system: &dyn Unilateral<Discrete = D>, t: f64) {
         let (start, end) = (self.state.start().t, self.state.end().discrete);
         if t >= self.state.front().t {
             return;
@@ -171,7 +179,7 @@ impl Moreau {
             self.state.take_back();
             return;
         }
-        let made = attempt(system, self.state.start(), t - start).unwrap_or_else(|_| {
+        let made = attempt(system, self.open, self.state.start(), t - start).unwrap_or_else(|_| {
             let closed = self.state.start().discrete.closed;
             let (y, impulses) = self.state_at(system, t);
             AttemptedStep { y: padded(y), impulses: Impulses { closed, ..impulses }, evaluations: 0 }
@@ -195,11 +203,11 @@ impl Moreau {
 }
 
 /// The dead end that `y` lies beyond. Like impacts, dead ends are not located: a step may pass one.
-fn dead_end<D: Copy + Default>(system: &dyn Unilateral<Discrete = D>, t: f64, y: &[f64]) -> Option<usize> {
+fn dead_end<D: Copy>(system: &dyn Unilateral<Discrete = D>, open: &D, t: f64, y: &[f64]) -> Option<usize> {
     let mut events = EventFunctions::default();
     if system.event_count() == 0 || !system.is_dead_end(0) {
         return None;
     }
-    system.event_functions(&D::default(), t, y, &mut events);
+    system.event_functions(open, t, y, &mut events);
     (0..system.event_count()).find(|&i| system.is_dead_end(i) && events[i].value < 0.0)
 }
