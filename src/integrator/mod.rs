@@ -14,6 +14,7 @@ pub mod dense_output;
 mod derivative_discontinuity;
 mod error;
 mod event_location;
+mod linear;
 pub mod method;
 pub mod methods;
 pub mod root;

@@ -2,6 +2,7 @@
 //! equations, and the laws say whether it is a solution.
 
 use super::{MAX_CONTACTS, NORMAL, Pairs, Scaled, TANGENTIAL};
+use crate::integrator::linear::{factorize, substitute};
 
 /// Most equations.
 const MOST: usize = 2 * MAX_CONTACTS;
@@ -39,43 +40,29 @@ impl Scaled<'_> {
             }
         }
         let unknowns = &unknowns[..count];
-        let mut rows = [[0.0; MOST + 1]; MOST];
-        for (row, at) in rows.iter_mut().zip(unknowns) {
-            for (element, of) in row.iter_mut().zip(unknowns) {
-                *element = self.delassus(at.contact, at.part, of.contact, of.part);
-                if of.slip != 0.0 {
-                    *element += of.slip * self.delassus(at.contact, at.part, of.contact, TANGENTIAL);
-                }
-            }
-            row[count] = -self.bias(at.contact, at.part);
+        let mut found = [0.0; MOST];
+        for (found, at) in found.iter_mut().zip(unknowns) {
+            *found = -self.bias(at.contact, at.part);
         }
-        solve(&mut rows[..count])?;
+        let element = |row: usize, column: usize| {
+            let (at, of) = (unknowns[row], unknowns[column]);
+            let normal = self.delassus(at.contact, at.part, of.contact, of.part);
+            if of.slip == 0.0 {
+                return normal;
+            }
+            normal + of.slip * self.delassus(at.contact, at.part, of.contact, TANGENTIAL)
+        };
+        let (mut factors, mut pivot) = ([0.0; MOST * MOST], [0; MOST]);
+        let (factors, pivot) = (&mut factors[..count * count], &mut pivot[..count]);
+        if factorize(factors, pivot, element) < LEAST_PIVOT {
+            return None;
+        }
+        substitute(factors, pivot, &mut found[..count]);
         let mut impulses = Pairs::default();
-        for (unknown, row) in unknowns.iter().zip(&rows) {
-            impulses[unknown.contact][unknown.part] += row[count];
-            impulses[unknown.contact][TANGENTIAL] += unknown.slip * row[count];
+        for (unknown, impulse) in unknowns.iter().zip(found) {
+            impulses[unknown.contact][unknown.part] += impulse;
+            impulses[unknown.contact][TANGENTIAL] += unknown.slip * impulse;
         }
         Some(impulses)
     }
-}
-
-/// Gauss and Jordan's elimination with column pivots: the solution stands behind the last column. `None` if singular.
-fn solve(rows: &mut [[f64; MOST + 1]]) -> Option<()> {
-    let size = rows.len();
-    for column in 0..size {
-        let largest = |a: &usize, b: &usize| rows[*a][column].abs().total_cmp(&rows[*b][column].abs());
-        let pivot = (column..size).max_by(largest)?;
-        rows.swap(column, pivot);
-        let pivot_row = rows[column];
-        if pivot_row[column].abs() < LEAST_PIVOT {
-            return None;
-        }
-        for (index, row) in rows.iter_mut().enumerate() {
-            let factor = row[column] / pivot_row[column];
-            for (element, pivot) in row.iter_mut().zip(&pivot_row).take(size + 1).skip(column) {
-                *element = if index == column { *element / pivot_row[column] } else { *element - factor * pivot };
-            }
-        }
-    }
-    Some(())
 }

@@ -6,7 +6,7 @@
 //! exact Jacobian. Where it does not converge there is no state at the end of the attempt, and a step of a tenth is
 //! attempted, down to one that does not move time.
 
-use super::linear::Factors;
+use crate::integrator::linear::Factors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::{Jacobian, System};

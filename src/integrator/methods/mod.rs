@@ -8,7 +8,6 @@ mod bs3;
 mod dop853;
 mod dopri5;
 pub mod explicit;
-mod linear;
 pub mod moreau;
 mod rk4;
 mod rodas4;

@@ -6,7 +6,7 @@
 //! hγ times its right side plus u of its velocity, and only velocities and first-order states are
 //! solved for.
 
-use super::linear::Factors;
+use crate::integrator::linear::Factors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::{Jacobian, StateLayout, System};
