@@ -20,7 +20,7 @@ use crate::integrator::{
     ContactLaw, Discontinuities, EventFunctions, Events, Impulses, Jacobian, Linearizable, MAX_STATES, Ode, Relative,
     Reset, SeveralInstants, StateLayout, Tableau, Triggered, Unilateral,
 };
-use crate::math::{F64x8, Real};
+use crate::math::F64x8;
 use crate::scene::Scene;
 
 /// The model of a scene: a mechanism, and the code that its steps are made of.
@@ -242,7 +242,8 @@ impl MechanismModel for Model {
         conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
+        rates: &mut [Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
-        self.mechanism.tangent_evaluation(conditions, t, y, &mut [Tangent::ZERO; MAX_STATES][..y.len()])
+        self.mechanism.tangent_evaluation(conditions, t, y, rates)
     }
 }

@@ -256,8 +256,8 @@ impl MechanismModel for Audited {
 
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         let first = self.first();
-        self.model.tangent_rates(conditions, t, &y[..first], &mut rates[..first]);
-        let (evaluation, contact_energy) = self.model.tangent_evaluation(conditions, t, &y[..first]);
+        let (evaluation, contact_energy) =
+            self.model.tangent_evaluation(conditions, t, &y[..first], &mut rates[..first]);
         rates[first..][..STATES].copy_from_slice(&self.powers(&conditions.inputs, t, &evaluation, &contact_energy));
     }
 
@@ -266,8 +266,10 @@ impl MechanismModel for Audited {
         conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
+        rates: &mut [Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
-        self.model.tangent_evaluation(conditions, t, &y[..self.first()])
+        let first = self.first();
+        self.model.tangent_evaluation(conditions, t, &y[..first], &mut rates[..first])
     }
 
     fn energies(&self, contacts: &Contacts, evaluation: &Evaluation, y: &[f64]) -> EnergyOutputs {

@@ -321,7 +321,7 @@ impl Mechanism {
         t: R,
         y: &[R],
         rates: &mut [R],
-    ) -> FlexibleMotion<R, K, F> {
+    ) -> FlexibleMotion<R, K> {
         self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates)
     }
 

@@ -66,10 +66,12 @@ pub(super) struct Configuration<R> {
     pub closing: IdealMotion<R>,
 }
 
-/// A mechanism with a flexible rod at one instant, in arrays of `K` modes and `F` functions along the rod.
-pub(super) struct FlexibleMotion<R, const K: usize, const F: usize> {
+/// A mechanism with a flexible rod at one instant, in arrays of `K` modes.
+pub(super) struct FlexibleMotion<R, const K: usize> {
     configuration: Configuration<R>,
-    shape: Shape<R, K, F>,
+    chord: Chord<R>,
+    /// ∂L/∂η.
+    chord_slope: [R; K],
     inertia: Inertia<R, K>,
     loads: Loads<R>,
     accelerations: Accelerations<R>,
@@ -163,7 +165,7 @@ impl Mechanism {
         t: R,
         y: &[R],
         rates: &mut [R],
-    ) -> FlexibleMotion<R, K, F> {
+    ) -> FlexibleMotion<R, K> {
         let modes: Arrays<'_, K, F> = rod.modes.arrays();
         let rigid = of.positions;
         let p = rigid + C::COUNTS.unwrap_or(modes.counts).modes();
@@ -190,7 +192,8 @@ impl Mechanism {
         velocities.copy_from_slice(speeds);
         of.set_roots(&accelerations.roots, forced);
         of.set_angles(accelerations.angle, forced);
-        FlexibleMotion { configuration, shape, inertia, loads, accelerations }
+        let Shape { chord, chord_slope, .. } = shape;
+        FlexibleMotion { configuration, chord, chord_slope, inertia, loads, accelerations }
     }
 
     /// Poses, outwards, with a rigid rod.
@@ -344,10 +347,10 @@ impl Mechanism {
     }
 }
 
-impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
+impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
     /// Everything about the instant of the motion through `y` whose accelerations are in `rates`.
-    pub fn evaluation(self, mechanism: &Mechanism, rod: &FlexibleRod, y: &[R], rates: &[R]) -> Evaluation<R> {
-        let Self { configuration: Configuration { pose, arms, .. }, shape, inertia, loads, accelerations } = self;
+    pub fn evaluation(&self, mechanism: &Mechanism, rod: &FlexibleRod, y: &[R], rates: &[R]) -> Evaluation<R> {
+        let Self { configuration: Configuration { pose, arms, .. }, chord, inertia, loads, accelerations, .. } = self;
         let (of, p) = (&mechanism.structure, mechanism.positions());
         let modal = of.positions..p;
         let (eta, rate) = (&y[modal.clone()], &y[p + modal.start..2 * p]);
@@ -355,14 +358,14 @@ impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
         let Accelerations { roots, angle } = accelerations;
         let rotations = &pose.rotations;
         let (rotation, speed) = (rotations.rotation[ROD], rotations.speed[ROD]);
-        let mut arms = arms.accelerated(rotations.speed, angle);
-        let mut stretching = shape.chord.bias;
-        for (slope, forced) in shape.chord_slope.iter().zip(forced) {
+        let mut arms = arms.accelerated(rotations.speed, *angle);
+        let mut stretching = chord.bias;
+        for (slope, forced) in self.chord_slope.iter().zip(forced) {
             stretching += *slope * *forced;
         }
         let axis = rotation.axis(R::ONE);
-        arms.reach += stretching * axis + shape.chord.rate * 2.0 * speed * perp(axis);
-        let acceleration = JointPoints::outwards(of, &roots, &arms);
+        arms.reach += stretching * axis + chord.rate * 2.0 * speed * perp(axis);
+        let acceleration = JointPoints::outwards(of, roots, &arms);
 
         // What the rod's motion needs of forces and of moments about its big end.
         let (mass, turn) = (rod.rod.mass(), angle[ROD]);
@@ -390,19 +393,19 @@ impl<R: Scalar, const K: usize, const F: usize> FlexibleMotion<R, K, F> {
             + modal_energy * 0.5;
         let flexible = FlexibleEvaluation {
             demand: InertialLoad { force, moment },
-            elastic: rod.rod.elastic(&shape, eta, rate),
+            elastic: rod.rod.elastic(chord.stretch, eta, rate),
             kinetic,
             mass_height: pose.place.big_end.y * mass + first.y,
         };
-        let mut pose = pose;
+        let mut pose = *pose;
         if of.closed {
             pose.rotations.angle[ROD] = math::atan2(rotation.sin, rotation.cos);
         }
-        Evaluation { pose, acceleration, angle_acceleration: angle, loads, flexible: Some(flexible) }
+        Evaluation { pose, acceleration, angle_acceleration: *angle, loads: *loads, flexible: Some(flexible) }
     }
 }
 
-impl<const K: usize, const F: usize> FlexibleMotion<f64, K, F> {
+impl<const K: usize> FlexibleMotion<f64, K> {
     /// Writes the event functions.
     #[inline(always)]
     pub fn event_functions(
@@ -412,7 +415,7 @@ impl<const K: usize, const F: usize> FlexibleMotion<f64, K, F> {
         contacts: &Contacts,
         event_functions: &mut EventFunctions,
     ) {
-        let Chord { length, rate, .. } = self.shape.chord;
+        let Chord { length, rate, .. } = self.chord;
         mechanism.event_functions_at(of, contacts, &self.configuration.pose, [length, rate], event_functions);
     }
 }

@@ -47,12 +47,13 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     /// The rates with derivatives.
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);
 
-    /// [`MechanismModel::evaluation`] and [`MechanismModel::contact_energy`] with derivatives.
+    /// [`MechanismModel::rates_and_evaluation`] and [`MechanismModel::contact_energy`] with derivatives.
     fn tangent_evaluation(
         &self,
         conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
+        rates: &mut [Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>);
 
     /// Energies, works and losses; 0 without an audit.

@@ -13,7 +13,7 @@ use std::process::Command;
 use std::thread;
 
 /// [bytes] Musl's threads have it by default; many real-time hosts give less than 1 MB.
-const STACK: usize = 128 * 1024;
+const STACK: usize = 96 * 1024;
 const STEPS: usize = 20;
 /// Where a process finds the scene that it runs.
 const SCENE: &str = "SLIDERCRANK_TEST_SCENE";

@@ -1,7 +1,6 @@
 //! What outputs tell of a rod's elasticity.
 
 use super::flexible::Rod;
-use super::shape::Shape;
 use crate::math::Real;
 
 /// Deflection, stretch, elastic energy and its loss.
@@ -19,13 +18,8 @@ pub struct Elastic<R = f64> {
 
 impl Rod {
     /// Deflection, stretch and elastic energy.
-    pub fn elastic<R: Real, const K: usize, const F: usize>(
-        &self,
-        shape: &Shape<R, K, F>,
-        eta: &[R],
-        rate: &[R],
-    ) -> Elastic<R> {
-        let mut elastic = Elastic { stretch: shape.chord.stretch, ..Elastic::default() };
+    pub fn elastic<R: Real>(&self, stretch: R, eta: &[R], rate: &[R]) -> Elastic<R> {
+        let mut elastic = Elastic { stretch, ..Elastic::default() };
         elastic.deflection = eta.iter().zip(&self.middle).fold(R::ZERO, |sum, (eta, middle)| sum + *eta * *middle);
         for k in 0..self.modes() {
             let (m, omega) = (self.modal_mass[k], self.frequency[k]);
