@@ -1,12 +1,12 @@
-//! Short loops of which every round is code of its own.
+//! Loops with few iterations that are written out.
 
-/// `unroll!(ALONE, i in first..end, MOST => { … })` is `for i in first..end { … }`, with an `end` of at most `MOST`. With
-/// `ALONE` it is written out round by round, at most sixteen, so that where the range is known to the compiler nothing of
-/// the loop is left, and what depends on `i` alone is known before the program runs. (The compiler does so by itself only
-/// with the shortest loops, and often too late: arrays that such a loop fills then stay in memory, written in other
-/// portions than they are read in, and the processor waits for them to have left its store buffer.) `ALONE` and `MOST`
-/// are constants; of rounds beyond `MOST` nothing is compiled. From 0 on, the range is `i < end`, and an `end` that is a
-/// constant needs no `MOST`.
+/// `unroll!(ALONE, i in first..end, MAX => { … })` is `for i in first..end { … }` with `end` at most `MAX`. If the
+/// constant `ALONE` is true, the loop is written out iteration by iteration, at most sixteen. Where the compiler knows
+/// the range, nothing of the loop is left, and whatever depends on `i` alone is computed at compile time. Iterations
+/// beyond the constant `MAX` produce no code. `i < end` stands for a range from 0; a constant `end` needs no `MAX`.
+///
+/// The compiler unrolls only the shortest loops by itself, and often too late: arrays that such a loop fills then stay
+/// in memory, are written in other portions than they are read in, and the processor waits for its store buffer.
 macro_rules! unroll {
     ($alone:expr, $i:ident < $end:expr => $work:block) => {
         unroll!($alone, $i in 0..$end, $end => $work)
