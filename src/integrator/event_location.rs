@@ -1,8 +1,8 @@
-//! Which event comes first in an accepted step, and where; landing on it, and crossing it.
+//! Event location in an accepted step: which event comes first, and when; the step that ends at it, and its crossing.
 //!
-//! An event function that is positive before the step and negative after it has fallen through zero; one that
-//! is positive at both ends may have dipped below in between, and one that starts from zero upward
-//! may have come back. Its rate tells where to look.
+//! An event function that is positive before the step and negative after it has fallen through zero. One that is
+//! positive at both ends may have dipped below zero in between, and one that rises from zero at the start may have
+//! fallen again. The rate of the event function at both ends tells these cases apart.
 
 use super::dense_output::Step;
 use super::error::IntegrationError;
@@ -11,21 +11,21 @@ use super::state::StepPoint;
 use super::stepper::Stepper;
 use super::system::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, System, Triggered};
 
-/// [share of the step] How well a fall is located on the interpolant.
+/// [share of the step] Resolution of the time of a fall on the interpolant.
 const RESOLUTION: f64 = 1e-13;
-/// Most events without time passing.
+/// Maximum number of events without time passing.
 pub const STANDSTILL: usize = 64;
-/// Most times that a landing is repeated to bring the event function closer to zero.
+/// Maximum number of attempts at a step that ends at an event; each brings the event function closer to zero.
 const LANDINGS: usize = 3;
 /// Share of an impact's duration for the first step into it.
 const ONSET: f64 = 0.03;
-/// An event function this share of a tolerable error away from zero has been landed on.
+/// A step ends at an event if the event function is within this share of a tolerable error of zero.
 const LANDED: f64 = 0.1;
 
-/// Handles the event functions that are at or below zero and falling where the next step starts.
+/// Crosses the events whose functions are at or below zero and falling where the next step starts.
 ///
 /// # Errors
-/// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if there is no end of them.
+/// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if [`STANDSTILL`] events do not settle it.
 pub fn settle<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) -> Result<(), IntegrationError> {
     let count = system.event_count();
     if count == 0 {
@@ -46,7 +46,7 @@ pub fn settle<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = 
     Err(IntegrationError::events_accumulate(stepper.state.front().t, &stepper.events[..count]))
 }
 
-/// Crosses the events of all event functions that are below zero at the front.
+/// Crosses the events whose functions are below zero at the front, for a method that does not locate events.
 pub fn notice<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) {
     let events = &stepper.events;
     let triggered: Triggered = std::array::from_fn(|i| i < system.event_count() && events[i].value < 0.0);
@@ -55,8 +55,8 @@ pub fn notice<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = 
     }
 }
 
-/// The first fall in the last step, which began where the event functions were those `before`: its share of the step and
-/// its event function.
+/// The first event in the last step: its share of the step and its event function. `before` are the event functions
+/// where the step started.
 pub fn first<D: Copy>(
     stepper: &Stepper<D>,
     system: &dyn System<Discrete = D>,
@@ -72,7 +72,7 @@ pub fn first<D: Copy>(
         .min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// The event functions within a step.
+/// The event functions at the share `s` of a step, on its interpolant.
 fn inside<D: Copy>(system: &dyn System<Discrete = D>, discrete: &D, step: &Step<'_>, s: f64) -> EventFunctions {
     let mut y = [0.0; MAX_STATES];
     let y = &mut y[..step.layout.states];
@@ -82,10 +82,11 @@ fn inside<D: Copy>(system: &dyn System<Discrete = D>, discrete: &D, step: &Step<
     functions
 }
 
-/// Repeats the step up to the event at `share` of it and crosses the event, if anything lies beyond it.
+/// Repeats the last step, of length `h`, so that it ends at the `event` found at `share` of it, and crosses the event.
+/// An event that is a dead end is not crossed.
 pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, h: f64, share: f64, event: usize) {
     let start = stepper.state.start().t;
-    // The step that was too long is made anew, shorter.
+    // The longer step no longer counts.
     stepper.state.statistics.steps -= 1;
     let close = LANDED * stepper.settings.tolerance * system.event_scale();
     let mut t = start + share * h;
@@ -115,8 +116,7 @@ pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>
     }
 }
 
-/// Crosses the event at the front, and those of all event functions that have fallen with it: those within `close` of
-/// zero.
+/// Crosses `event` at the front together with all events whose functions are falling and at most `close` above zero.
 fn cross_with<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, event: usize, close: f64) {
     let events = &stepper.events;
     let with = |i: usize| i == event || (events[i].value <= close && events[i].rate < 0.0);
@@ -150,12 +150,12 @@ fn fall(before: EventFunction, after: EventFunction, h: f64, inside: impl Fn(f64
         if before.value > 0.0 {
             return Some(root::falling(0.0, 1.0, before.value, after.value, RESOLUTION, value));
         }
-        // It starts from zero, or from where it was crossed together with another one, a little below.
+        // The function starts at zero, or slightly below because it was crossed together with another event.
         if before.rate <= 0.0 {
             return Some(0.0);
         }
         if after.rate >= 0.0 {
-            return None; // on its way up
+            return None; // it rises from a value below zero
         }
         let top = root::falling(0.0, 1.0, before.rate, after.rate, RESOLUTION, |s| inside(s).rate);
         let highest = value(top);
@@ -166,7 +166,7 @@ fn fall(before: EventFunction, after: EventFunction, h: f64, inside: impl Fn(f64
         };
     }
     let dips = before.rate < 0.0 && after.rate > 0.0;
-    // No cubic with these ends reaches lower than half of this below them.
+    // No cubic with these end values and rates falls further than `depth` below its ends.
     let depth = 0.5 * h * before.rate.abs().max(after.rate);
     if !dips || before.value.min(after.value) > depth || before.value <= 0.0 {
         return None;

@@ -1,4 +1,4 @@
-//! How long a step is: as its error and its derivative discontinuities allow.
+//! Step acceptance: shortens a step until its error is tolerable, and ends it at derivative discontinuities.
 
 use super::derivative_discontinuity as discontinuity;
 use super::error::IntegrationError;
@@ -7,26 +7,26 @@ use super::step_control as control;
 use super::stepper::Stepper;
 use super::system::System;
 
-/// The flight after an impact, and every impact after that, make its errors larger than those of a contact that stays:
-/// only this share of what else is tolerable is for them.
+/// Share of the tolerance for steps during an impact: the flight after it and every later impact amplify its errors.
 const IMPACT_SHARE: f64 = 0.1;
-/// A step that is predicted from the last is not made longer for an error above this: one that is as long is predicted with
-/// less work, and can begin before the error is known.
+/// A method that predicts from the last step does not lengthen the next step if the error is above this: a step of
+/// equal length is predicted with less work.
 const STEADY: f64 = 1e-2;
-/// Most times that one step is cut short at a derivative discontinuity.
+/// Maximum number of times that one step is cut short at a derivative discontinuity.
 const CUTS: usize = 6;
-/// After so many failed attempts at one step another of the method's kinds takes over, if there is one: long before a step
-/// comes down to a rounding of time.
+/// After this many failed attempts at one step another kind of the method takes over, if it has one. This happens long
+/// before the step reaches the rounding of time.
 const TOO_MANY: usize = 8;
-/// A failed attempt with a larger error than this predicts nothing. Its accelerations are those of states that no motion
-/// comes to, and states predicted from them can be worse: velocities enter accelerations as squares, so that rounds of
-/// correction that begin far off run away, however short the step is. Accelerations that stay as they are at the start
-/// lead to an attempt that is as good as it is short.
+/// A failed attempt with a larger error is not used to predict the next attempt. Its accelerations belong to states
+/// that no motion reaches, and states predicted from them can be worse: velocities enter accelerations as squares, so
+/// that corrector rounds that start far from the solution diverge, however short the step is. An attempt with constant
+/// accelerations improves as it becomes shorter.
 const PREDICTABLE: f64 = 1e4;
-/// [roundings of time] No derivative discontinuity makes a step shorter than this.
+/// [roundings of time] A step is not cut at a derivative discontinuity if it would be shorter than this.
 const SHORTEST_CUT: f64 = 1e3;
 
-/// The share of the next step at which a derivative discontinuity lies, where one is to be looked for.
+/// The share of the next step at which a derivative discontinuity is predicted; `None` if none is predicted or the last
+/// step was not cut at one.
 pub fn foreseen_discontinuity<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) -> Option<f64> {
     let state = &mut stepper.state;
     let goes_on = (1..CREEPING).contains(&state.cuts) && state.crossings == 0 && state.front().t > state.start().t;
@@ -37,16 +37,18 @@ pub fn foreseen_discontinuity<D: Copy>(stepper: &mut Stepper<D>, system: &dyn Sy
     discontinuity::foreseen(system, state.start(), state.front(), h)
 }
 
-/// Attempts until the error is tolerable, and tells how long that step is. A step that fails time and again goes from one
-/// of the method's kinds to the next; only where each of them has come down to a step that does not move time, there
-/// is none. A derivative discontinuity `foreseen` at a share of the step is where the first attempt ends.
+/// Attempts a step until its error is tolerable and returns the length [s] of that step. The first attempt ends at the
+/// derivative discontinuity predicted at the share `foreseen`. If attempts keep failing, the method's other kinds take
+/// turns.
+///
+/// # Errors `StepUnderflow` if every kind has come down to a step that does not move time.
 pub fn accepted<D: Copy>(
     stepper: &mut Stepper<D>,
     system: &dyn System<Discrete = D>,
     foreseen: Option<f64>,
 ) -> Result<f64, IntegrationError> {
     let time = stepper.state.start().t;
-    // Forces that are gone may have left a step that no longer moves time.
+    // The step size may have become too short to move time under forces that no longer act.
     let least = time.next_up() - time;
     let adaptive = stepper.properties.adaptive;
     let first = if adaptive { stepper.state.step.max(least) } else { stepper.settings.fixed_step };
@@ -74,10 +76,13 @@ pub fn accepted<D: Copy>(
     Err(IntegrationError::StepUnderflow { time, step: shortest, component })
 }
 
-/// Attempts a step that is as long as `wanted`, and shorter ones, until the error is tolerable: tells how long that step
-/// is, or, after so many `failures` or where time does not move, how long the next attempt would be. The end of an
-/// accepted step is looked at. One that fails because a derivative discontinuity lies in it ends there, and the next is as
-/// long as this one should have been; so does one with a discontinuity `foreseen` at that share.
+/// Attempts a step of the length `wanted` [s] and shorter ones until the error is tolerable; rates and event functions
+/// at the end of the accepted step are then known. Returns the length [s] of that step. A step that fails because of a
+/// derivative discontinuity is cut there, and the next step is as long as this one should have been; so is a step with
+/// a discontinuity predicted at the share `foreseen`.
+///
+/// # Errors The length [s] that the next attempt would have, after `failures` failed attempts or if the step does not
+/// move time.
 fn fitted<D: Copy>(
     stepper: &mut Stepper<D>,
     system: &dyn System<Discrete = D>,
@@ -98,7 +103,7 @@ fn fitted<D: Copy>(
         wanted = share * wanted.min(system.longest_step());
     }
     for _ in 0..failures {
-        // The step is what time really moves by: nothing drifts from its rounding.
+        // The step is the difference of two representable times, so that rounding does not accumulate.
         let h = time + wanted.min(system.longest_step()) - time;
         if h <= 0.0 {
             break;
@@ -126,7 +131,7 @@ fn fitted<D: Copy>(
         first.get_or_insert(h);
         state.statistics.rejected += 1;
         if error < PREDICTABLE {
-            // A shorter one goes over the same ground.
+            // The next attempt is shorter and covers the same interval.
             stepper.predict_from_attempt(time + h);
         } else {
             stepper.method.forget();
@@ -138,7 +143,7 @@ fn fitted<D: Copy>(
         } else {
             None
         };
-        // A discontinuity that close is where the step starts.
+        // A discontinuity this close to the start belongs to the start.
         let share = share.filter(|share| share * h > SHORTEST_CUT * least);
         cut = share.is_some();
         cuts += usize::from(cut);
@@ -149,8 +154,8 @@ fn fitted<D: Copy>(
     Err(wanted)
 }
 
-/// The error of the attempted step of `h` over the tolerance; of one that is tolerable the end is looked at. One that is
-/// lost there is infinitely wrong, unless no shorter one is to be attempted.
+/// The error of the attempted step of length `h` [s] over the tolerance. If it is tolerable, rates and event functions
+/// at the end are computed; if these are invalid in an adaptive method, the error is infinite.
 fn judged<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, h: f64, tolerance: f64) -> f64 {
     if lost_state(&stepper.state.attempt().y).is_some() {
         return f64::INFINITY;

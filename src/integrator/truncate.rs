@@ -1,11 +1,10 @@
-//! The last step made anew, shorter.
+//! Shortens the last step.
 
 use super::state::lost_state;
 use super::stepper::Stepper;
 use super::system::System;
 
-/// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
-/// step of its own.
+/// Shortens the last step so that it ends at `t`, by a new step.
 pub fn truncate<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t: f64) {
     let state = &mut stepper.state;
     if t >= state.front().t {
@@ -25,8 +24,9 @@ pub fn truncate<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete 
     }
 }
 
-/// A shorter step to `t` was not judged. Where it is lost, what was told of this instant takes its place, and where
-/// that is lost, too, the straight line between the longer step's ends, which are not.
+/// Replaces the end of the shorter step to `t` if it is invalid, because its error was not judged: by the state at `t`
+/// in the longer step, or, if that is invalid, too, by linear interpolation between the longer step's ends, which are
+/// valid.
 fn keep<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t: f64) {
     if lost_state(&stepper.state.attempt().y).is_none() {
         return;

@@ -1,27 +1,28 @@
-//! Contacts that go on as they were: open, sticking or slipping either way. What they do then follows from linear
-//! equations, and the laws say whether it is a solution.
+//! Contacts that keep their state from the step before: open, sticking, or sliding in the same direction. Their
+//! impulses then follow from linear equations; the caller checks the result against the contact laws.
 
 use super::{MAX_CONTACTS, NORMAL, Pairs, Scaled, TANGENTIAL};
 
-/// Most equations.
+/// Maximum number of equations.
 const MOST: usize = 2 * MAX_CONTACTS;
-/// A pivot this small, of elements of about 1, is one of redundant contacts.
+/// Scaled elements are about 1; a smaller pivot means that contacts are redundant.
 const LEAST_PIVOT: f64 = 1e-9;
-/// A tangential impulse this close to its limit is at it.
+/// A tangential impulse within this share of its friction limit counts as sliding.
 const LIMIT: f64 = 1.0 - 1e-9;
 
-/// An unknown: the normal impulse of a contact, with the tangential one that slipping makes of it, or the tangential
-/// impulse of a sticking contact. Its equation is that the velocity in that part is 0.
+/// An unknown: the normal impulse of a contact, with the tangential impulse that sliding adds, or the tangential
+/// impulse of a sticking contact. Its equation states that the velocity in that direction is 0.
 #[derive(Clone, Copy, Default)]
 struct Unknown {
     contact: usize,
     part: usize,
-    /// Tangential over normal impulse.
+    /// Tangential impulse over normal impulse while sliding; 0 without sliding.
     slip: f64,
 }
 
 impl Scaled<'_> {
-    /// Scaled impulses if every contact does what it did with the impulses `before`; `None` where that is not known.
+    /// Scaled impulses if every contact keeps the state that it had with the impulses `before`; `None` if the equations
+    /// are singular.
     pub fn continued(&self, before: &Pairs) -> Option<Pairs> {
         let mut unknowns = [Unknown::default(); MOST];
         let mut count = 0;
@@ -59,7 +60,7 @@ impl Scaled<'_> {
     }
 }
 
-/// Gauss and Jordan's elimination with column pivots: the solution stands behind the last column. `None` if singular.
+/// Gauss–Jordan elimination with partial pivoting; the solution is left in the last column. `None` if singular.
 fn solve(rows: &mut [[f64; MOST + 1]]) -> Option<()> {
     let size = rows.len();
     for column in 0..size {

@@ -1,25 +1,25 @@
-//! Systems of linear equations, solved without a new allocation.
+//! Systems of linear equations, solved without allocation.
 
 use nalgebra::{DMatrixView, DMatrixViewMut, DVectorViewMut};
 
-/// L·U factors of a square matrix with rows exchanged (Gaussian elimination with partial pivoting).
+/// LU factors of a square matrix (Gaussian elimination with partial pivoting).
 #[derive(Clone, Debug, Default)]
 pub struct Factors {
     size: usize,
-    /// L below the diagonal, whose own diagonal is 1, and U; column by column.
+    /// L below the diagonal (its diagonal is 1) and U, stored by columns.
     elements: Vec<f64>,
     /// The row that was exchanged with row k.
     pivot: Vec<usize>,
 }
 
 impl Factors {
-    /// With memory for matrices of up to so many rows.
+    /// Memory for matrices of up to `rows` rows.
     pub fn with_capacity(rows: usize) -> Self {
         Self { size: 0, elements: vec![0.0; rows * rows], pivot: vec![0; rows] }
     }
 
-    /// Factorises the matrix of `size` rows with these elements. A singular one gives solutions that
-    /// are not finite.
+    /// Factorises the matrix of `size` rows with elements `element(i, j)`. If the matrix is singular, solutions are not
+    /// finite.
     pub fn of(&mut self, size: usize, element: impl Fn(usize, usize) -> f64) {
         self.size = size;
         let mut matrix = DMatrixViewMut::from_slice(&mut self.elements[..size * size], size, size);
@@ -43,10 +43,10 @@ impl Factors {
         }
     }
 
-    /// Replaces the right side `x` by the solution.
+    /// Replaces the right-hand side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
         if self.size == 0 {
-            return; // nalgebra asks for an equation at least
+            return; // nalgebra requires at least one equation
         }
         for (k, &pivot) in self.pivot[..self.size].iter().enumerate() {
             x.swap(k, pivot);

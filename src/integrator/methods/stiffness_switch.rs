@@ -1,85 +1,88 @@
-//! Which of its methods a changing one uses: one that makes a step as a block, an explicit one, or a linearly implicit one
-//! where the motion is stiff.
+//! Selects the kind of steps of the automatic method: a block, an explicit step, or a linearly implicit step in stiff
+//! motion.
 //!
-//! A contact that closes slowly gets a damping that grows with the approach speed's inverse; pressed on by a load, it
-//! stays closed, creeps, and bounds the steps of an explicit method by their stability long after its own motion is
-//! over. A linearly implicit method is not bound, but its steps are dearer: it is worth it only while its steps are so
-//! much longer.
+//! A contact that closes slowly has a damping that grows with the inverse of the approach speed. Under a load the
+//! contact stays closed and creeps, and its stability bounds the steps of an explicit method long after its transient
+//! has decayed. A linearly implicit method has no such bound, but its steps cost more. It pays only while its steps are
+//! longer by the ratio of the costs.
 //!
-//! Stiffness is suspected where an explicit step comes near its bound of stability, as two stages at the same instant
-//! tell (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection), and then tried. A trial that
-//! does not pay is given up after a few steps, and the next waits longer.
+//! Stiffness is suspected where an explicit step comes near its stability bound, as two stages at the same instant
+//! reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
+//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer.
 //!
-//! A step in a block is the cheapest where its problem suits it, and the least stable: where its own bound is near, the
-//! explicit method is tried in the same way, and kept while its steps are about as long.
+//! A block is the cheapest kind where the system suits it, and has the smallest stability bound. Where that bound is
+//! near, the explicit method is tried in the same way and kept while its steps are about as long as blocks.
 
 use crate::integrator::method::MethodKind;
 use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 
-/// How many accepted steps the next look waits for, after a change that paid, and at most.
+/// Number of accepted steps between two checks: after a change that paid, and at most.
 const PATIENCE: u32 = 32;
 const MOST_PATIENCE: u32 = 1024;
-/// Share of the explicit method's bound of stability from which on a step is suspicious.
+/// A step is suspected to be stiff above this share of the stability bound.
 const SUSPICIOUS: f64 = 0.6;
-/// A linearly implicit step costs as much as so many explicit ones, and so many more for each position: as measured with
-/// two positions to nine.
+/// Cost of a linearly implicit step in explicit steps: a constant part and a part for each position, as measured with
+/// two to nine positions.
 const PRICE: f64 = 1.5;
 const PRICE_OF_POSITION: f64 = 0.4;
-/// Where a step in a block is unstable: its length times the rate of a decay. Oscillations may be twice as fast.
+/// Stability bound of a block: its length times the rate of a decay. Oscillations may be twice as fast.
 const BLOCK_BOUND: f64 = 1.2;
-/// An explicit step costs so much of what one in a block does: as measured with one play in a pin, rigid and flexible.
+/// Cost of an explicit step in blocks, as measured with one clearance in a pin, rod rigid and flexible.
 const PRICE_BESIDE_BLOCK: f64 = 0.85;
-/// An explicit stretch in a problem that suits blocks ends after so many steps, to see whether it still pays.
+/// In a system that suits blocks, a series of explicit steps ends after this many steps, to check whether it still
+/// pays.
 const STRETCH: u32 = 256;
-/// So many steps in a row that do not pay end a stiff stretch.
+/// A series of implicit steps ends after this many successive steps that do not pay.
 const UNPAID: u32 = 3;
-/// A stiff stretch of fewer steps did not pay.
+/// A series of fewer steps did not pay.
 const WORTHWHILE: u32 = 10;
+/// The golden ratio less 1.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// How the next step is made, and what speaks for a change.
+/// The kind of the next step and the evidence for a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StiffnessSwitch {
-    /// How the next step is made.
+    /// The kind of the next step.
     pub kind: MethodKind,
-    /// Accepted steps since the last look; in a stretch that is on trial, since its beginning.
+    /// Number of accepted steps since the last check, or since a trial began.
     pub steps: u32,
-    /// Steps between two looks.
+    /// Number of steps between two checks.
     pub patience: u32,
-    /// The last steps of a stretch on trial that did not pay.
+    /// Number of successive last steps of a trial that did not pay.
     pub unpaid: u32,
-    /// [s] The last step in a block before an explicit stretch; none: 0.
+    /// [s] Length of the last block before a series of explicit steps; 0 if there was none.
     pub block: f64,
 }
 
 impl StiffnessSwitch {
-    /// Not stiff, and nothing known.
+    /// Start of a non-stiff motion.
     pub const LOOSE: Self = Self { kind: MethodKind::Explicit, steps: 0, patience: PATIENCE, unpaid: 0, block: 0.0 };
-    /// The same, of a problem that suits blocks.
+    /// Start of a motion of a system that suits blocks.
     pub const IN_BLOCKS: Self = Self { kind: MethodKind::Block, ..Self::LOOSE };
 
-    /// Whether a run can have come to this.
+    /// Whether a run can have produced this state.
     pub fn is_sound(&self) -> bool {
         (PATIENCE..=MOST_PATIENCE).contains(&self.patience) && self.unpaid < UNPAID && self.block.is_finite()
     }
 
-    /// After an accepted step of `h` [s] in a block: `fastest` tells the fastest rate [1/s] at its end, and is asked only now
-    /// and then.
+    /// Records an accepted block of length `h` [s]. `fastest` computes the fastest rate [1/s] at its end and is called
+    /// only when a check is due.
     pub fn after_block(&mut self, h: f64, fastest: impl FnOnce() -> f64) {
         if self.looks(self.patience) && h * fastest() > SUSPICIOUS * BLOCK_BOUND {
             *self = Self { kind: MethodKind::Explicit, block: h, ..*self };
         }
     }
 
-    /// After an accepted explicit step: `stiffness` tells its length times the fastest rate seen in it, and is asked only
-    /// now and then; `bound` is where the method is unstable.
+    /// Records an accepted explicit step. `stiffness` computes its length times the fastest rate and is called only
+    /// when a check is due; `bound` is the stability bound of the method.
     pub fn after_explicit(&mut self, bound: f64, stiffness: impl FnOnce() -> f64) {
         if self.looks(self.patience) && stiffness() > SUSPICIOUS * bound {
             self.kind = MethodKind::Implicit;
         }
     }
 
-    /// The same of an explicit step of `h` [s] where the problem suits blocks.
+    /// Records an accepted explicit step of length `h` [s] in a system that suits blocks; otherwise as
+    /// [`after_explicit`](Self::after_explicit).
     pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
         self.unpaid = if h < PRICE_BESIDE_BLOCK * self.block { self.unpaid + 1 } else { 0 };
         if self.looks(STRETCH) {
@@ -90,7 +93,7 @@ impl StiffnessSwitch {
         }
     }
 
-    /// Whether it is time for a look, after one more step.
+    /// Counts a step and returns whether a check is due.
     fn looks(&mut self, patience: u32) -> bool {
         self.steps = self.steps.saturating_add(1);
         let now = self.steps >= patience;
@@ -100,8 +103,8 @@ impl StiffnessSwitch {
         now
     }
 
-    /// After an accepted linearly implicit step of `h` [s] of a motion with so many positions, whose fastest rate
-    /// is `fastest` [1/s]: how long the next explicit step may be [s], where it is to be one.
+    /// Records an accepted linearly implicit step of length `h` [s] of a system with `positions` positions and the
+    /// fastest rate `fastest` [1/s]. Returns the upper bound of the next step [s] if that is to be explicit.
     pub fn after_implicit(&mut self, h: f64, bound: f64, fastest: f64, positions: usize) -> Option<f64> {
         self.steps = self.steps.saturating_add(1);
         let stable = bound / fastest;
@@ -114,21 +117,21 @@ impl StiffnessSwitch {
         Some(SUSPICIOUS * stable)
     }
 
-    /// After a step that was made in this `kind`, since it could not be made as it was to be.
+    /// Records a step that was completed in `kind` after the intended kind had failed.
     pub fn hand_over(&mut self, kind: MethodKind) {
         self.steps = 0;
         self.end_trial(Self { kind, ..Self::LOOSE });
     }
 
-    /// Goes on as `next`, and looks again later the shorter the stretch was.
+    /// Ends a trial and continues as `next`. After a trial that did not pay, the next check comes later.
     fn end_trial(&mut self, next: Self) {
         let paid = self.steps >= WORTHWHILE;
         *self = Self { patience: if paid { PATIENCE } else { (2 * self.patience).min(MOST_PATIENCE) }, ..next };
     }
 }
 
-/// [1/s] About the fastest rate of a motion near a state with these derivatives of the rates, by powers of their matrix
-/// on a vector without pattern: over an even number of them an oscillation comes back to the phase that it had.
+/// [1/s] Estimate of the fastest rate of the motion near a state, from its Jacobian by power iteration on a vector
+/// without pattern. After an even number of iterations an oscillation has returned to its phase.
 pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64]) -> f64 {
     let StateLayout { positions, weighted, .. } = layout;
     let next = |y: &mut [f64; MAX_STATES]| {
@@ -154,7 +157,7 @@ pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64]) -> f64 
     for _ in 0..4 {
         next(&mut y);
     }
-    // 0 where nothing acts.
+    // 0 for a Jacobian of zeros.
     (square(&y) / before).sqrt().sqrt().sqrt().max(0.0)
 }
 
