@@ -32,7 +32,8 @@ impl ElasticLaw for Liu {
         depth * self.stiffness * (depth / ((depth + self.clearance) * 2.0)).sqrt()
     }
 
-    /// With u = δ/c: K·c²/√2·∫u^(3/2)/√(1 + u) du; a series where the closed form is a small difference.
+    /// K·c²/√2·∫u^(3/2)/√(1 + u) du with u = δ/c; a series for small u, where the closed form is a small difference of
+    /// large numbers.
     fn energy<R: Real>(&self, depth: R) -> R {
         let c = self.clearance;
         let u = depth / c;

@@ -1,24 +1,24 @@
-//! What outputs tell of a rod's elasticity.
+//! Outputs of a rod's elasticity.
 
 use super::flexible::Rod;
 use super::shape::Shape;
 use crate::math::Real;
 
-/// Deflection, stretch, elastic energy and its loss.
+/// Deflection, stretch, elastic energy and modal loss of a rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elastic<R = f64> {
-    /// [m] At mid-span.
+    /// [m] Deflection at mid-span.
     pub deflection: R,
-    /// [m] From end to end.
+    /// [m] Change of the chord's length, L − l.
     pub stretch: R,
-    /// [J]
+    /// [J] Elastic energy.
     pub energy: R,
-    /// [W] That modal damping takes.
+    /// [W] Power lost in modal damping.
     pub modal_loss: R,
 }
 
 impl Rod {
-    /// Deflection, stretch and elastic energy.
+    /// Deflection, stretch, elastic energy and modal loss.
     pub fn elastic<R: Real, const K: usize, const F: usize>(
         &self,
         shape: &Shape<R, K, F>,
