@@ -1,18 +1,19 @@
-//! Derivatives of outputs: in time, and with respect to the inputs.
+//! Derivatives of outputs with respect to time and to inputs.
 
 use crate::integrator::MAX_STATES;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::{Inputs, Outputs};
 
-/// [s] Half the longest interval over which an output's derivative is taken.
+/// [s] Half the longest interval of a difference quotient.
 const DIFFERENCE: f64 = 1e-8;
-/// [s] Half the shortest.
+/// [s] Half the shortest interval of a difference quotient.
 const LEAST_DIFFERENCE: f64 = 1e-20;
-/// How often such an interval is shortened until there is an output at both of its ends.
+/// Maximum number of times that the interval is shortened until the outputs at both ends are finite.
 const SHORTENINGS: usize = 12;
 
-/// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state moves by
-/// more than is noticeable, and time by at least a few of its roundings; near the end of a mechanism's reach, by less.
+/// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state changes
+/// by more than its scale, and time changes by at least a few roundings. Near a singular configuration the interval is
+/// shortened.
 pub fn slopes(
     model: &dyn MechanismModel,
     t: f64,
@@ -47,9 +48,9 @@ pub fn slopes(
     slopes
 }
 
-/// Derivative of outputs with respect to the inputs, along `seed`.
+/// Derivative of outputs with respect to the inputs, in the direction `seed`.
 pub fn sensitivity(seed: Inputs, mut observe_under: impl FnMut(Inputs) -> Outputs) -> Outputs {
-    // Outputs are affine in the inputs: any difference is the derivative.
+    // Outputs are affine in the inputs, so that any difference quotient is exact.
     let one = observe_under(seed);
     let other = observe_under(Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
     one.combined(&other, |one, other| 0.5 * (one - other))
