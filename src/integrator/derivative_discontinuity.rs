@@ -13,18 +13,18 @@ use super::state::StepPoint;
 use super::system::{Discontinuities, EventFunctions, MAX_STATES, System};
 
 /// [share of the step] Distance over which the functions are followed along the rates to find their slope at the start.
-const AHEAD: f64 = 1e-6;
+const SLOPE_SHARE: f64 = 1e-6;
 /// [share of the step] Range in which a shorter step may end. A discontinuity before it belongs to the start of the
 /// step; one after it hardly contributes to the error.
-const WITHIN: std::ops::Range<f64> = 1e-5..0.96;
+const CUT_RANGE: std::ops::Range<f64> = 1e-5..0.96;
 /// A discontinuity beyond this share is located on a curve that the branch behind it has bent. The step ends before it,
 /// and the next step locates it from nearby.
-const FAR: f64 = 0.1;
+const DISTANT: f64 = 0.1;
 /// A distant discontinuity is approached to this factor of its share.
-const SHORT_OF: f64 = 0.95;
-/// A near discontinuity or an event is passed by this factor of its share, because a step that ends just before it
-/// gains nothing.
+const APPROACH: f64 = 0.95;
+/// A near discontinuity is passed by this factor of its share, because a step that ends just before it gains nothing.
 const PAST_DISCONTINUITY: f64 = 1.01;
+/// An event is passed by this factor of its share, for the same reason.
 const PAST_EVENT: f64 = 1.001;
 
 /// The share of a rejected step at which a shorter step should end: the first derivative discontinuity or event in it.
@@ -47,7 +47,7 @@ pub fn first<D: Copy>(
 
 /// The share at which a step of `h` from `start` should end before it has been attempted: the first derivative
 /// discontinuity, if the accelerations continue to change as they have since `earlier`.
-pub fn foreseen<D: Copy>(
+pub fn predicted<D: Copy>(
     system: &dyn System<Discrete = D>,
     earlier: &StepPoint<D>,
     start: &StepPoint<D>,
@@ -76,21 +76,21 @@ fn first_discontinuity<D: Copy>(
     if before.values().iter().zip(after.values()).all(|(now, then)| now * then >= 0.0) {
         return None;
     }
-    let mut soon = [0.0; MAX_STATES];
-    let soon = &mut soon[..y.len()];
-    for ((soon, y), rate) in soon.iter_mut().zip(y).zip(rates) {
-        *soon = y + AHEAD * h * rate;
+    let mut ahead_state = [0.0; MAX_STATES];
+    let ahead_state = &mut ahead_state[..y.len()];
+    for ((ahead_state, y), rate) in ahead_state.iter_mut().zip(y).zip(rates) {
+        *ahead_state = y + SLOPE_SHARE * h * rate;
     }
     let mut ahead = Discontinuities::NONE;
-    system.discontinuities(discrete, t + AHEAD * h, soon, &mut ahead);
+    system.discontinuities(discrete, t + SLOPE_SHARE * h, ahead_state, &mut ahead);
     let all = before.values().iter().zip(ahead.values()).zip(after.values());
-    let shares = all.filter_map(|((now, soon), then)| crossing(*now, (soon - now) / AHEAD, *then));
-    earliest(shares.map(|share| share * if share > FAR { SHORT_OF } else { PAST_DISCONTINUITY }))
+    let shares = all.filter_map(|((now, soon), then)| crossing(*now, (soon - now) / SLOPE_SHARE, *then));
+    earliest(shares.map(|share| share * if share > DISTANT { APPROACH } else { PAST_DISCONTINUITY }))
 }
 
 /// The smallest share at which a shorter step may end.
 fn earliest(shares: impl Iterator<Item = f64>) -> Option<f64> {
-    shares.filter(|share| WITHIN.contains(share)).min_by(f64::total_cmp)
+    shares.filter(|share| CUT_RANGE.contains(share)).min_by(f64::total_cmp)
 }
 
 /// The zero of the parabola from `value` with `slope` at 0 to `end` at 1; `None` unless its ends differ in sign.

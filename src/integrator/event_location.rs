@@ -14,30 +14,30 @@ use super::system::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, Syste
 /// [share of the step] Resolution of the time of a fall on the interpolant.
 const RESOLUTION: f64 = 1e-13;
 /// Maximum number of events without time passing.
-pub const STANDSTILL: usize = 64;
+pub const MAX_EVENTS_AT_ONE_TIME: usize = 64;
 /// Maximum number of attempts at a step that ends at an event; each brings the event function closer to zero.
-const LANDINGS: usize = 3;
+const MAX_LANDINGS: usize = 3;
 /// Share of an impact's duration for the first step into it.
-const ONSET: f64 = 0.03;
+const FIRST_IMPACT_STEP: f64 = 0.03;
 /// A step ends at an event if the event function is within this share of a tolerable error of zero.
-const LANDED: f64 = 0.1;
+const LANDING_TOLERANCE: f64 = 0.1;
 
 /// Crosses the events whose functions are at or below zero and falling where the next step starts.
 ///
 /// # Errors
-/// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if [`STANDSTILL`] events do not settle it.
+/// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if [`MAX_EVENTS_AT_ONE_TIME`] events do not settle it.
 pub fn settle<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) -> Result<(), IntegrationError> {
     let count = system.event_count();
     if count == 0 {
         return Ok(());
     }
-    let near = LANDED * system.event_scale();
+    let near = LANDING_TOLERANCE * system.event_scale();
     let events = &stepper.events;
     let ended = |i: &usize| events[*i].value <= near && events[*i].rate < 0.0 && system.is_dead_end(*i);
     if let Some(event) = (0..count).find(ended) {
         return Err(IntegrationError::DeadEnd { time: stepper.state.front().t, event });
     }
-    for _ in 0..STANDSTILL {
+    for _ in 0..MAX_EVENTS_AT_ONE_TIME {
         let Some(event) = (0..count).find(|&i| has_fallen(&stepper.events[i])) else {
             return Ok(());
         };
@@ -88,9 +88,9 @@ pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>
     let start = stepper.state.start().t;
     // The longer step no longer counts.
     stepper.state.statistics.steps -= 1;
-    let close = LANDED * stepper.settings.tolerance * system.event_scale();
+    let close = LANDING_TOLERANCE * stepper.settings.tolerance * system.event_scale();
     let mut t = start + share * h;
-    for landing in 1..=LANDINGS {
+    for landing in 1..=MAX_LANDINGS {
         if t <= start {
             stepper.state.take_back();
             stepper.refresh(system);
@@ -104,8 +104,8 @@ pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>
         let EventFunction { value, rate } = stepper.attempt.events[event];
         let better = t - value / rate;
         let useful = rate < 0.0 && better < start + h && better != t;
-        if landing == LANDINGS || value.abs() <= close || !useful {
-            stepper.look_at_end_if_due(system, t);
+        if landing == MAX_LANDINGS || value.abs() <= close || !useful {
+            stepper.evaluate_end_if_missing(system, t);
             stepper.commit(t);
             break;
         }
@@ -134,7 +134,7 @@ fn cross<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t
     *discrete = reset.discrete;
     if let Some(duration) = reset.impact {
         *impact_end = impact_end.max(*t + duration.min(system.longest_step()));
-        state.step = state.step.min(ONSET * duration);
+        state.step = state.step.min(FIRST_IMPACT_STEP * duration);
     }
     stepper.refresh(system);
 }

@@ -42,7 +42,7 @@ pub use system::{
 pub use tableau::{MAX_STAGES, Tableau};
 pub use unilateral::{ContactLaw, Impulses, Relative, Unilateral};
 
-use state::lost_state;
+use state::first_invalid;
 use stepper::Stepper;
 
 /// An integrator with event location.
@@ -110,7 +110,7 @@ impl<D: Copy> Integrator<D> {
         self.march(system, t, None)
     }
 
-    /// Steps until `t` lies within the last step, or until a step that ends after `after` has ended with an event.
+    /// Steps until `t` lies within the last step, or until a step has ended with an event later than `after`.
     /// Returns the time [s] of that event, if it happened by `t`.
     ///
     /// # Errors
@@ -142,19 +142,19 @@ impl<D: Copy> Integrator<D> {
 
     /// Steps until `t` lies within the last step, or until a step has ended with an event after the time `after`.
     fn march(&mut self, system: &dyn System<Discrete = D>, t: f64, after: Option<f64>) -> Result<(), IntegrationError> {
-        let mut standing = 0;
+        let mut stalled_steps = 0;
         let before = self.state().statistics.evaluations;
-        let most = self.stepper.settings.effort.over(t - self.state().front().t);
+        let work_limit = self.stepper.settings.effort.over(t - self.state().front().t);
         while self.state().front().t < t && !after.is_some_and(|after| self.has_crossed(after)) {
             let front = self.state().front().t;
             let evaluations = self.state().statistics.evaluations - before;
-            if evaluations > most {
+            if evaluations > work_limit {
                 return Err(IntegrationError::TooMuchWork { time: front, evaluations });
             }
             event_location::settle(&mut self.stepper, system)?;
             self.step(system)?;
-            standing = if self.state().front().t > front { 0 } else { standing + 1 };
-            if standing == event_location::STANDSTILL {
+            stalled_steps = if self.state().front().t > front { 0 } else { stalled_steps + 1 };
+            if stalled_steps == event_location::MAX_EVENTS_AT_ONE_TIME {
                 let events = &self.stepper.events[..system.event_count()];
                 return Err(IntegrationError::events_accumulate(front, events));
             }
@@ -166,15 +166,15 @@ impl<D: Copy> Integrator<D> {
     fn step(&mut self, system: &dyn System<Discrete = D>) -> Result<(), IntegrationError> {
         let stepper = &mut self.stepper;
         let StepPoint { t, rates, .. } = stepper.state.front();
-        if let Some(component) = lost_state(rates) {
+        if let Some(component) = first_invalid(rates) {
             return Err(IntegrationError::NotFinite { time: *t, component });
         }
         // Attempt and judge.
-        let foreseen = step_acceptance::foreseen_discontinuity(stepper, system);
+        let predicted = step_acceptance::predicted_discontinuity(stepper, system);
         let earlier_kind = stepper.method.kind();
         stepper.state.begin_step();
         stepper.set_kind(stepper.method.next_kind());
-        let h = match step_acceptance::accepted(stepper, system, foreseen) {
+        let h = match step_acceptance::accepted(stepper, system, predicted) {
             Ok(h) => h,
             Err(error) => {
                 stepper.state.give_up_step();
@@ -186,7 +186,7 @@ impl<D: Copy> Integrator<D> {
         // Commit.
         let before = stepper.events;
         stepper.commit(stepper.state.start().t + h);
-        if let Some(component) = lost_state(&stepper.state.end().rates) {
+        if let Some(component) = first_invalid(&stepper.state.end().rates) {
             return self.take_back(before, h, component);
         }
         let advice = stepper.method.accepted(system, stepper.state.start(), stepper.state.end());
@@ -205,7 +205,7 @@ impl<D: Copy> Integrator<D> {
         if let Some((share, event)) = event_location::first(stepper, system, &before) {
             event_location::land(stepper, system, h, share, event);
             // The error of the shorter step to the event was not judged.
-            if let Some(component) = lost_state(&stepper.state.front().y) {
+            if let Some(component) = first_invalid(&stepper.state.front().y) {
                 return self.take_back(before, h, component);
             }
         }

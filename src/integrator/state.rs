@@ -5,12 +5,12 @@ use super::statistics::Statistics;
 use super::system::StateLayout;
 
 /// No run counts further than this.
-const MOST: u64 = 1 << 62;
-/// Larger states and rates count as invalid.
-const GREATEST: f64 = 1e25;
+const MAX_COUNT: u64 = 1 << 62;
+/// States and rates from this magnitude on are invalid.
+const INVALID_FROM: f64 = 1e25;
 /// After this many successive steps that were cut at a derivative discontinuity, the motion creeps along it.
 /// Discontinuities are then treated as any other error, until a step does not fail.
-pub const CREEPING: u32 = 8;
+pub const CREEPING_CUTS: u32 = 8;
 /// Start, end and front of the last step, and the end of an attempt at the next step.
 const POINTS: usize = 4;
 
@@ -202,19 +202,19 @@ impl<D: Copy> SolverState<D> {
     pub fn is_sound(&self, time: f64, longest_step: f64) -> bool {
         let Self { step, cuts, crossings, statistics, .. } = self;
         let (start, end, front) = (self.start(), self.end(), self.front());
-        let kept = |y: &[f64]| y.iter().all(|y| is_kept(*y));
+        let valid = |y: &[f64]| y.iter().all(|y| is_valid(*y));
         let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
         let impacts_end = |front: &StepPoint<D>| front.impact_end - front.t <= longest_step + rounding;
         let length = end.t - start.t;
         let Statistics { steps, rejected, evaluations, events } = *statistics;
-        let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MOST);
-        [start, end, front].iter().all(|front| kept(&front.y) && impacts_end(front))
+        let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MAX_COUNT);
+        [start, end, front].iter().all(|front| valid(&front.y) && impacts_end(front))
             && end.t == front.t
             && (start.t..=front.t).contains(&time)
             && (0.0..=longest_step + rounding).contains(&length)
             && (length == 0.0 || steps > 0)
             && *step >= 0.0
-            && *cuts <= CREEPING
+            && *cuts <= CREEPING_CUTS
             && *crossings <= events
             && counted
     }
@@ -229,16 +229,16 @@ impl<D: Copy> SolverState<D> {
     }
 }
 
-/// Index of the first state or rate that is not valid, see [`is_kept`].
+/// Index of the first state or rate that is not valid, see [`is_valid`].
 #[inline]
-pub fn lost_state(states: &[f64]) -> Option<usize> {
+pub fn first_invalid(states: &[f64]) -> Option<usize> {
     // Without an early exit the compiler tests several numbers at once.
-    let all_kept = states.iter().fold(true, |kept, y| kept & is_kept(*y));
-    if all_kept { None } else { states.iter().position(|y| !is_kept(*y)) }
+    let all_valid = states.iter().fold(true, |valid, y| valid & is_valid(*y));
+    if all_valid { None } else { states.iter().position(|y| !is_valid(*y)) }
 }
 
 /// Whether a state or rate is a number, and not so large that its powers overflow.
 #[inline]
-pub fn is_kept(y: f64) -> bool {
-    y.abs() < GREATEST
+pub fn is_valid(y: f64) -> bool {
+    y.abs() < INVALID_FROM
 }

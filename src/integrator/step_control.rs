@@ -32,13 +32,14 @@ impl WorkLimit {
 
     /// The limit for an advance over `interval` [s].
     pub fn over(self, interval: f64) -> u64 {
-        self.base.saturating_add((interval * self.per_second as f64).min(MOST) as u64)
+        self.base.saturating_add((interval * self.per_second as f64).min(MAX_EVALUATIONS_BY_LENGTH) as u64)
     }
 
     /// Refuses an advance from `start` to `target` [s] that exceeds the limit even with one evaluation per step of
     /// `longest` [s].
     ///
-    /// # Errors `TooMuchWork` at `start`.
+    /// # Errors
+    /// `TooMuchWork` at `start`.
     pub fn check(self, start: f64, target: f64, longest: f64) -> Result<(), IntegrationError> {
         let evaluations = self.over(target - start);
         let steps = (target - start) / longest;
@@ -51,15 +52,19 @@ impl WorkLimit {
 }
 
 /// Upper bound of the evaluations that the length of an advance adds.
-const MOST: f64 = 1e11;
-const SAFETY: f64 = 0.95; // see `growth` for SAFETY and MEMORY
+const MAX_EVALUATIONS_BY_LENGTH: f64 = 1e11;
+/// Safety factor of the step size; see [`growth`].
+const SAFETY: f64 = 0.95;
 /// [s] Upper bound of the first step of a motion.
 const FIRST_STEP: f64 = 1e-4;
-const LEAST_FACTOR: f64 = 0.2;
-const GREATEST_FACTOR: f64 = 5.0;
-const MEMORY: f64 = 0.025;
+/// Smallest factor between successive step sizes.
+const MIN_FACTOR: f64 = 0.2;
+/// Largest factor between successive step sizes.
+const MAX_FACTOR: f64 = 5.0;
+/// Exponent of the last step's error in [`growth`].
+const LAST_ERROR_EXPONENT: f64 = 0.025;
 /// Early stages have rates of low order: their deviation rejects a step only above this many times a tolerable error.
-const UNSEEN: f64 = 1e3;
+const UNSEEN_LIMIT: f64 = 1e3;
 /// Accuracy of a state is limited to a few roundings of its value.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
@@ -68,20 +73,20 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], coarse: bool, tolerance: f64) -> f64 {
     let n = scales.len().max(1) as f64;
     let weight = |scale: &f64, y: &f64| tolerance * scale + ROUNDINGS * y.abs();
-    let (mut fine, mut missed) = (0.0, false);
+    let (mut fine, mut unseen_error) = (0.0, false);
     for (((scale, y), error), unseen) in scales.iter().zip(y).zip(&attempt.error).zip(&attempt.unseen) {
         let weight = weight(scale, y);
-        missed |= *unseen > UNSEEN * weight;
+        unseen_error |= *unseen > UNSEEN_LIMIT * weight;
         fine += (error / weight).powi(2);
     }
-    if missed {
+    if unseen_error {
         return f64::INFINITY;
     }
     let fine = fine / n;
     if !coarse {
         return fine.sqrt();
     }
-    // As in DOP853: the coarse estimate prevents that the fine one vanishes by chance.
+    // As in DOP853: the coarse estimate keeps the fine one from vanishing by chance.
     let mut of_coarse = 0.0;
     for ((scale, y), error) in scales.iter().zip(y).zip(&attempt.coarse_error) {
         of_coarse += (error / weight(scale, y)).powi(2);
@@ -106,14 +111,14 @@ pub fn worst_component<D: Copy>(attempt: &Attempt, system: &dyn System<Discrete 
 /// a tenth fewer evaluations for the same error with `verner7`.
 pub fn growth(error: f64, last_error: f64, power: f64) -> f64 {
     let error = error.max(1e-10);
-    let exponent = 1.0 / power - 0.75 * MEMORY;
-    let factor = SAFETY * math::rough_power(error, -exponent) * math::rough_power(last_error, MEMORY);
-    factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
+    let exponent = 1.0 / power - 0.75 * LAST_ERROR_EXPONENT;
+    let factor = SAFETY * math::rough_power(error, -exponent) * math::rough_power(last_error, LAST_ERROR_EXPONENT);
+    factor.clamp(MIN_FACTOR, MAX_FACTOR)
 }
 
 /// Factor of the step size after a rejected step whose `error` is proportional to the step to the `power`.
 pub fn shrinkage(error: f64, power: f64) -> f64 {
-    if error.is_finite() { (SAFETY * math::rough_power(error, -1.0 / power)).clamp(LEAST_FACTOR, SAFETY) } else { 0.1 }
+    if error.is_finite() { (SAFETY * math::rough_power(error, -1.0 / power)).clamp(MIN_FACTOR, SAFETY) } else { 0.1 }
 }
 
 /// The power of the step to which the error is proportional, estimated from the steps [s] and errors of two attempts

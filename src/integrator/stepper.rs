@@ -2,7 +2,7 @@
 
 use super::dense_output::Correction;
 use super::method::{Attempt, Method, MethodKind, Properties};
-use super::state::{SolverState, StepPoint, lost_state};
+use super::state::{SolverState, StepPoint, first_invalid};
 use super::step_control::Settings;
 use super::system::{EventFunctions, StateLayout, System};
 
@@ -36,7 +36,7 @@ impl<D: Copy> Stepper<D> {
         let (properties, layout) = (*method.properties(), system.layout());
         let mut stepper =
             Self { settings, method, properties, layout, state, events, attempt, correction, inside: vec![0.0; n] };
-        stepper.find_events(system);
+        stepper.update_events(system);
         stepper
     }
 
@@ -44,7 +44,7 @@ impl<D: Copy> Stepper<D> {
     pub(super) fn set_state(&mut self, system: &dyn System<Discrete = D>, state: SolverState<D>) {
         self.state = state;
         self.correction.forget();
-        self.find_events(system);
+        self.update_events(system);
     }
 
     /// Changes the method and updates the copy of its properties.
@@ -61,7 +61,7 @@ impl<D: Copy> Stepper<D> {
         }
     }
 
-    fn find_events(&mut self, system: &dyn System<Discrete = D>) {
+    fn update_events(&mut self, system: &dyn System<Discrete = D>) {
         let StepPoint { t, y, discrete, .. } = self.state.front();
         system.event_functions(discrete, *t, y, &mut self.events);
     }
@@ -80,7 +80,7 @@ impl<D: Copy> Stepper<D> {
         self.attempt(system, h);
         // The end of a rounded step differs from `t`.
         if self.gives_end() && start + h != t {
-            self.look_at_end(system, t);
+            self.evaluate_end(system, t);
         }
     }
 
@@ -90,16 +90,16 @@ impl<D: Copy> Stepper<D> {
     }
 
     /// Computes the rates and event functions at the end of the attempt, at `t`.
-    pub(super) fn look_at_end(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+    pub(super) fn evaluate_end(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         let (start, StepPoint { y, rates, .. }) = self.state.ends();
         system.rates_and_event_functions(&start.discrete, t, y, rates, &mut self.attempt.events);
         self.state.statistics.evaluations += 1;
     }
 
     /// Computes the rates and event functions at the end of the attempt, unless the method has computed them.
-    pub(super) fn look_at_end_if_due(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+    pub(super) fn evaluate_end_if_missing(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         if !self.gives_end() {
-            self.look_at_end(system, t);
+            self.evaluate_end(system, t);
         }
     }
 
@@ -134,7 +134,7 @@ impl<D: Copy> Stepper<D> {
     }
 
     /// Makes the state at `t` in the last step, as [`state_at`](Self::state_at) reports it, the end of the attempt.
-    pub(super) fn attempt_as_told(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+    pub(super) fn attempt_interpolated(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         if self.is_attempted_at(system, t) {
             return;
         }
@@ -164,7 +164,7 @@ impl<D: Copy> Stepper<D> {
         }
         let (start, end) = self.state.ends();
         self.method.attempt(system, start, t - start.t, end, &mut self.attempt);
-        lost_state(&end.y).is_none()
+        first_invalid(&end.y).is_none()
     }
 
     /// Interpolates the state at `t` within the last step.

@@ -72,7 +72,7 @@ impl Tableau {
     }
 
     /// The first stage after stage 0 that the error estimate weighs; 0 without an estimate.
-    pub const fn first_weighed_stage(&self) -> usize {
+    pub const fn first_weighted_stage(&self) -> usize {
         let mut i = 1;
         while i < self.stages {
             if self.error[i] != 0.0 {

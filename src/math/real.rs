@@ -52,7 +52,7 @@ pub trait Real:
     fn recip(self) -> Self;
     /// √x; the derivative at 0 is taken as 0.
     fn sqrt(self) -> Self;
-    /// x|; the derivative at ±0 is taken as ±1.
+    /// |x|; the derivative at ±0 is taken as ±1.
     fn abs(self) -> Self;
     /// The larger of `self` and `limit`; `limit` if they are equal.
     fn max(self, limit: f64) -> Self;

@@ -8,10 +8,10 @@ use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
 /// Largest angle that the argument reduction accepts: its multiple of [`STEP`] has 27 bits.
-const GREATEST: f64 = 1.6e6;
+const MAX_REDUCED_ANGLE: f64 = 1.6e6;
 
 /// 1.5·2⁵²: adding and subtracting this number rounds to an integer.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// Number of table entries in the circle.
 const PARTS: usize = 512;
@@ -40,11 +40,11 @@ static CIRCLE: [(f64, f64); PARTS] = {
 /// (sin, cos) of multiple `part` of [`STEP`], reduced to the first eighth of the circle.
 const fn of_part(part: usize) -> (f64, f64) {
     let quarter = PARTS / 4;
-    let place = part % quarter;
-    let (sin, cos) = if place <= quarter / 2 {
-        series(place)
+    let index = part % quarter;
+    let (sin, cos) = if index <= quarter / 2 {
+        series(index)
     } else {
-        let (sin, cos) = series(quarter - place);
+        let (sin, cos) = series(quarter - index);
         (cos, sin)
     };
     match part / quarter {
@@ -75,7 +75,7 @@ pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
     let mut found = [(0.0, 0.0); K];
     let mut within_reach = true;
     unroll!(true, k < K => {
-        within_reach &= x[k].abs() < GREATEST;
+        within_reach &= x[k].abs() < MAX_REDUCED_ANGLE;
     });
     if within_reach {
         unroll!(true, k < K => {
@@ -95,13 +95,13 @@ pub fn of_four(x: f64x4) -> (f64x4, f64x4) {
     let angles = x.to_array();
     let mut within_reach = true;
     unroll!(true, k < LANES => {
-        within_reach &= angles[k].abs() < GREATEST;
+        within_reach &= angles[k].abs() < MAX_REDUCED_ANGLE;
     });
     if !within_reach {
-        return far(angles);
+        return beyond_reduction(angles);
     }
-    let shifted = multiply_add(x, f64x4::splat(PARTS as f64 / TAU), f64x4::splat(ROUNDER));
-    let k = shifted - f64x4::splat(ROUNDER);
+    let shifted = multiply_add(x, f64x4::splat(PARTS as f64 / TAU), f64x4::splat(ROUND_TO_INTEGER));
+    let k = shifted - f64x4::splat(ROUND_TO_INTEGER);
     let (places, mut sin_k, mut cos_k) = (shifted.to_array(), [0.0; LANES], [0.0; LANES]);
     unroll!(true, k < LANES => {
         (sin_k[k], cos_k[k]) = CIRCLE[places[k].to_bits() as usize % PARTS];
@@ -116,7 +116,7 @@ pub fn of_four(x: f64x4) -> (f64x4, f64x4) {
 }
 
 #[cold]
-fn far(x: [f64; LANES]) -> (f64x4, f64x4) {
+fn beyond_reduction(x: [f64; LANES]) -> (f64x4, f64x4) {
     let found = x.map(one_by_one);
     (f64x4::new(found.map(|(sin, _)| sin)), f64x4::new(found.map(|(_, cos)| cos)))
 }
@@ -129,14 +129,14 @@ pub fn multiply_add(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
 
 #[cold]
 fn one_by_one(x: f64) -> (f64, f64) {
-    if x.abs() < GREATEST { reduced(x) } else { libm::sincos(x) }
+    if x.abs() < MAX_REDUCED_ANGLE { reduced(x) } else { libm::sincos(x) }
 }
 
 #[inline(always)]
 fn reduced(x: f64) -> (f64, f64) {
     // x = k·STEP + r, |r| ≤ π/PARTS.
-    let shifted = x.multiply_add(PARTS as f64 / TAU, ROUNDER);
-    let k = shifted - ROUNDER;
+    let shifted = x.multiply_add(PARTS as f64 / TAU, ROUND_TO_INTEGER);
+    let k = shifted - ROUND_TO_INTEGER;
     let (sin_k, cos_k) = CIRCLE[shifted.to_bits() as usize % PARTS];
     let r = k.multiply_add(-STEP[1], k.multiply_add(-STEP[0], x));
     // sin r and cos r − 1; the first neglected terms are below 1e-17.

@@ -63,7 +63,7 @@ impl Model {
         }
         Self {
             compiled: Compiled::of(&mechanism),
-            suits_blocks: structure.topology.has_one_play_in_a_pin() && states == 2 * p,
+            suits_blocks: structure.topology.has_one_pin_clearance() && states == 2 * p,
             scales,
             longest_step: scale.longest_step,
             event_scale: if structure.closed { IdealMechanism::CHANGE_POINT_SCALE } else { scale.length },

@@ -5,13 +5,13 @@ use super::joint::guide::guide_contacts;
 use crate::scene::{JointModel, Scene};
 
 /// The contacts with bristles: the index of each among all contacts, and the deflection [m] at which its bristles at
-/// rest let go.
+/// rest slip.
 pub fn bristled_contacts(scene: &Scene) -> Vec<(usize, f64)> {
     let joint = &scene.joint;
     let mut all = Vec::new();
     let mut add = |model: JointModel, friction: &crate::scene::Friction, contacts: std::ops::Range<usize>| {
         if model == JointModel::Clearance
-            && let Some(deflection) = Friction::new(friction).greatest_deflection()
+            && let Some(deflection) = Friction::new(friction).max_deflection()
         {
             all.extend(contacts.map(|contact| (contact, deflection)));
         }

@@ -122,7 +122,7 @@ impl Clearances {
         }
     }
 
-    /// Elastic energy and dissipated powers of the closed contacts.
+    /// Elastic energy of the closed contacts and the powers that they absorb.
     pub fn contact_energy<R: Scalar>(
         &self,
         play: JointSet,

@@ -15,7 +15,7 @@ use super::contact::ContactEnergy;
 use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
 use super::rod::{Chord, CompiledCounts, FixedCounts, RodCapacity, RuntimeCounts};
 use super::scalar::{Scalar, Tangent};
-use super::stages::of_so_many;
+use super::stages::run_stages;
 use super::state::{Conditions, Evaluation, Pose};
 use super::structure::{Structure, Topology};
 use crate::integrator::{EventFunctions, Tableau};
@@ -51,7 +51,7 @@ macro_rules! code {
             rates: |mechanism, conditions, t, y, rates| {
                 mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
             },
-            rates_of_eight: if const { suits_rows(&$structure) } {
+            rates_of_eight: if const { suits_blocks(&$structure) } {
                 |mechanism, conditions, t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 }
@@ -62,7 +62,7 @@ macro_rules! code {
                 mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
             },
             stages: |mechanism, tableau, conditions, t, y, h, k| {
-                of_so_many::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
+                run_stages::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 })
             },
@@ -96,8 +96,8 @@ macro_rules! by_structure {
 }
 
 /// Whether steps in blocks, which evaluate eight states at a time, are usual for a structure.
-const fn suits_rows(structure: &Structure) -> bool {
-    structure.closed || structure.topology.has_one_play_in_a_pin()
+const fn suits_blocks(structure: &Structure) -> bool {
+    structure.closed || structure.topology.has_one_pin_clearance()
 }
 
 impl Compiled {
@@ -132,7 +132,7 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
                 const TOPOLOGY: Topology = Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed };
                 const OWN: Structure = Structure::with_rod(TOPOLOGY, true);
                 if structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
-                    return code!(OWN, 2 * (OWN.positions + Own::MODES), counted_rates, counted_rates_and_guards, Own);
+                    return code!(OWN, 2 * (OWN.positions + Own::MODES), counted_rates, counted_rates_and_event_functions, Own);
                 }
             })*
         };
@@ -155,7 +155,7 @@ fn stages_of_all(states: usize) -> Stages {
         ($($n:literal)*) => {
             match states {
                 $($n => |mechanism, tableau, conditions, t, y, h, k| {
-                    of_so_many::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(conditions, t, y, rates))
+                    run_stages::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(conditions, t, y, rates))
                 },)*
                 _ => |_, _, _, _, _, _, _| false,
             }
@@ -228,7 +228,7 @@ impl Mechanism {
 
     /// Angles, places and velocities with a flexible rod, and its chord.
     #[inline(never)]
-    pub(super) fn bent_pose(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
+    pub(super) fn pose_and_chord(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
         with_capacity!(rod, self.flexible_pose(rod, t, y))
     }
 
@@ -275,7 +275,7 @@ impl Mechanism {
 
     /// Writes the rates and event functions with a flexible rod whose counts are known at compile time.
     #[inline(always)]
-    fn counted_rates_and_guards<C: CompiledCounts>(
+    fn counted_rates_and_event_functions<C: CompiledCounts>(
         &self,
         of: &Structure,
         conditions: &Conditions,

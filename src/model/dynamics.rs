@@ -5,7 +5,7 @@
 //!
 //! ```text
 //!          | d1   m12  m13 |
-//!     M =  | m12  d2   m23 |,   m_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), zero where k and l are in different chains
+//!     M =  | m12  d2   m23 |,   m_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), 0 if k and l are in different chains
 //!          | m13  m23  d3  |
 //! ```
 //!

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 
 /// Smallest cosine of the rod angle. A rod that is longer than its crank by less than half a millionth cannot pass the
 /// change point: rounding and integration errors would decide on which branch it continues.
-const LEAST_COSINE: f64 = 1e-3;
+const MIN_COSINE: f64 = 1e-3;
 
 /// Dimensions of an ideal slider-crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl IdealMechanism {
     /// Whether the crank can bring the rod perpendicular to the guide (change point), where the slider may continue on
     /// either side.
     pub fn has_change_point(&self) -> bool {
-        self.crank + self.height.abs() > (1.0 - LEAST_COSINE * LEAST_COSINE) * self.rod
+        self.crank + self.height.abs() > (1.0 - MIN_COSINE * MIN_COSINE) * self.rod
     }
 
     /// The event function of the change point, where the rod, of length `rod` [m] that grows at `rate` [m/s], is
@@ -57,11 +57,11 @@ impl IdealMechanism {
     pub fn change_point(&self, crank: Rotation, speed: f64, rod: f64, rate: f64) -> EventFunction {
         let sin = (self.height - crank.sin * self.crank) / rod;
         let sin_rate = -(crank.cos * self.crank * speed + sin * rate) / rod;
-        EventFunction { value: (1.0 - sin) * (1.0 + sin) - LEAST_COSINE * LEAST_COSINE, rate: -2.0 * sin * sin_rate }
+        EventFunction { value: (1.0 - sin) * (1.0 + sin) - MIN_COSINE * MIN_COSINE, rate: -2.0 * sin * sin_rate }
     }
 
     /// [unit of the change point's event function] Scale of its tolerable error.
-    pub const CHANGE_POINT_SCALE: f64 = LEAST_COSINE * LEAST_COSINE;
+    pub const CHANGE_POINT_SCALE: f64 = MIN_COSINE * MIN_COSINE;
 
     /// The motion at the crank's rotation and speed [rad/s]; not finite where the mechanism cannot be assembled.
     #[inline(always)]

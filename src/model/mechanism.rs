@@ -463,7 +463,7 @@ impl Mechanism {
     pub fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], event_functions: &mut EventFunctions) {
         let (pose, chord) = match &self.rod {
             Some(rod) => {
-                let (pose, chord) = self.bent_pose(rod, t, y);
+                let (pose, chord) = self.pose_and_chord(rod, t, y);
                 (pose, [chord.length, chord.rate])
             }
             None => (self.place(t, y).pose, [self.ideal.rod, 0.0]),
@@ -474,12 +474,12 @@ impl Mechanism {
     /// The pose at the state `y`: angles, places and velocities.
     pub fn pose(&self, t: f64, y: &[f64]) -> Pose {
         match &self.rod {
-            Some(rod) => self.bent_pose(rod, t, y).0,
+            Some(rod) => self.pose_and_chord(rod, t, y).0,
             None => self.place(t, y).pose,
         }
     }
 
-    /// Elastic energy and dissipated powers of the closed contacts.
+    /// Elastic energy of the closed contacts and the powers that they absorb.
     pub fn contact_energy<R: Scalar>(&self, contacts: &Contacts, pose: &Pose<R>, y: &[R]) -> ContactEnergy<R> {
         self.clearances.contact_energy(self.structure.play, contacts, pose, &y[2 * self.positions()..])
     }

@@ -39,7 +39,7 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     /// [m] Penetration in joints A, B, C and at the guide's corners; −∞ for an ideal joint.
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];
 
-    /// Elastic energy and dissipated powers of the closed contacts.
+    /// Elastic energy of the closed contacts and the powers that they absorb.
     fn contact_energy(&self, _: &Contacts, _: &Pose, _: &[f64]) -> ContactEnergy {
         ContactEnergy::default()
     }

@@ -5,7 +5,7 @@ use std::ops::Mul;
 
 pub use crate::math::Vec2;
 
-/// (−v_y, v_x).
+/// (−v_y, v_x): the vector `v` turned by 90°.
 #[inline(always)]
 pub fn perp<R: Real>(v: Vec2<R>) -> Vec2<R> {
     Vec2::new(-v.y, v.x)

@@ -18,14 +18,14 @@ const CLEARANCE: f64 = 0.5e-3;
 /// [rad] Scale of angles in a mechanism without clearance.
 const ANGLE: f64 = 0.01;
 /// [rad/s] Smallest crank speed that enters the scales.
-const SLOWEST: f64 = 1.0;
+const MIN_CRANK_SPEED: f64 = 1.0;
 /// [rad] Maximum rotation of a crank within a step at its start speed, so that no contact is missed.
-const TURN: f64 = 0.1;
+const MAX_ROTATION: f64 = 0.1;
 /// [rad] Maximum rotation without clearance, where the only event is the change point of a short rod. In an hour of
 /// free running the energy then drifts by a millionth at the default tolerance.
-const TURN_WITHOUT_PLAY: f64 = 0.15;
+const MAX_ROTATION_WITHOUT_CLEARANCE: f64 = 0.15;
 /// [s] Upper bound of any step.
-const LONGEST: f64 = 0.02;
+const MAX_STEP: f64 = 0.02;
 
 /// Scales of one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,12 +60,12 @@ impl Scale {
                 clearance = clearance.min(gap);
             }
         }
-        let turning = scene.crank.speed_start.abs().max(SLOWEST);
-        let within = |turn: f64| (turn / turning).min(LONGEST);
+        let crank_speed = scene.crank.speed_start.abs().max(MIN_CRANK_SPEED);
+        let within = |rotation: f64| (rotation / crank_speed).min(MAX_STEP);
         if clearance == f64::INFINITY {
             let swing = (scene.gravity.abs() / scene.crank.length).sqrt();
-            let frequency = turning.max(swing);
-            let longest_step = within(TURN_WITHOUT_PLAY);
+            let frequency = crank_speed.max(swing);
+            let longest_step = within(MAX_ROTATION_WITHOUT_CLEARANCE);
             return Self { length: ANGLE, angle: [ANGLE; 3], deflection: LENGTH, frequency, longest_step };
         }
         let length = LENGTH * math::powf(clearance / CLEARANCE, 1.0 / 3.0);
@@ -81,9 +81,9 @@ impl Scale {
             frequency = frequency.min(contact.frequency(lighter[3], length));
         }
         // A soft contact must not make the tolerance of the crank's own motion stricter.
-        let frequency = frequency.max(10.0 * turning);
+        let frequency = frequency.max(10.0 * crank_speed);
         let reach = [scene.crank.length, scene.rod.length, 0.5 * scene.slider.length];
-        let longest_step = within(TURN);
+        let longest_step = within(MAX_ROTATION);
         Self { length, angle: reach.map(|reach| length / reach), deflection: length, frequency, longest_step }
     }
 }

@@ -10,7 +10,7 @@ const IN_REGISTERS: usize = 14;
 /// [`Ode::stages`](crate::integrator::Ode::stages) of a mechanism with `N` states and these `rates`. Returns `false` if
 /// the mechanism has fewer than `N` states.
 #[inline(always)]
-pub fn of_so_many<const N: usize>(
+pub fn run_stages<const N: usize>(
     tableau: &Tableau,
     t: f64,
     y: &[f64],
@@ -45,7 +45,7 @@ pub fn of_so_many<const N: usize>(
     true
 }
 
-/// As [`of_so_many`] for at most [`IN_REGISTERS`] states; returns `false` for more.
+/// As [`run_stages`] for at most [`IN_REGISTERS`] states; returns `false` for more.
 #[inline(always)]
 fn in_registers<const N: usize>(
     tableau: &Tableau,

@@ -92,7 +92,7 @@ impl Topology {
 
     /// Whether the only clearance is in a pin. With several contacts, or with those of the slider's corners, steps in
     /// blocks have no advantage.
-    pub const fn has_one_play_in_a_pin(self) -> bool {
+    pub const fn has_one_pin_clearance(self) -> bool {
         self.a as u8 + self.b as u8 + self.c as u8 == 2 && self.t
     }
 }

@@ -14,7 +14,8 @@ impl Scene {
     /// Checks every parameter's range and the consistency of all parameters. Parameters that an ideal joint does not
     /// use are only checked for their range.
     ///
-    /// # Errors The first parameter that is not allowed.
+    /// # Errors
+    /// The first parameter that is not allowed.
     pub fn check(&self) -> Result<(), SceneError> {
         let in_range = |parameter: &Parameter| parameter.admit(parameter.value(self)).map_err(SceneError::Range);
         PARAMETERS.iter().try_for_each(in_range)?;

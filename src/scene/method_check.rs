@@ -9,7 +9,8 @@ use crate::model_description::number::number;
 impl Scene {
     /// Checks that the method supports the scene.
     ///
-    /// # Errors The first parameter that the method does not support.
+    /// # Errors
+    /// The first parameter that the method does not support.
     pub(crate) fn check_method(&self) -> Result<(), SceneError> {
         if self.solver.method != Method::Moreau {
             return Ok(());

@@ -86,7 +86,7 @@ pub struct AxialMode {
 }
 
 /// Maximum number of bending modes, and of axial modes.
-pub const MOST_MODES: usize = 8;
+pub const MAX_MODES: usize = 8;
 
 /// Number of pairs i ≤ j of `n` bending modes.
 pub const fn pairs(n: usize) -> usize {
@@ -99,7 +99,7 @@ pub const fn functions(bending: usize, axial: usize) -> usize {
 }
 
 /// Maximum number of numbers of a table.
-pub const MOST_NUMBERS: usize = numbers(MOST_MODES, MOST_MODES);
+pub const MAX_NUMBERS: usize = numbers(MAX_MODES, MAX_MODES);
 
 /// Length of [`ModalTable::numbers`] with these numbers of modes.
 const fn numbers(bending: usize, axial: usize) -> usize {
@@ -131,7 +131,7 @@ impl ModalTable {
     pub fn from_numbers(list: &[f64]) -> Option<Self> {
         // A number that is not a count saturates in the cast, or does not fit the length of the list.
         let (bending, axial) = (*list.first()? as usize, *list.get(1)? as usize);
-        if bending > MOST_MODES || axial > MOST_MODES || list.len() != numbers(bending, axial) {
+        if bending > MAX_MODES || axial > MAX_MODES || list.len() != numbers(bending, axial) {
             return None;
         }
         let mut rest = list[2..].iter().copied();

@@ -1,6 +1,6 @@
 //! Consistency checks of a modal table.
 
-use super::modal::{MOST_MODES, ModalTable, functions, pairs};
+use super::modal::{MAX_MODES, ModalTable, functions, pairs};
 use crate::model_description::number::number;
 use std::fmt;
 
@@ -43,7 +43,7 @@ impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("rod.flexible.table: ")?;
         match self {
-            Self::Modes { list, found } => write!(f, "{found} modes in {list}, more than {MOST_MODES}"),
+            Self::Modes { list, found } => write!(f, "{found} modes in {list}, more than {MAX_MODES}"),
             Self::Length { list, found, wanted } => write!(f, "{found} numbers in {list}, not {wanted}"),
             Self::Value { name, found, allowed } => {
                 write!(f, "{name} = {} is not allowed: {allowed}", number(*found))
@@ -57,7 +57,8 @@ impl std::error::Error for TableError {}
 impl ModalTable {
     /// Checks that the table can be that of a rod.
     ///
-    /// # Errors The first inconsistency.
+    /// # Errors
+    /// The first inconsistency.
     pub fn check(&self) -> Result<(), TableError> {
         self.check_lengths()?;
         above_zero("mass", self.mass)?;
@@ -67,7 +68,7 @@ impl ModalTable {
 
     fn check_lengths(&self) -> Result<(), TableError> {
         for (list, found) in [("bending", self.bending.len()), ("axial", self.axial.len())] {
-            if found > MOST_MODES {
+            if found > MAX_MODES {
                 return Err(TableError::Modes { list, found });
             }
         }

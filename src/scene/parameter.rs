@@ -135,7 +135,8 @@ impl Parameter {
 
     /// Checks that a value is within the range or list.
     ///
-    /// # Errors The refusal of a value that is not allowed.
+    /// # Errors
+    /// The refusal of a value that is not allowed.
     pub fn admit(&self, value: f64) -> Result<(), Refusal> {
         let legal = match self.kind {
             Kind::Real { min, max, .. } => (min..=max).contains(&value),
@@ -150,7 +151,8 @@ impl Parameter {
 
     /// Writes a value into a scene.
     ///
-    /// # Errors The refusal of a value that is not allowed; the scene is then unchanged.
+    /// # Errors
+    /// The refusal of a value that is not allowed; the scene is then unchanged.
     pub fn write(&self, scene: &mut Scene, value: f64) -> Result<(), Refusal> {
         self.admit(value)?;
         match self.kind {

@@ -46,7 +46,7 @@ pub struct SceneFile {
 }
 
 /// Keys other than parameters: name and SI unit; `None` for a text.
-const OTHERS: [(&str, Option<&str>); 8] = [
+const OTHER_KEYS: [(&str, Option<&str>); 8] = [
     ("name", None),
     ("description", None),
     (TABLE, None),
@@ -61,19 +61,21 @@ const OTHERS: [(&str, Option<&str>); 8] = [
 const TABLE: &str = "rod.flexible.table";
 
 /// Maximum number of turns, and maximum duration in seconds, of a run.
-const LONGEST: f64 = 1e6;
+const MAX_DURATION: f64 = 1e6;
 
 /// Reads the text of a scene file. `file` is its name: it appears in messages, and files that the scene names are
 /// searched next to it.
 ///
-/// # Errors All problems of the file.
+/// # Errors
+/// All problems of the file.
 pub fn read(text: &str, file: &str) -> Result<SceneFile, ReadError> {
     read_with(text, file, &|name| fs::read_to_string(Path::new(file).with_file_name(name)))
 }
 
 /// Reads the text of a scene file; `files` returns the text of files that it names.
 ///
-/// # Errors All problems of the file.
+/// # Errors
+/// All problems of the file.
 pub fn read_with(text: &str, file: &str, files: Files) -> Result<SceneFile, ReadError> {
     let mut reader = Reader { text, files, found: SceneFile::default(), places: HashMap::new(), faults: vec![] };
     match DeTable::parse(text) {
@@ -129,7 +131,7 @@ impl<'i> Reader<'i> {
 
     fn entry(&mut self, path: &str, offset: usize, value: &Value<'i>) -> Result<(), Fault> {
         let parameter = Parameter::named(path);
-        let other = OTHERS.iter().find(|(name, _)| *name == path);
+        let other = OTHER_KEYS.iter().find(|(name, _)| *name == path);
         if parameter.is_none() && other.is_none() {
             return self.inner_table(path, value);
         }
@@ -141,11 +143,11 @@ impl<'i> Reader<'i> {
         }
         let limited = |reader: &Self, unit: &str| {
             let number = number(reader.text, path, value, unit)?;
-            let legal = number > 0.0 && number <= LONGEST;
+            let legal = number > 0.0 && number <= MAX_DURATION;
             legal.then_some(number).ok_or_else(|| Fault::Value {
                 key: path.to_owned(),
                 found: source(reader.text, value),
-                allowed: format!("above 0, at most {} {unit}", shown(LONGEST)),
+                allowed: format!("above 0, at most {} {unit}", shown(MAX_DURATION)),
             })
         };
         match path {
@@ -268,7 +270,7 @@ impl<'i> Reader<'i> {
 /// Paths of the keys that are allowed in a table.
 fn children(prefix: &str) -> Vec<String> {
     let names = PARAMETERS.iter().map(|parameter| parameter.name);
-    let names = OTHERS.iter().map(|(name, _)| *name).chain(names);
+    let names = OTHER_KEYS.iter().map(|(name, _)| *name).chain(names);
     let inside = |name: &'static str| match prefix {
         "" => Some(name),
         _ => name.strip_prefix(prefix)?.strip_prefix('.'),

@@ -7,7 +7,7 @@
 //! behind it.
 
 use super::data::Scene;
-use super::modal::{MOST_NUMBERS, ModalTable};
+use super::modal::{MAX_NUMBERS, ModalTable};
 use super::modal_check::TableError;
 use super::parameter::{DECLARATION, DEFAULT_GUID, PARAMETER_COUNT, PARAMETERS, Refusal};
 use crate::model_description::guid as digest;
@@ -22,7 +22,7 @@ const MAGIC: usize = MAGIC_REVERSED.len();
 const HEADER: usize = MAGIC + 12;
 /// Length of the payload without a modal table [bytes].
 const PAYLOAD: usize = GUID + 8 * PARAMETER_COUNT;
-const BLOCK: usize = HEADER + PAYLOAD + 8 * MOST_NUMBERS;
+const BLOCK: usize = HEADER + PAYLOAD + 8 * MAX_NUMBERS;
 
 static SLOT: [u8; BLOCK] = blank();
 

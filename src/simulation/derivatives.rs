@@ -5,11 +5,11 @@ use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::{Inputs, Outputs};
 
 /// [s] Half the longest interval of a difference quotient.
-const DIFFERENCE: f64 = 1e-8;
+const MAX_HALF_INTERVAL: f64 = 1e-8;
 /// [s] Half the shortest interval of a difference quotient.
-const LEAST_DIFFERENCE: f64 = 1e-20;
+const MIN_HALF_INTERVAL: f64 = 1e-20;
 /// Maximum number of times that the interval is shortened until the outputs at both ends are finite.
-const SHORTENINGS: usize = 12;
+const MAX_SHORTENINGS: usize = 12;
 
 /// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state changes
 /// by more than its scale, and time changes by at least a few roundings. Near a singular configuration the interval is
@@ -35,14 +35,14 @@ pub fn slopes(
     };
     let weighted = rates.iter().zip(model.scales()).take(model.layout().weighted);
     let fastest = weighted.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
-    let least = LEAST_DIFFERENCE.max(4.0 * f64::EPSILON * t.abs());
-    let mut half = (1.0 / fastest).min(DIFFERENCE).max(least);
+    let shortest = MIN_HALF_INTERVAL.max(4.0 * f64::EPSILON * t.abs());
+    let mut half = (1.0 / fastest).min(MAX_HALF_INTERVAL).max(shortest);
     let mut slopes = over(half);
-    for _ in 0..SHORTENINGS {
-        if half == least || slopes.is_finite() {
+    for _ in 0..MAX_SHORTENINGS {
+        if half == shortest || slopes.is_finite() {
             break;
         }
-        half = (0.1 * half).max(least);
+        half = (0.1 * half).max(shortest);
         slopes = over(half);
     }
     slopes

@@ -5,14 +5,14 @@ use crate::scene::{Scene, Solver};
 
 /// Work limit if the scene sets none: seconds of computation in a communication step that does not end, and several
 /// times the work of any scene that is shipped.
-const EFFORT: WorkLimit = WorkLimit { base: 20_000_000, per_second: 50_000_000 };
+const DEFAULT_WORK_LIMIT: WorkLimit = WorkLimit { base: 20_000_000, per_second: 50_000_000 };
 
 /// Settings of the integrator from a scene.
 pub fn settings(scene: &Scene) -> Settings {
     let Solver { tolerance, step, max_evaluations, .. } = scene.solver;
     let effort = match u64::try_from(max_evaluations) {
         Ok(base @ 1..) => WorkLimit { base, per_second: 0 },
-        _ => EFFORT,
+        _ => DEFAULT_WORK_LIMIT,
     };
     Settings { tolerance, fixed_step: step, effort }
 }

@@ -12,19 +12,19 @@
 mod continued;
 mod lemke;
 
-pub use lemke::{LinearComplementarity, MOST_UNKNOWNS};
+pub use lemke::{LinearComplementarity, MAX_UNKNOWNS};
 
 /// Maximum number of contacts: each has a normal impulse, two tangential impulses and a sliding speed as unknowns.
-pub const MAX_CONTACTS: usize = MOST_UNKNOWNS / 4;
+pub const MAX_CONTACTS: usize = MAX_UNKNOWNS / 4;
 
 /// Largest accepted violation of the contact laws, with velocities and impulses scaled to 1.
-const VIOLATION: f64 = 1e-8;
+const MAX_VIOLATION: f64 = 1e-8;
 /// Largest accepted violation for contacts that keep their state from the step before.
-const CONTINUED: f64 = 1e-11;
+const MAX_CONTINUED_VIOLATION: f64 = 1e-11;
 /// A tangential direction whose response to impulses is below this share of the normal response counts as immovable.
-const RIGID: f64 = 1e-12;
+const IMMOVABLE: f64 = 1e-12;
 /// Number of covering columns that are tried; the first nearly always succeeds.
-const WAYS: usize = 8;
+const MAX_COVERS: usize = 8;
 /// The golden ratio less 1: the fractional parts of its multiples fill 0 to 1 evenly.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
@@ -66,15 +66,16 @@ impl ActiveContacts {
             return Some(Pairs::default());
         }
         if before.iter().any(|impulse| impulse[NORMAL] > 0.0) {
-            let found = scaled.continued(before).filter(|found| scaled.violation(found) <= CONTINUED);
+            let found = scaled.continued(before).filter(|found| scaled.violation(found) <= MAX_CONTINUED_VIOLATION);
             if let Some(found) = found {
                 return Some(scaled.impulses(&found));
             }
         }
         let linear = scaled.linear();
-        let ways = (0..WAYS).filter_map(|way| linear.solve(|i| 1.0 + way as f64 * (i as f64 * GOLDEN).fract()));
-        let mut found = ways.map(|z| scaled.signed(&z));
-        found.find(|found| scaled.violation(found) <= VIOLATION).map(|found| scaled.impulses(&found))
+        let solutions =
+            (0..MAX_COVERS).filter_map(|cover| linear.solve(|i| 1.0 + cover as f64 * (i as f64 * GOLDEN).fract()));
+        let mut found = solutions.map(|z| scaled.signed(&z));
+        found.find(|found| scaled.violation(found) <= MAX_VIOLATION).map(|found| scaled.impulses(&found))
     }
 }
 
@@ -91,7 +92,7 @@ impl<'a> Scaled<'a> {
                 return None;
             }
             scale[NORMAL] = normal.sqrt();
-            scale[TANGENTIAL] = tangent.max(RIGID * normal).sqrt();
+            scale[TANGENTIAL] = tangent.max(IMMOVABLE * normal).sqrt();
             for (bias, scale) in problem.bias[i].iter().zip(scale) {
                 size = size.max((bias / *scale).abs());
             }
@@ -120,20 +121,20 @@ impl<'a> Scaled<'a> {
     /// β⁻ of every contact with friction. The sliding speeds follow them.
     fn parts(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let normal = (0..self.count()).map(|i| (i, NORMAL, 1.0));
-        normal.chain(self.rough().flat_map(|i| [(i, TANGENTIAL, 1.0), (i, TANGENTIAL, -1.0)]))
+        normal.chain(self.with_friction().flat_map(|i| [(i, TANGENTIAL, 1.0), (i, TANGENTIAL, -1.0)]))
     }
 
     /// The indices of the contacts with friction.
-    fn rough(&self) -> impl Iterator<Item = usize> + '_ {
+    fn with_friction(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.count()).filter(|&i| self.problem.friction[i] > 0.0)
     }
 
     fn linear(&self) -> LinearComplementarity {
         let forces = self.parts().count();
         let mut linear = LinearComplementarity {
-            size: forces + self.rough().count(),
-            matrix: [[0.0; MOST_UNKNOWNS]; MOST_UNKNOWNS],
-            vector: [0.0; MOST_UNKNOWNS],
+            size: forces + self.with_friction().count(),
+            matrix: [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS],
+            vector: [0.0; MAX_UNKNOWNS],
         };
         for (row, (i, a, side)) in self.parts().enumerate() {
             linear.vector[row] = side * self.bias(i, a);
@@ -141,7 +142,7 @@ impl<'a> Scaled<'a> {
                 linear.matrix[row][column] = side * other * self.delassus(i, a, j, b);
             }
         }
-        for (k, i) in self.rough().enumerate() {
+        for (k, i) in self.with_friction().enumerate() {
             let (sigma, beta) = (forces + k, self.count() + 2 * k);
             linear.matrix[sigma][i] = self.friction(i);
             for beta in [beta, beta + 1] {
@@ -153,7 +154,7 @@ impl<'a> Scaled<'a> {
     }
 
     /// Scaled impulses from the unknowns of the linear problem.
-    fn signed(&self, z: &[f64; MOST_UNKNOWNS]) -> Pairs {
+    fn signed(&self, z: &[f64; MAX_UNKNOWNS]) -> Pairs {
         let mut impulses = Pairs::default();
         for ((i, part, side), z) in self.parts().zip(z) {
             impulses[i][part] += side * z;

@@ -47,7 +47,7 @@ impl Automatic {
             // In stiff motion the errors of earlier steps decay.
             Properties { error_share: 1.0, ..implicit_properties },
         ];
-        let switch = StiffnessSwitch::LOOSE;
+        let switch = StiffnessSwitch::NON_STIFF;
         Self { kind: switch.kind, switch, block, explicit, implicit, properties }
     }
 }
@@ -58,7 +58,7 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn begin(&mut self, system: &dyn System<Discrete = D>) {
-        self.switch = if system.suits_blocks() { StiffnessSwitch::IN_BLOCKS } else { StiffnessSwitch::LOOSE };
+        self.switch = if system.suits_blocks() { StiffnessSwitch::BLOCKS } else { StiffnessSwitch::NON_STIFF };
         self.kind = self.switch.kind;
         Method::<D>::forget(&mut self.block);
     }
@@ -127,10 +127,10 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let StiffnessSwitch { kind, steps, patience, unpaid, block } = self.switch;
+        let StiffnessSwitch { kind, steps, check_interval, unpaid, block } = self.switch;
         snapshot.reals.push(block);
         snapshot.integers.extend([self.kind as u64, kind as u64]);
-        snapshot.integers.extend([steps, patience, unpaid].map(u64::from));
+        snapshot.integers.extend([steps, check_interval, unpaid].map(u64::from));
         Method::<D>::save(&self.block, snapshot);
     }
 
@@ -140,7 +140,7 @@ impl<D: Copy> Method<D> for Automatic {
         self.switch = StiffnessSwitch {
             kind: read_kind(reader)?,
             steps: reader.integer()?.try_into().ok()?,
-            patience: reader.integer()?.try_into().ok()?,
+            check_interval: reader.integer()?.try_into().ok()?,
             unpaid: reader.integer()?.try_into().ok()?,
             block,
         };

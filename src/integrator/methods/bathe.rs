@@ -11,12 +11,12 @@ use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Proper
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::{Jacobian, System};
 
-/// Newton's method has converged once the correction of every state is at most this share of the state's scale,
-const CONVERGED: f64 = 1e-9;
-/// plus this share of the state's value, for rounding.
+/// Newton's method has converged once the correction of every state is at most this share of the state's scale.
+const CORRECTION_TOLERANCE: f64 = 1e-9;
+/// Share of a state's value that is added to that bound, for rounding.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
 /// Maximum number of Newton iterations.
-const MOST_CORRECTIONS: usize = 20;
+const MAX_ITERATIONS: usize = 20;
 
 const PROPERTIES: Properties = Properties {
     name: "bathe",
@@ -63,7 +63,7 @@ impl Bathe {
     ) -> u64 {
         let Self { jacobian, factors, known, correction, .. } = self;
         let scales = &system.scales()[..system.layout().weighted];
-        for corrections in 1..=MOST_CORRECTIONS {
+        for iterations in 1..=MAX_ITERATIONS {
             system.rates(discrete, t, y, correction);
             system.jacobian(discrete, t, y, jacobian);
             factors.of(y.len(), |i, j| f64::from(u8::from(i == j)) - g * jacobian.row(i)[j]);
@@ -75,15 +75,15 @@ impl Bathe {
                 *y += correction;
             }
             let small = |((correction, scale), y): ((&f64, &f64), &f64)| {
-                correction.abs() <= CONVERGED * scale + ROUNDINGS * y.abs()
+                correction.abs() <= CORRECTION_TOLERANCE * scale + ROUNDINGS * y.abs()
             };
             if correction.iter().zip(scales).zip(&*y).all(small) {
                 // A Jacobian counts as one evaluation.
-                return 2 * corrections as u64;
+                return 2 * iterations as u64;
             }
         }
         y.fill(f64::NAN);
-        2 * MOST_CORRECTIONS as u64
+        2 * MAX_ITERATIONS as u64
     }
 }
 

@@ -27,10 +27,10 @@
 //! ```
 //!
 //! Predictor: with r = h/h₋ the point x of the step is the point 1 + r·x of the previous block, so that a(t + x·h) =
-//! Σ_j ℓ_j(1 + r·x)·a₋_j. For r = 1 the integrals of ℓ_j(1 + x) are constants (`AHEAD`). Otherwise the polynomial is
-//! expanded in powers of x about the point 1 (`POWERS`), scaled by powers of r and integrated term by term
-//! (`MONOMIALS`). A failed attempt predicts the shorter attempt that follows, from the same start: its polynomial is
-//! expanded about the point 0. Without history, at the start of a motion or after an event, a = a₀ is predicted.
+//! Σ_j ℓ_j(1 + r·x)·a₋_j. For r = 1 the integrals of ℓ_j(1 + x) are constants (`EXTRAPOLATION`). Otherwise the
+//! polynomial is expanded in powers of x about the point 1 (`POWERS`), scaled by powers of r and integrated term by
+//! term (`MONOMIALS`). A failed attempt predicts the shorter attempt that follows, from the same start: its polynomial
+//! is expanded about the point 0. Without history, at the start of a motion or after an event, a = a₀ is predicted.
 //!
 //! Corrector: a round evaluates the rates at the predicted states of all nodes and integrates them. A round gains two
 //! orders, because positions are integrated twice from accelerations. Three rounds suffice after a prediction by a
@@ -50,10 +50,10 @@ mod nodes;
 
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::snapshot::{Reader, Snapshot};
-use crate::integrator::state::{StepPoint, is_kept};
+use crate::integrator::state::{StepPoint, is_valid};
 use crate::integrator::system::{StateLayout, System};
 use crate::math::{F64x8, Fused, ROW, Real, unroll};
-use nodes::{AHEAD, INTEGRALS, MONOMIALS, NODES, POWERS, TOP, Tables};
+use nodes::{EXTRAPOLATION, INTEGRALS, MONOMIALS, NODES, POWERS, TOP_DEGREE_WEIGHTS, Tables};
 
 const PROPERTIES: Properties = Properties {
     name: "cong8",
@@ -69,18 +69,18 @@ const PROPERTIES: Properties = Properties {
     others: &[],
 };
 /// Number of corrector rounds after a prediction from the previous block.
-const ROUNDS: usize = 3;
+const CORRECTOR_ROUNDS: usize = 3;
 /// Number of corrector rounds without history.
-const FIRST_ROUNDS: usize = 5;
+const CORRECTOR_ROUNDS_WITHOUT_HISTORY: usize = 5;
 /// A step longer than this many times the previous block is not predicted from it.
-const FARTHEST: f64 = 2.5;
+const MAX_LENGTH_RATIO: f64 = 2.5;
 /// Lengths of steps whose ratio differs from 1 by less than this are equal.
 const ROUNDING: f64 = 1e-9;
 /// Factors of the change of the end's rates after the last round in the error of a velocity and of a position. The
 /// remaining correction grows with a high power of the time in the step, and another round would reduce it further.
-const LATE: [f64; 2] = [1.0 / 32.0, 1.0 / 288.0];
+const CORRECTION_FACTORS: [f64; 2] = [1.0 / 32.0, 1.0 / 288.0];
 /// Factor of the accelerations' part of degree eight in the error; the part is small unless they have a discontinuity.
-const BENT: f64 = 0.02;
+const TOP_DEGREE_FACTOR: f64 = 0.02;
 
 /// History of the predictor: the rates in the previous block, or in an attempt that failed.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +109,7 @@ impl BlockHistory {
     /// the step cannot be predicted.
     fn origin(&self, t: f64, h: f64) -> Option<usize> {
         let length = self.end - self.begin;
-        if length <= 0.0 || h > FARTHEST * length {
+        if length <= 0.0 || h > MAX_LENGTH_RATIO * length {
             None
         } else if t == self.end {
             Some(1)
@@ -163,7 +163,7 @@ impl States<'_> {
     /// Integrates all velocities and first-order states: `weights(i)` are the coefficients by which the columns of
     /// `tables` are multiplied for state `i`.
     #[inline(always)]
-    fn follow(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, F64x8)) {
+    fn integrate(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, F64x8)) {
         let StateLayout { positions: p, states, .. } = self.layout;
         for i in p..states {
             let (first, others) = weights(i);
@@ -176,22 +176,22 @@ impl States<'_> {
                 sums[1][j % 2] = tables[1][1 + j].multiply_add(weight, sums[1][j % 2]);
             });
             let [once, twice] = sums.map(|[even, odd]| even + odd);
-            self.place(i, once, twice);
+            self.set_state(i, once, twice);
         }
     }
 
     /// Integrates rates that keep their values at the start.
-    fn go_on(&mut self, rates: &[f64]) {
+    fn integrate_constant(&mut self, rates: &[f64]) {
         let StateLayout { positions: p, states, .. } = self.layout;
         let [once, twice] = [MONOMIALS[0][0], MONOMIALS[1][0]];
         for (i, rate) in rates.iter().enumerate().take(states).skip(p) {
-            self.place(i, once * *rate, twice * *rate);
+            self.set_state(i, once * *rate, twice * *rate);
         }
     }
 
     /// Sets velocity (or first-order state) `i` and its position from the integrals `once` and `twice` of its rate.
     #[inline(always)]
-    fn place(&mut self, i: usize, once: F64x8, twice: F64x8) {
+    fn set_state(&mut self, i: usize, once: F64x8, twice: F64x8) {
         let Self { start, h, y, layout: StateLayout { positions: p, .. }, .. } = self;
         y[i] = once.multiply_add(*h, F64x8::constant(start[i]));
         if i < 2 * *p {
@@ -227,23 +227,23 @@ impl<D: Copy> Method<D> for Cong8 {
         let rounds = if let Some(origin) = history.origin(start.t, h) {
             let ratio = h / (history.end - history.begin);
             if origin == 1 && (ratio - 1.0).abs() < ROUNDING {
-                at_nodes.follow(&AHEAD, |i| (history.start[i], history.nodes[i]));
+                at_nodes.integrate(&EXTRAPOLATION, |i| (history.start[i], history.nodes[i]));
             } else {
                 let mut powers = [ratio; ROW];
                 unroll!(true, n in 1..ROW, ROW => {
                     powers[n] = powers[n - 1] * ratio;
                 });
                 let powers = F64x8::of(powers);
-                at_nodes.follow(&MONOMIALS, |i| history.coefficients(origin, powers, i));
+                at_nodes.integrate(&MONOMIALS, |i| history.coefficients(origin, powers, i));
             }
-            ROUNDS
+            CORRECTOR_ROUNDS
         } else {
-            at_nodes.go_on(&start.rates);
-            FIRST_ROUNDS
+            at_nodes.integrate_constant(&start.rates);
+            CORRECTOR_ROUNDS_WITHOUT_HISTORY
         };
         for _ in 0..rounds {
             system.rates_in_row(&start.discrete, &t, at_nodes.y, nodes);
-            at_nodes.follow(&INTEGRALS, |i| (start.rates[i], nodes[i]));
+            at_nodes.integrate(&INTEGRALS, |i| (start.rates[i], nodes[i]));
         }
         for (y, at_nodes) in end.y.iter_mut().zip(&*at_nodes.y) {
             *y = at_nodes.last();
@@ -252,11 +252,12 @@ impl<D: Copy> Method<D> for Cong8 {
         system.rates_and_event_functions(&start.discrete, start.t + h, y, rates, &mut attempt.events);
         for i in p..states {
             let (first, at) = (start.rates[i], nodes[i]);
-            let late = (rates[i] - at.last()).abs();
-            let top = BENT * TOP.0.multiply_add(first, (TOP.1 * at).sum()).abs();
-            attempt.error[i] = h * (late * LATE[0] + top);
+            let last_correction = (rates[i] - at.last()).abs();
+            let top =
+                TOP_DEGREE_FACTOR * TOP_DEGREE_WEIGHTS.0.multiply_add(first, (TOP_DEGREE_WEIGHTS.1 * at).sum()).abs();
+            attempt.error[i] = h * (last_correction * CORRECTION_FACTORS[0] + top);
             if i < 2 * p {
-                attempt.error[i - p] = h * h * (late * LATE[1] + 0.3 * top);
+                attempt.error[i - p] = h * h * (last_correction * CORRECTION_FACTORS[1] + 0.3 * top);
             }
         }
         attempt.unseen.fill(0.0);
@@ -294,6 +295,6 @@ impl<D: Copy> Method<D> for Cong8 {
                 *row = F64x8::of(reader.reals()?);
             }
         }
-        (*begin <= *end && start.iter().all(|rate| is_kept(*rate))).then_some(())
+        (*begin <= *end && start.iter().all(|rate| is_valid(*rate))).then_some(())
     }
 }

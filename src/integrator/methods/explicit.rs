@@ -9,9 +9,9 @@ use crate::integrator::tableau::{MAX_STAGES, Tableau};
 use crate::math::Fused;
 use wide::f64x4;
 
-/// Number of states that are summed together: at least `FOUR`, where possible `EIGHT`, which halves the overhead of the
-/// loop over the stages.
+/// Smallest number of states that are summed together.
 const FOUR: usize = 4;
+/// Number of states that are summed together where possible: it halves the overhead of the loop over the stages.
 const EIGHT: usize = 2 * FOUR;
 /// Initial value of the error sums.
 static ZEROS: [f64; MAX_STATES] = [0.0; MAX_STATES];
@@ -32,7 +32,7 @@ pub struct Explicit {
 impl Explicit {
     /// The method of `tableau` for `states` states.
     pub fn new(tableau: &'static Tableau, states: usize) -> Self {
-        let weighted = tableau.first_weighed_stage();
+        let weighted = tableau.first_weighted_stage();
         let properties = Properties {
             name: tableau.name,
             order: tableau.order,

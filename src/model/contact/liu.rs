@@ -1,8 +1,8 @@
 //! Liu: conformal cylinders, F = K·δ·√(δ/(2(c + δ))), K = (π/2)·E*·L, E* = 1/(σ_b + σ_j), σ = (1 − ν²)/E.
 //!
-//! C. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with clearances, Mech. Mach.
-//! Theory 42 (2007) 183. L is the axial length, `joint.J.width`; `joint.J.stiffness` and `joint.J.exponent` are not
-//! used.
+//! C. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with clearances, Mech.
+//! Mach. Theory 42 (2007) 183. L is the axial length, `joint.J.width`; `joint.J.stiffness` and `joint.J.exponent` are
+//! not used.
 //!
 //! Limits: K/√(2c)·δ^(3/2) for δ ≪ c, and K·δ/√2 for δ ≫ c. Fitted to cylinders of equal materials.
 

@@ -32,7 +32,7 @@ pub trait Law: Copy {
         [None; 2]
     }
     /// [m] The largest deflection of bristles at rest, at which they slip; `None` without bristles.
-    fn greatest_deflection(&self) -> Option<f64> {
+    fn max_deflection(&self) -> Option<f64> {
         None
     }
 }

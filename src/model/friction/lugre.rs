@@ -36,7 +36,7 @@ impl Law for Lugre {
         FrictionResponse { ratio: z * self.sigma0 + fading * self.sigma1 * rate + v * self.sigma2, bristle_rate: rate }
     }
 
-    fn greatest_deflection(&self) -> Option<f64> {
+    fn max_deflection(&self) -> Option<f64> {
         Some(self.steady.still / self.sigma0)
     }
 }

@@ -38,7 +38,7 @@ macro_rules! friction {
             /// The response of any law, out of line, so that the common laws do not pay for the others.
             #[cold]
             #[inline(never)]
-            fn rub_rarely<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
+            fn rare_response<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
                 match self {
                     Self::None => FrictionResponse::default(),
                     $(Self::$law(law) => law.response(v, z),)+
@@ -54,10 +54,10 @@ macro_rules! friction {
             }
 
             /// [m] The largest deflection of bristles at rest, at which they slip; `None` without bristles.
-            pub fn greatest_deflection(&self) -> Option<f64> {
+            pub fn max_deflection(&self) -> Option<f64> {
                 match self {
                     Self::None => None,
-                    $(Self::$law(law) => law.greatest_deflection(),)+
+                    $(Self::$law(law) => law.max_deflection(),)+
                 }
             }
         }
@@ -72,7 +72,7 @@ impl Friction {
     pub fn response<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
         match self {
             Self::Ambrosio(law) => law.response(v, z),
-            _ => self.rub_rarely(v, z),
+            _ => self.rare_response(v, z),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::beam;
 use super::counts::Counts;
 use crate::math::Vec2;
 use crate::model::body::Body;
-use crate::scene::modal::{MOST_MODES, ModalTable};
+use crate::scene::modal::{MAX_MODES, ModalTable};
 use crate::scene::{Flexible, Scene};
 
 /// The modes of a flexible rod that the scene selects.
@@ -40,7 +40,7 @@ impl Rod {
     pub fn new(scene: &Scene) -> Option<Self> {
         let Flexible { bending_modes, axial_modes, damping_ratio, geometric_stiffness, table, .. } =
             &scene.rod.flexible;
-        let count = |modes: i32| usize::try_from(modes).unwrap_or(0).min(MOST_MODES);
+        let count = |modes: i32| usize::try_from(modes).unwrap_or(0).min(MAX_MODES);
         let (bending, axial) = (count(*bending_modes), count(*axial_modes));
         if bending + axial == 0 {
             return None;

@@ -12,7 +12,7 @@
 //! | symbol | |
 //! |---|---|
 //! | x in 0..l | a point of the undeformed rod, of the mass dm |
-//! | q_i, φ_i(x) | amplitude [m] and shape of a bending mode; φ_i is 0 at both ends, which puts the frame on the chord |
+//! | q_i, φ_i(x) | amplitude [m] and shape of a bending mode, 0 at both ends: the frame lies on the chord |
 //! | p_j, ψ_j(x) | amplitude [m] and shape of an axial mode, 0 at the big end |
 //! | Γ_ij(x) = ½·∫₀ˣ φ_i'·φ_j' | foreshortening: what bending takes from the length before x |
 //! | η = (q, p) | the modal coordinates |

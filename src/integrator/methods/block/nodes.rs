@@ -74,7 +74,7 @@ const fn integrals(start: f64) -> Tables {
 pub static INTEGRALS: Tables = integrals(0.0);
 
 /// Integrals of the polynomial of the step before over a step of the same length.
-pub static AHEAD: Tables = integrals(1.0);
+pub static EXTRAPOLATION: Tables = integrals(1.0);
 
 /// Coefficients of x¹ … x⁸ of the polynomials ℓ_j about the step's start (0) and about its end (1), stored by columns
 /// j.
@@ -134,7 +134,7 @@ pub static MONOMIALS: Tables = {
 
 /// Weights that give the coefficient of degree eight of the accelerations in Legendre polynomials: that of the start,
 /// and those of the nodes.
-pub static TOP: (f64, F64x8) = {
+pub static TOP_DEGREE_WEIGHTS: (f64, F64x8) = {
     let mut all = [0.0; POINTS];
     let mut j = 0;
     while j < POINTS {
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn polynomials_up_to_degree_eight_are_integrated_exactly() {
         // Sums about the next step are of terms up to a million.
-        for (tables, start, bound) in [(&INTEGRALS, 0.0, 8e-16), (&AHEAD, 1.0, 1e-9)] {
+        for (tables, start, bound) in [(&INTEGRALS, 0.0, 8e-16), (&EXTRAPOLATION, 1.0, 1e-9)] {
             for degree in 0..=8 {
                 let [once, twice] = [0, 1].map(|times| sums(&tables[times], degree, point));
                 // From the start, of x^degree: ∫ = (x^(n+1) − start^(n+1))/(n+1), and so on.
@@ -217,8 +217,8 @@ mod tests {
     fn the_part_of_degree_eight_is_that_of_legendre() {
         // x⁸ on 0 to 1 has 1/12870 of the polynomial, and what is lower has none.
         for degree in 0..=8 {
-            let at_start = if degree == 0 { TOP.0 } else { 0.0 };
-            let found = at_start + (TOP.1 * F64x8::of(NODES.map(|c| c.powi(degree)))).sum();
+            let at_start = if degree == 0 { TOP_DEGREE_WEIGHTS.0 } else { 0.0 };
+            let found = at_start + (TOP_DEGREE_WEIGHTS.1 * F64x8::of(NODES.map(|c| c.powi(degree)))).sum();
             let wanted = if degree == 8 { 1.0 / 12_870.0 } else { 0.0 };
             assert!((found - wanted).abs() < 1e-14, "degree {degree}: {found:e}");
         }

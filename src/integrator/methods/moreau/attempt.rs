@@ -4,7 +4,7 @@ use super::closed_contacts::ClosedContacts;
 use super::midpoint::{Midpoint, State};
 use crate::integrator::complementarity::NORMAL;
 use crate::integrator::error::IntegrationError;
-use crate::integrator::state::{StepPoint, lost_state};
+use crate::integrator::state::{StepPoint, first_invalid};
 use crate::integrator::unilateral::{Impulses, Unilateral};
 
 /// An attempted step.
@@ -32,7 +32,7 @@ pub fn attempt<D: Copy>(
     } else {
         through_contacts(system, &midpoint, closed, &free)?
     };
-    match lost_state(&made.y) {
+    match first_invalid(&made.y) {
         None => Ok(made),
         Some(component) => Err(IntegrationError::NotFinite { time: start.t, component }),
     }
@@ -66,6 +66,6 @@ fn through_contacts<D: Copy>(
         made.impulses.forces[contact] = impulse.map(|impulse| impulse / midpoint.h);
         made.impulses.closed[contact] = impulse[NORMAL] > 0.0;
     }
-    closed.press_back(system, midpoint, &impulses, &mut made.y);
+    closed.correct_penetration(system, midpoint, &impulses, &mut made.y);
     Ok(made)
 }

@@ -6,10 +6,10 @@ use crate::integrator::unilateral::{ContactLaw, MAX_RIGID_CONTACT_STATES, Unilat
 
 /// Share of the excess penetration of a lasting contact that one step corrects. If all of it were corrected at once,
 /// contacts of the same body would keep opening each other.
-const SHARE: f64 = 0.1;
+const CORRECTED_SHARE: f64 = 0.1;
 /// [share of the event scale] A contact whose gap is below this counts as touching, so that rounding neither opens nor
 /// closes it.
-const SKIN: f64 = 1e-6;
+const TOUCHING_GAP: f64 = 1e-6;
 
 /// The closed contacts of a step. All lists have the order in which their impulses are solved for.
 pub struct ClosedContacts {
@@ -20,11 +20,11 @@ pub struct ClosedContacts {
     response: [[State; 2]; MAX_CONTACTS],
     restitution: [f64; MAX_CONTACTS],
     /// [m/s] (h/2)·Ẇᵀu: relative velocity γ at the step's end less that at its middle, for the same u.
-    turning: Pairs,
+    transport: Pairs,
     /// [m/s] γ_A: relative velocity at the step's start.
-    arriving: Pairs,
+    approach: Pairs,
     /// [m/s] γ at the step's end without impulses.
-    leaving: Pairs,
+    departure: Pairs,
 }
 
 impl ClosedContacts {
@@ -36,17 +36,17 @@ impl ClosedContacts {
             touching: ActiveContacts::default(),
             response: [[[0.0; MAX_RIGID_CONTACT_STATES]; 2]; MAX_CONTACTS],
             restitution: [0.0; MAX_CONTACTS],
-            turning: Pairs::default(),
-            arriving: Pairs::default(),
-            leaving: Pairs::default(),
+            transport: Pairs::default(),
+            approach: Pairs::default(),
+            departure: Pairs::default(),
         };
         let start = system.contacts(midpoint.start.t, &midpoint.start.y);
-        let skin = SKIN * system.event_scale();
+        let touching_gap = TOUCHING_GAP * system.event_scale();
         for (contact, (gap, velocity)) in start.gap.iter().zip(&start.velocity).enumerate() {
-            if gap + 0.5 * midpoint.h * velocity[NORMAL] <= skin {
+            if gap + 0.5 * midpoint.h * velocity[NORMAL] <= touching_gap {
                 let slot = closed.count();
                 closed.contacts[slot] = contact;
-                closed.arriving[slot] = *velocity;
+                closed.approach[slot] = *velocity;
                 closed.touching.count += 1;
             }
         }
@@ -71,7 +71,7 @@ impl ClosedContacts {
         for (slot, &contact) in self.contacts.iter().enumerate().take(count) {
             let ContactLaw { restitution, friction } = laws[contact];
             self.restitution[slot] = restitution;
-            self.turning[slot] = [NORMAL, TANGENTIAL].map(|part| there[contact][part] - here[contact][part]);
+            self.transport[slot] = [NORMAL, TANGENTIAL].map(|part| there[contact][part] - here[contact][part]);
             self.touching.friction[slot] = friction;
             for part in self.parts(slot) {
                 let mut response = [0.0; MAX_RIGID_CONTACT_STATES];
@@ -109,9 +109,9 @@ impl ClosedContacts {
         let without = velocities(system, midpoint, free);
         for slot in 0..self.count() {
             let velocity = without[self.contacts[slot]];
-            let [normal, tangential] = [NORMAL, TANGENTIAL].map(|part| velocity[part] + self.turning[slot][part]);
-            self.leaving[slot] = [normal, tangential];
-            self.touching.bias[slot] = [normal + self.restitution[slot] * self.arriving[slot][NORMAL], tangential];
+            let [normal, tangential] = [NORMAL, TANGENTIAL].map(|part| velocity[part] + self.transport[slot][part]);
+            self.departure[slot] = [normal, tangential];
+            self.touching.bias[slot] = [normal + self.restitution[slot] * self.approach[slot][NORMAL], tangential];
         }
     }
 
@@ -121,7 +121,7 @@ impl ClosedContacts {
     pub fn solve(&self, before: &Pairs) -> Option<Pairs> {
         self.touching.impulses(before).or_else(|| {
             let mut plastic = self.touching.clone();
-            plastic.bias = self.leaving;
+            plastic.bias = self.departure;
             plastic.impulses(before)
         })
     }
@@ -148,7 +148,7 @@ impl ClosedContacts {
 
     /// Corrects part of the excess penetration of lasting contacts at the end of the step, `y`. A jam, in which no
     /// correction exists, is left as it is.
-    pub fn press_back<D: Copy>(
+    pub fn correct_penetration<D: Copy>(
         &self,
         system: &dyn Unilateral<Discrete = D>,
         midpoint: &Midpoint<'_, D>,
@@ -156,21 +156,21 @@ impl ClosedContacts {
         y: &mut State,
     ) {
         let gaps = system.contacts(midpoint.start.t + midpoint.h, midpoint.of(y)).gap;
-        let mut places = self.touching.clone();
-        places.friction = [0.0; MAX_CONTACTS];
-        let mut deep = false;
-        for slot in 0..places.count {
-            let fastest = self.arriving[slot][NORMAL].abs().max(self.leaving[slot][NORMAL].abs());
-            let spare = gaps[self.contacts[slot]] + SKIN * system.event_scale() + midpoint.h * fastest;
+        let mut corrections = self.touching.clone();
+        corrections.friction = [0.0; MAX_CONTACTS];
+        let mut any_corrected = false;
+        for slot in 0..corrections.count {
+            let fastest = self.approach[slot][NORMAL].abs().max(self.departure[slot][NORMAL].abs());
+            let excess_gap = gaps[self.contacts[slot]] + TOUCHING_GAP * system.event_scale() + midpoint.h * fastest;
             // Contacts that separate are not corrected, and no contact is pushed deeper than its gap allows.
-            let lifted = spare < 0.0 && impulses[slot][NORMAL] > 0.0;
-            places.bias[slot] = [if lifted { SHARE * spare } else { spare.max(0.0) }, 0.0];
-            deep |= lifted;
+            let corrected = excess_gap < 0.0 && impulses[slot][NORMAL] > 0.0;
+            corrections.bias[slot] = [if corrected { CORRECTED_SHARE * excess_gap } else { excess_gap.max(0.0) }, 0.0];
+            any_corrected |= corrected;
         }
-        let Some(shifts) = deep.then(|| places.impulses(impulses)).flatten() else {
+        let Some(shifts) = any_corrected.then(|| corrections.impulses(impulses)).flatten() else {
             return;
         };
-        for (response, shift) in self.response.iter().zip(shifts).take(places.count) {
+        for (response, shift) in self.response.iter().zip(shifts).take(corrections.count) {
             for i in 0..midpoint.positions {
                 y[i] += response[NORMAL][midpoint.positions + i] * shift[NORMAL];
             }

@@ -129,11 +129,11 @@ impl<D: Copy> Moreau<D> {
         done: impl Fn(&SolverState<Impulses>) -> bool,
     ) -> Result<(), IntegrationError> {
         let before = self.state.statistics.evaluations;
-        let most = self.settings.effort.over(t - self.state.front().t);
+        let work_limit = self.settings.effort.over(t - self.state.front().t);
         while self.state.front().t < t && !done(&self.state) {
             let time = self.state.front().t;
             let evaluations = self.state.statistics.evaluations - before;
-            if evaluations > most {
+            if evaluations > work_limit {
                 return Err(IntegrationError::TooMuchWork { time, evaluations });
             }
             // The step is the difference of two representable times, so that rounding does not accumulate.
