@@ -1,45 +1,44 @@
-//! The state anywhere in an accepted step.
+//! Dense output: the state at any time in an accepted step.
 //!
-//! Positions follow the quintic through position, velocity and acceleration at both ends, which
-//! costs nothing. Where that is not accurate enough for the tolerance, three accelerations inside
-//! the step, at its quarters, correct it to degree eight:
-//! q(s) = quintic(s) + (s·(1 − s))³·(e0 + e1·x + e2·x²), x = s − ½ (Birkhoff interpolation; the
-//! coefficients follow from q̈ at x = −¼, 0, ¼). Velocities are the derivative of positions.
+//! Positions follow the quintic through position, velocity and acceleration at both ends, which needs no evaluation.
+//! Where the quintic is not accurate enough for the tolerance, three accelerations inside the step, at its quarters,
+//! correct it to degree eight: q(s) = quintic(s) + (s·(1 − s))³·(e0 + e1·x + e2·x²), x = s − ½ (Birkhoff interpolation;
+//! the coefficients follow from q̈ at x = −¼, 0, ¼). Velocities are the derivative of positions.
 //!
-//! First-order states follow the cubic through value and rate at both ends, always corrected to degree
-//! five by their rates at the same quarters: z(s) = cubic(s) + (s·(1 − s))²·(e0 + e1·x).
+//! First-order states follow the cubic through value and rate at both ends, always corrected to degree five by the
+//! rates at the quarters: z(s) = cubic(s) + (s·(1 − s))²·(e0 + e1·x).
 
 use super::system::{Ode, StateLayout};
 
-/// A quintic's error this many times a step's tolerance goes unseen.
+/// The quintic is accepted if its error is below this many times the tolerance of a step.
 const SLACK: f64 = 30.0;
 
-/// An accepted step from `t` over `h`: the states and rates at its ends.
+/// An accepted step from `t` over `h`: the states and rates at both ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
-    /// [s] Where it starts.
+    /// [s] Start of the step.
     pub t: f64,
-    /// [s] How long it is.
+    /// [s] Length of the step.
     pub h: f64,
-    /// State at its start.
+    /// State at the start.
     pub y0: &'a [f64],
-    /// Rates at its start.
+    /// Rates at the start.
     pub f0: &'a [f64],
-    /// State at its end.
+    /// State at the end.
     pub y1: &'a [f64],
-    /// Rates at its end.
+    /// Rates at the end.
     pub f1: &'a [f64],
-    /// How many states there are.
+    /// Number and kinds of the states.
     pub layout: StateLayout,
 }
 
-/// What is added to the curves through the ends of a step where they are not accurate enough.
+/// Correction of the interpolants of a step where they are not accurate enough.
 #[derive(Clone, Debug)]
 pub struct Correction {
     /// e0, e1, e2 of each position and first-order state.
     coefficients: Vec<[f64; 3]>,
     kind: Kind,
-    /// Half-way, and after a quarter and three quarters of the step.
+    /// Defects at half, a quarter and three quarters of the step.
     defects: [Vec<f64>; 3],
     y: Vec<f64>,
     rates: Vec<f64>,
@@ -53,7 +52,7 @@ enum Kind {
 }
 
 impl Correction {
-    /// Of no step yet, for so many states.
+    /// A correction of no step yet, with memory for `states` states.
     pub fn new(states: usize) -> Self {
         let zeros = || vec![0.0; states];
         Self {
@@ -65,19 +64,19 @@ impl Correction {
         }
     }
 
-    /// Forgets it: there is another step.
+    /// Discards the correction, because there is a new step.
     #[inline]
     pub fn forget(&mut self) {
         self.kind = Kind::Unknown;
     }
 
-    /// e0, e1, e2 of each position and first-order state; `None` where no correction is needed.
+    /// e0, e1, e2 of each position and first-order state; `None` if no correction is needed.
     pub fn coefficients(&self) -> Option<&[[f64; 3]]> {
         (self.kind == Kind::Needed).then_some(&self.coefficients[..])
     }
 
-    /// Looks at the acceleration half-way through the `step` and, where the quintic misses it by too much for the
-    /// tolerance, makes the correction; once for a step.
+    /// Computes the correction of the `step` if the acceleration of the quintic at half the step misses that of the
+    /// system by too much for the `tolerance`. Later calls for the same step do nothing.
     pub fn find<S: Ode + ?Sized>(&mut self, step: &Step<'_>, system: &S, discrete: &S::Discrete, tolerance: f64) {
         if self.kind == Kind::Unknown {
             self.kind = if self.is_made(step, system, discrete, tolerance) { Kind::Needed } else { Kind::NotNeeded };
@@ -100,7 +99,7 @@ impl Correction {
         };
         miss(0.5, None, half);
         let scales = system.scales();
-        // Largest error of a quintic with this defect half-way: position d/24, velocity d/(10·h).
+        // Largest error of a quintic with defect d at half the step: d/24 in position, d/(10·h) in velocity.
         let good = (0..p).all(|i| {
             let d = half[i].abs();
             d / 24.0 <= SLACK * tolerance * scales[i] && d / (10.0 * step.h) <= SLACK * tolerance * scales[p + i]
@@ -128,13 +127,13 @@ impl Correction {
         for i in 2 * p..states {
             e[i][0] = 8.0 / 3.0 * (before[i] - after[i]);
         }
-        // Where a step without an error estimate has gone astray, a correction may not be finite.
+        // A step without an error estimate may have diverged; its correction is then not finite and not used.
         e.iter().flatten().all(|e| e.is_finite())
     }
 }
 
 impl Step<'_> {
-    /// Writes the state at the share `s` of the step, 0 to 1, with the coefficients of a [`Correction`].
+    /// Writes the state at the share `s` of the step, from 0 to 1, with the coefficients of a [`Correction`].
     pub fn state(&self, s: f64, correction: Option<&[[f64; 3]]>, y: &mut [f64]) {
         let StateLayout { positions: p, states, .. } = self.layout;
         for i in 0..p {
@@ -160,14 +159,14 @@ impl Step<'_> {
         }
     }
 
-    /// Position, velocity and h²·acceleration of the quintic.
+    /// Position, velocity and h²·acceleration of the quintic of position `i` at the share `s`.
     #[inline]
     fn quintic(&self, i: usize, s: f64) -> (f64, f64, f64) {
         let (h, p) = (self.h, self.layout.positions);
         let q0 = self.y0[i];
         let (v0, v1) = (h * self.f0[i], h * self.f1[i]);
         let (a0, a1) = (h * h * self.f0[p + i], h * h * self.f1[p + i]);
-        // What is left at the end of the Taylor polynomial of the start.
+        // Differences at the end between the states and the Taylor polynomial of the start.
         let dq = self.y1[i] - q0 - v0 - 0.5 * a0;
         let dv = v1 - v0 - a0;
         let da = a1 - a0;
@@ -180,7 +179,7 @@ impl Step<'_> {
         (q, v / h, a)
     }
 
-    /// A first-order state by the cubic, and h·its rate.
+    /// First-order state `i` of the cubic and h times its rate, at the share `s`.
     #[inline]
     fn cubic(&self, i: usize, s: f64) -> (f64, f64) {
         let z0 = self.y0[i];
@@ -190,8 +189,9 @@ impl Step<'_> {
         (z0 + s * (r0 + s * (c2 + s * c3)), r0 + s * (2.0 * c2 + s * 3.0 * c3))
     }
 
-    /// h²·(acceleration of the system − acceleration of the quintic) at the share `s`, and h·(rate − rate
-    /// of the cubic) of first-order states; the system's are those of the corrected state.
+    /// Writes the defects at the share `s`, with the rates of the system in the interpolated state: h²·(acceleration of
+    /// the system − acceleration of the quintic) of positions, h·(rate of the system − rate of the cubic) of
+    /// first-order states.
     fn write_defect(&self, s: f64, rates: &[f64], defect: &mut [f64]) {
         let StateLayout { positions: p, states, .. } = self.layout;
         for i in 0..p {

@@ -1,31 +1,34 @@
-//! Where in a step that failed the rates have a derivative discontinuity (their slope jumps).
+//! Where in a rejected step the rates have a derivative discontinuity (their slope jumps).
 //!
-//! Past a discontinuity the stages of a step follow another branch of the rates than those before it. The error estimate notices
-//! and the step fails, but it does not tell where: to halve steps towards a discontinuity takes ten attempts. The functions that
-//! have their zeros there tell: one attempt then ends at the discontinuity, and the next begins behind it. Discontinuities keep company: a
-//! friction law has one at every corner, and sliding that turns round passes them all. So after a step that was cut at
-//! one, the next is looked for before anything has failed.
+//! Stages of a step beyond a discontinuity follow another branch of the rates than stages before it. The error estimate
+//! notices this and the step is rejected, but the estimate does not locate the discontinuity, and halving the step
+//! towards it takes about ten attempts. The system provides functions whose zeros are the discontinuities. With them,
+//! one attempt ends at the discontinuity and the next step starts behind it. Discontinuities often follow each other: a
+//! friction law has one at every corner, and a reversal of the sliding direction passes all of them. Hence after a step
+//! that was cut at a discontinuity, the next discontinuity is searched for before an attempt fails.
 //!
-//! Nothing but the length of a step follows from this. The rates keep their branches to themselves.
+//! Only the length of steps depends on this search. The rates themselves choose their branches.
 
 use super::state::StepPoint;
 use super::system::{Discontinuities, EventFunctions, MAX_STATES, System};
 
-/// [share of the step] How far the start is followed along its rates to see how the functions change.
-const AHEAD: f64 = 1e-6;
-/// [share of the step] Where a shorter step may end: a discontinuity before that is where this one starts, and one after that
-/// hardly weighs in its error.
-const WITHIN: std::ops::Range<f64> = 1e-5..0.96;
-/// A discontinuity far from the start is located on a curve that is bent by what follows it: the step ends before it, and the
-/// next one sees it from near.
-const FAR: f64 = 0.1;
-const SHORT_OF: f64 = 0.95;
-/// A near discontinuity, or an event, is passed by this factor of its share: a step that ends just before it gains nothing.
+/// [share of the step] Distance over which the functions are followed along the rates to find their slope at the start.
+const SLOPE_SHARE: f64 = 1e-6;
+/// [share of the step] Range in which a shorter step may end. A discontinuity before it belongs to the start of the
+/// step; one after it hardly contributes to the error.
+const CUT_RANGE: std::ops::Range<f64> = 1e-5..0.96;
+/// A discontinuity beyond this share is located on a curve that the branch behind it has bent. The step ends before it,
+/// and the next step locates it from nearby.
+const DISTANT: f64 = 0.1;
+/// A distant discontinuity is approached to this factor of its share.
+const APPROACH: f64 = 0.95;
+/// A near discontinuity is passed by this factor of its share, because a step that ends just before it gains nothing.
 const PAST_DISCONTINUITY: f64 = 1.01;
+/// An event is passed by this factor of its share, for the same reason.
 const PAST_EVENT: f64 = 1.001;
 
-/// The share of an attempted step of `h` from `start`, where the event functions are `events`, to `end` at which a
-/// shorter one should end: at the first derivative discontinuity in it, or the first event.
+/// The share of a rejected step at which a shorter step should end: the first derivative discontinuity or event in it.
+/// The attempt went from `start`, where the event functions are `events`, over `h` to the state `end`.
 pub fn first<D: Copy>(
     system: &dyn System<Discrete = D>,
     start: &StepPoint<D>,
@@ -42,9 +45,9 @@ pub fn first<D: Copy>(
     earliest([event, discontinuity].into_iter().flatten())
 }
 
-/// The share at which a step of `h` from `start` that nobody has attempted should end: at the first derivative
-/// discontinuity, as far as the accelerations go on as they did since `earlier`.
-pub fn foreseen<D: Copy>(
+/// The share at which a step of `h` from `start` should end before it has been attempted: the first derivative
+/// discontinuity, if the accelerations continue to change as they have since `earlier`.
+pub fn predicted<D: Copy>(
     system: &dyn System<Discrete = D>,
     earlier: &StepPoint<D>,
     start: &StepPoint<D>,
@@ -73,30 +76,30 @@ fn first_discontinuity<D: Copy>(
     if before.values().iter().zip(after.values()).all(|(now, then)| now * then >= 0.0) {
         return None;
     }
-    let mut soon = [0.0; MAX_STATES];
-    let soon = &mut soon[..y.len()];
-    for ((soon, y), rate) in soon.iter_mut().zip(y).zip(rates) {
-        *soon = y + AHEAD * h * rate;
+    let mut ahead_state = [0.0; MAX_STATES];
+    let ahead_state = &mut ahead_state[..y.len()];
+    for ((ahead_state, y), rate) in ahead_state.iter_mut().zip(y).zip(rates) {
+        *ahead_state = y + SLOPE_SHARE * h * rate;
     }
     let mut ahead = Discontinuities::NONE;
-    system.discontinuities(discrete, t + AHEAD * h, soon, &mut ahead);
+    system.discontinuities(discrete, t + SLOPE_SHARE * h, ahead_state, &mut ahead);
     let all = before.values().iter().zip(ahead.values()).zip(after.values());
-    let shares = all.filter_map(|((now, soon), then)| crossing(*now, (soon - now) / AHEAD, *then));
-    earliest(shares.map(|share| share * if share > FAR { SHORT_OF } else { PAST_DISCONTINUITY }))
+    let shares = all.filter_map(|((now, soon), then)| crossing(*now, (soon - now) / SLOPE_SHARE, *then));
+    earliest(shares.map(|share| share * if share > DISTANT { APPROACH } else { PAST_DISCONTINUITY }))
 }
 
-/// The least share at which a shorter step may end.
+/// The smallest share at which a shorter step may end.
 fn earliest(shares: impl Iterator<Item = f64>) -> Option<f64> {
-    shares.filter(|share| WITHIN.contains(share)).min_by(f64::total_cmp)
+    shares.filter(|share| CUT_RANGE.contains(share)).min_by(f64::total_cmp)
 }
 
-/// The share at which the parabola from `value` with `slope` to `end` is zero, if its ends differ in sign.
+/// The zero of the parabola from `value` with `slope` at 0 to `end` at 1; `None` unless its ends differ in sign.
 fn crossing(value: f64, slope: f64, end: f64) -> Option<f64> {
     if value * end >= 0.0 {
         return None;
     }
     let bend = end - value - slope;
-    // The larger root in magnitude, and the other from their product.
+    // The root of larger magnitude, and the other root from their product.
     let root = (slope * slope - 4.0 * bend * value).sqrt();
     let q = -0.5 * (slope + root.copysign(slope));
     [q / bend, value / q].into_iter().find(|share| (0.0..=1.0).contains(share))

@@ -1,59 +1,59 @@
-//! Why the integrator cannot go on.
+//! Errors that stop the integrator.
 
 use super::system::EventFunction;
 use std::fmt;
 
-/// The time reached, and the cause. The state at that time is intact.
+/// The time reached and the cause. The state at that time is intact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum IntegrationError {
-    /// The step no longer moves time.
+    /// The step has become so short that it no longer moves time.
     StepUnderflow {
         /// [s] Time reached.
         time: f64,
-        /// [s] The step asked for.
+        /// [s] Length of the step.
         step: f64,
-        /// The state with the largest error.
+        /// Index of the state with the largest error.
         component: usize,
     },
-    /// The rates at an end of a step are not numbers, or too large to go on with.
+    /// The rates at the start or end of a step are NaN, infinite or too large to continue.
     NotFinite {
         /// [s] Time reached.
         time: f64,
-        /// The first state with such a rate.
+        /// Index of the first such state.
         component: usize,
     },
     /// Events follow each other without time passing.
     EventsAccumulate {
         /// [s] Time reached.
         time: f64,
-        /// The event function that is lowest.
+        /// Index of the smallest event function.
         event: usize,
     },
-    /// The motion has come to where its equations have no meaning.
+    /// The motion has reached a configuration in which its equations are singular.
     DeadEnd {
         /// [s] Time reached.
         time: f64,
-        /// The event function that fell.
+        /// Index of the event function that fell through zero.
         event: usize,
     },
-    /// One advance takes more evaluations of the rates than it may.
+    /// One advance takes more evaluations of the rates than the work limit allows.
     TooMuchWork {
         /// [s] Time reached.
         time: f64,
-        /// How many were made, or may be.
+        /// Number of evaluations made, or allowed.
         evaluations: u64,
     },
-    /// No impulses satisfy the laws of the rigid contacts that are closed.
+    /// No impulses satisfy the contact laws of the closed rigid contacts.
     Complementarity {
         /// [s] Time reached.
         time: f64,
-        /// How many are closed.
+        /// Number of closed contacts.
         contacts: usize,
     },
 }
 
 impl IntegrationError {
-    /// Events without end at `time`: the event function that is lowest stands for all.
+    /// Events that follow each other without end at `time`; the smallest event function is named.
     pub(super) fn events_accumulate(time: f64, functions: &[EventFunction]) -> Self {
         let lowest = |i: &usize, j: &usize| functions[*i].value.total_cmp(&functions[*j].value);
         Self::EventsAccumulate { time, event: (0..functions.len()).min_by(lowest).unwrap_or_default() }
@@ -79,16 +79,16 @@ impl fmt::Display for IntegrationError {
                 write!(f, "a step of {step:.1e} s no longer moves time; component {component} sets the error")
             }
             Self::NotFinite { component, .. } => {
-                write!(f, "the rate of component {component} is not finite, or too large to go on with")
+                write!(f, "the rate of component {component} is not finite, or too large to continue")
             }
             Self::EventsAccumulate { event, .. } => {
                 write!(f, "events accumulate; event function {event} is lowest")
             }
             Self::DeadEnd { event, .. } => {
-                write!(f, "no motion leads beyond the fall of event function {event}")
+                write!(f, "the equations are singular where event function {event} falls through zero")
             }
             Self::TooMuchWork { evaluations, .. } => {
-                write!(f, "{evaluations} evaluations do not reach the communication point")
+                write!(f, "{evaluations} evaluations of the rates do not suffice to reach the communication point")
             }
             Self::Complementarity { contacts, .. } => {
                 write!(f, "no impulses satisfy the laws of {contacts} closed contacts at once")

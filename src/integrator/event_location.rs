@@ -1,8 +1,8 @@
-//! Which event comes first in an accepted step, and where; landing on it, and crossing it.
+//! Event location in an accepted step: which event comes first, and when; the step that ends at it, and its crossing.
 //!
-//! An event function that is positive before the step and negative after it has fallen through zero; one that
-//! is positive at both ends may have dipped below in between, and one that starts from zero upward
-//! may have come back. Its rate tells where to look.
+//! An event function that is positive before the step and negative after it has fallen through zero. One that is
+//! positive at both ends may have dipped below zero in between, and one that rises from zero at the start may have
+//! fallen again. The rate of the event function at both ends tells these cases apart.
 
 use super::dense_output::Step;
 use super::error::IntegrationError;
@@ -11,33 +11,33 @@ use super::state::StepPoint;
 use super::stepper::Stepper;
 use super::system::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, System, Triggered};
 
-/// [share of the step] How well a fall is located on the interpolant.
+/// [share of the step] Resolution of the time of a fall on the interpolant.
 const RESOLUTION: f64 = 1e-13;
-/// Most events without time passing.
-pub const STANDSTILL: usize = 64;
-/// Most times that a landing is repeated to bring the event function closer to zero.
-const LANDINGS: usize = 3;
+/// Maximum number of events without time passing.
+pub const MAX_EVENTS_AT_ONE_TIME: usize = 64;
+/// Maximum number of attempts at a step that ends at an event; each brings the event function closer to zero.
+const MAX_LANDINGS: usize = 3;
 /// Share of an impact's duration for the first step into it.
-const ONSET: f64 = 0.03;
-/// An event function this share of a tolerable error away from zero has been landed on.
-const LANDED: f64 = 0.1;
+const FIRST_IMPACT_STEP: f64 = 0.03;
+/// A step ends at an event if the event function is within this share of a tolerable error of zero.
+const LANDING_TOLERANCE: f64 = 0.1;
 
-/// Handles the event functions that are at or below zero and falling where the next step starts.
+/// Crosses the events whose functions are at or below zero and falling where the next step starts.
 ///
 /// # Errors
-/// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if there is no end of them.
+/// `DeadEnd` if one of them is a dead end, `EventsAccumulate` if [`MAX_EVENTS_AT_ONE_TIME`] events do not settle it.
 pub fn settle<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) -> Result<(), IntegrationError> {
     let count = system.event_count();
     if count == 0 {
         return Ok(());
     }
-    let near = LANDED * system.event_scale();
+    let near = LANDING_TOLERANCE * system.event_scale();
     let events = &stepper.events;
     let ended = |i: &usize| events[*i].value <= near && events[*i].rate < 0.0 && system.is_dead_end(*i);
     if let Some(event) = (0..count).find(ended) {
         return Err(IntegrationError::DeadEnd { time: stepper.state.front().t, event });
     }
-    for _ in 0..STANDSTILL {
+    for _ in 0..MAX_EVENTS_AT_ONE_TIME {
         let Some(event) = (0..count).find(|&i| has_fallen(&stepper.events[i])) else {
             return Ok(());
         };
@@ -46,7 +46,7 @@ pub fn settle<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = 
     Err(IntegrationError::events_accumulate(stepper.state.front().t, &stepper.events[..count]))
 }
 
-/// Crosses the events of all event functions that are below zero at the front.
+/// Crosses the events whose functions are below zero at the front, for a method that does not locate events.
 pub fn notice<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) {
     let events = &stepper.events;
     let triggered: Triggered = std::array::from_fn(|i| i < system.event_count() && events[i].value < 0.0);
@@ -55,8 +55,8 @@ pub fn notice<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = 
     }
 }
 
-/// The first fall in the last step, which began where the event functions were those `before`: its share of the step and
-/// its event function.
+/// The first event in the last step: its share of the step and its event function. `before` are the event functions
+/// where the step started.
 pub fn first<D: Copy>(
     stepper: &Stepper<D>,
     system: &dyn System<Discrete = D>,
@@ -72,7 +72,7 @@ pub fn first<D: Copy>(
         .min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// The event functions within a step.
+/// The event functions at the share `s` of a step, on its interpolant.
 fn inside<D: Copy>(system: &dyn System<Discrete = D>, discrete: &D, step: &Step<'_>, s: f64) -> EventFunctions {
     let mut y = [0.0; MAX_STATES];
     let y = &mut y[..step.layout.states];
@@ -82,14 +82,15 @@ fn inside<D: Copy>(system: &dyn System<Discrete = D>, discrete: &D, step: &Step<
     functions
 }
 
-/// Repeats the step up to the event at `share` of it and crosses the event, if anything lies beyond it.
+/// Repeats the last step, of length `h`, so that it ends at the `event` found at `share` of it, and crosses the event.
+/// An event that is a dead end is not crossed.
 pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, h: f64, share: f64, event: usize) {
     let start = stepper.state.start().t;
-    // The step that was too long is made anew, shorter.
+    // The longer step no longer counts.
     stepper.state.statistics.steps -= 1;
-    let close = LANDED * stepper.settings.tolerance * system.event_scale();
+    let close = LANDING_TOLERANCE * stepper.settings.tolerance * system.event_scale();
     let mut t = start + share * h;
-    for landing in 1..=LANDINGS {
+    for landing in 1..=MAX_LANDINGS {
         if t <= start {
             stepper.state.take_back();
             stepper.refresh(system);
@@ -103,8 +104,8 @@ pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>
         let EventFunction { value, rate } = stepper.attempt.events[event];
         let better = t - value / rate;
         let useful = rate < 0.0 && better < start + h && better != t;
-        if landing == LANDINGS || value.abs() <= close || !useful {
-            stepper.look_at_end_if_due(system, t);
+        if landing == MAX_LANDINGS || value.abs() <= close || !useful {
+            stepper.evaluate_end_if_missing(system, t);
             stepper.commit(t);
             break;
         }
@@ -115,8 +116,7 @@ pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>
     }
 }
 
-/// Crosses the event at the front, and those of all event functions that have fallen with it: those within `close` of
-/// zero.
+/// Crosses `event` at the front together with all events whose functions are falling and at most `close` above zero.
 fn cross_with<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, event: usize, close: f64) {
     let events = &stepper.events;
     let with = |i: usize| i == event || (events[i].value <= close && events[i].rate < 0.0);
@@ -134,7 +134,7 @@ fn cross<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t
     *discrete = reset.discrete;
     if let Some(duration) = reset.impact {
         *impact_end = impact_end.max(*t + duration.min(system.longest_step()));
-        state.step = state.step.min(ONSET * duration);
+        state.step = state.step.min(FIRST_IMPACT_STEP * duration);
     }
     stepper.refresh(system);
 }
@@ -150,12 +150,12 @@ fn fall(before: EventFunction, after: EventFunction, h: f64, inside: impl Fn(f64
         if before.value > 0.0 {
             return Some(root::falling(0.0, 1.0, before.value, after.value, RESOLUTION, value));
         }
-        // It starts from zero, or from where it was crossed together with another one, a little below.
+        // The function starts at zero, or slightly below because it was crossed together with another event.
         if before.rate <= 0.0 {
             return Some(0.0);
         }
         if after.rate >= 0.0 {
-            return None; // on its way up
+            return None; // it rises from a value below zero
         }
         let top = root::falling(0.0, 1.0, before.rate, after.rate, RESOLUTION, |s| inside(s).rate);
         let highest = value(top);
@@ -166,7 +166,7 @@ fn fall(before: EventFunction, after: EventFunction, h: f64, inside: impl Fn(f64
         };
     }
     let dips = before.rate < 0.0 && after.rate > 0.0;
-    // No cubic with these ends reaches lower than half of this below them.
+    // No cubic with these end values and rates falls further than `depth` below its ends.
     let depth = 0.5 * h * before.rate.abs().max(after.rate);
     if !dips || before.value.min(after.value) > depth || before.value <= 0.0 {
         return None;

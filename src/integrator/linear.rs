@@ -1,38 +1,39 @@
-//! Systems of linear equations, solved without a new allocation.
+//! Systems of linear equations, solved without allocation.
 
 use nalgebra::{DMatrixView, DMatrixViewMut, DVectorViewMut};
 
-/// L·U factors of a square matrix with rows exchanged (Gaussian elimination with partial pivoting).
+/// LU factors of a square matrix (Gaussian elimination with partial pivoting).
 #[derive(Clone, Debug, Default)]
 pub struct Factors {
     size: usize,
-    /// See [`factorize`].
+    /// See [`factorise`].
     elements: Vec<f64>,
     pivot: Vec<usize>,
 }
 
 impl Factors {
-    /// With memory for matrices of up to so many rows.
+    /// Memory for matrices of up to `rows` rows.
     pub fn with_capacity(rows: usize) -> Self {
         Self { size: 0, elements: vec![0.0; rows * rows], pivot: vec![0; rows] }
     }
 
-    /// Factorizes the matrix of `size` rows with these elements. The solutions of a singular one are not finite.
+    /// Factorises the matrix of `size` rows with elements `element(i, j)`. If the matrix is singular, solutions are not
+    /// finite.
     pub fn of(&mut self, size: usize, element: impl Fn(usize, usize) -> f64) {
         self.size = size;
-        factorize(&mut self.elements[..size * size], &mut self.pivot[..size], element);
+        factorise(&mut self.elements[..size * size], &mut self.pivot[..size], element);
     }
 
-    /// Replaces the right side `x` by the solution.
+    /// Replaces the right-hand side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
         substitute(&self.elements[..self.size * self.size], &self.pivot[..self.size], x);
     }
 }
 
-/// Writes the L·U factors of the matrix with these elements, which has as many rows as `pivot` has places, into `factors`,
-/// column by column: L below the diagonal, whose own diagonal is 1, and U. Writes into `pivot` which row was exchanged with
-/// each. Returns the smallest pivot's size; 0 is that of a singular matrix.
-pub fn factorize(factors: &mut [f64], pivot: &mut [usize], element: impl Fn(usize, usize) -> f64) -> f64 {
+/// Factorises the square matrix with elements `element(i, j)` and as many rows as `pivot` has elements. Writes L (below the
+/// diagonal; its diagonal is 1) and U into `factors`, by columns, and into `pivot[k]` the row that was exchanged with row k.
+/// Returns the absolute value of the smallest pivot, which is 0 if the matrix is singular.
+pub fn factorise(factors: &mut [f64], pivot: &mut [usize], element: impl Fn(usize, usize) -> f64) -> f64 {
     let size = pivot.len();
     let mut matrix = DMatrixViewMut::from_slice(factors, size, size);
     for (j, mut column) in matrix.column_iter_mut().enumerate() {
@@ -57,11 +58,11 @@ pub fn factorize(factors: &mut [f64], pivot: &mut [usize], element: impl Fn(usiz
     smallest
 }
 
-/// Replaces the right side `x` by the solution of the equations whose matrix has these `factors`.
+/// Replaces the right-hand side `x` by the solution of the equations whose matrix has these `factors`.
 pub fn substitute(factors: &[f64], pivot: &[usize], x: &mut [f64]) {
     let size = pivot.len();
     if size == 0 {
-        return; // nalgebra asks for an equation at least
+        return; // nalgebra requires at least one equation
     }
     for (k, &pivot) in pivot.iter().enumerate() {
         x.swap(k, pivot);

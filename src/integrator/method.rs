@@ -1,96 +1,96 @@
-//! What the integrator needs to know of a method. A method is a value that owns what it works with and what it predicts
-//! the next step from.
+//! The interface between the integrator and an integration method. A method is a value that owns its workspace and the
+//! history from which it predicts the next step.
 
 use super::snapshot::{Reader, Snapshot};
 use super::state::StepPoint;
 use super::system::{EventFunctions, MAX_EVENTS, System};
 
-/// What the control of a step needs to know of the method that makes it.
+/// Properties of a method that step control depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties {
     /// Name in the `solver.method` enumeration.
     pub name: &'static str,
-    /// Order of the solution that is carried on.
+    /// Order of the solution.
     pub order: u32,
-    /// There is an error estimate, to which the step is fitted; otherwise the step is fixed.
+    /// Whether the method has an error estimate that determines the step; otherwise the step is fixed.
     pub adaptive: bool,
-    /// There is a second, lower-order estimate.
+    /// Whether the method has a second error estimate, of lower order.
     pub coarse: bool,
-    /// Events are located and landed on; otherwise they are noticed at the end of a step.
+    /// Whether events are located and steps end at them; otherwise events are noticed at the end of a step.
     pub locates: bool,
-    /// The power of the step with which the error estimate falls.
+    /// The error estimate is proportional to the step raised to this power.
     pub error_power: f64,
-    /// States within a step are interpolated; otherwise a shorter step is made to each: an interpolant
-    /// leaves the slow motion of a stiff system.
+    /// Whether the state within a step is interpolated. Otherwise a shorter step is made to each requested time,
+    /// because an interpolant would leave the slow motion of a stiff system.
     pub interpolates: bool,
-    /// An attempt gives rates and event functions at its end.
+    /// Whether an attempt computes the rates and event functions at its end.
     pub gives_end: bool,
-    /// A step is predicted from the one before it.
+    /// Whether a step is predicted from the one before it.
     pub predicts: bool,
-    /// This share of the tolerance is for one step.
+    /// Share of the tolerance that one step may use.
     pub error_share: f64,
-    /// The kinds that attempt a step which time and again cannot be made in the present one, in their order.
+    /// The other kinds of this method, in the order in which they take over a step whose attempts keep failing.
     pub others: &'static [MethodKind],
 }
 
-/// The share of the tolerance for one step where the errors of many add up.
+/// Share of the tolerance that one step may use where the errors of many steps accumulate.
 pub const ERROR_SHARE: f64 = 0.4;
 
-/// How a step is made.
+/// How a method computes a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MethodKind {
-    /// By accelerations at several instants together, see [`block`](super::methods::block).
+    /// From accelerations at several nodes, evaluated together; see [`block`](super::methods::block).
     Block,
-    /// By the stages of an explicit method, one after the other.
+    /// From the stages of an explicit method, evaluated one after the other.
     Explicit,
-    /// By a linearly implicit method.
+    /// By an implicit or linearly implicit method.
     Implicit,
 }
 
 impl MethodKind {
-    /// All, in their order.
+    /// All kinds, in the order of their numbers.
     pub const ALL: [Self; 3] = [Self::Block, Self::Explicit, Self::Implicit];
 }
 
-/// What an attempted step tells beside the state at its end.
+/// Results of an attempted step other than the state at its end.
 #[derive(Clone, Debug)]
 pub struct Attempt {
-    /// The step's error in every state.
+    /// Estimated error of each state.
     pub error: Vec<f64>,
-    /// A second estimate, where the method has one.
+    /// Second error estimate, where the method has one.
     pub coarse_error: Vec<f64>,
-    /// What early stages saw that no error estimate weighs: by how much h times their rates leaves
-    /// the line between the first stage and the first that is weighted, beyond half of those.
+    /// Deviation of the early stages, which no error estimate weighs: how far h times their rates departs from the line
+    /// between the first stage and the first weighted stage, beyond half the larger of those two.
     pub unseen: Vec<f64>,
-    /// The event functions at the end, where the method gives them; otherwise once they are computed.
+    /// Event functions at the end, once they are computed.
     pub events: EventFunctions,
 }
 
 impl Attempt {
-    /// Of no step yet, for so many states.
+    /// Workspace for `states` states.
     pub fn new(states: usize) -> Self {
         let zeros = || vec![0.0; states];
         Self { error: zeros(), coarse_error: zeros(), unseen: zeros(), events: [Default::default(); MAX_EVENTS] }
     }
 }
 
-/// What a method says after a step of it has been accepted.
+/// What a method reports after one of its steps has been accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepAdvice {
-    /// [s] The next step should not be longer.
+    /// [s] Upper bound of the next step.
     pub longest_step: f64,
-    /// How many evaluations it took to find out.
+    /// Number of evaluations of the rates that the report took.
     pub evaluations: u64,
 }
 
 impl StepAdvice {
-    /// None.
+    /// No bound and no evaluations.
     pub const NONE: Self = Self { longest_step: f64::INFINITY, evaluations: 0 };
 }
 
-/// A one-step method, or some that take turns.
+/// An integration method, or several that take turns.
 pub trait Method<D: Copy>: Send {
-    /// What is particular to its steps of the present kind.
+    /// Properties of the present kind of steps.
     fn properties(&self) -> &Properties;
 
     /// Prepares for the first step of a motion of `system`.
@@ -98,8 +98,8 @@ pub trait Method<D: Copy>: Send {
         self.forget();
     }
 
-    /// Attempts a step of `h` from `start`: writes the state at its `end`, where it gives them the rates there, too, and
-    /// what else it tells. Returns how many evaluations of the rates it took.
+    /// Attempts a step of `h` [s] from `start`: writes the state at the `end`, the rates there if the method gives
+    /// them, and the results in `attempt`. Returns the number of evaluations of the rates.
     fn attempt(
         &mut self,
         system: &dyn System<Discrete = D>,
@@ -109,14 +109,14 @@ pub trait Method<D: Copy>: Send {
         attempt: &mut Attempt,
     ) -> u64;
 
-    /// From now on predicts from the last attempt, which went from `start` to `end` [s]; a method that
-    /// [predicts](Properties::predicts) only.
+    /// Keeps the last attempt, which went from `start` to the time `end` [s], as the history for the next prediction.
+    /// Only for a method that [predicts](Properties::predicts).
     fn remember(&mut self, _start: &StepPoint<D>, _end: f64) {}
 
-    /// Predicts nothing from what has been.
+    /// Discards the history; the next step is not predicted.
     fn forget(&mut self) {}
 
-    /// To be called after the last attempt has become the step from `start` to `end`.
+    /// Reports on the step from `start` to `end`, which the last attempt has become.
     fn accepted(
         &mut self,
         _system: &dyn System<Discrete = D>,
@@ -126,26 +126,26 @@ pub trait Method<D: Copy>: Send {
         StepAdvice::NONE
     }
 
-    /// How attempts are made.
+    /// The present kind of steps.
     fn kind(&self) -> MethodKind {
         MethodKind::Explicit
     }
 
-    /// Makes attempts in this way, if there is a choice.
+    /// Selects the kind of steps, if the method has more than one.
     fn set_kind(&mut self, _kind: MethodKind) {}
 
-    /// How the next step is to be made.
+    /// The kind that the next step should have.
     fn next_kind(&self) -> MethodKind {
         self.kind()
     }
 
-    /// Stays with the present kind, after a step that could not be made as it was to be.
+    /// Stays with the present kind, after a step that failed in the intended kind.
     fn hand_over(&mut self) {}
 
-    /// Appends what it remembers.
+    /// Appends the method's memory to a snapshot.
     fn save(&self, _snapshot: &mut Snapshot) {}
 
-    /// Takes back what [`save`](Self::save) appended; `None` for what no run can have come to.
+    /// Restores what [`save`](Self::save) appended; `None` if no run can have produced it.
     fn load(&mut self, _reader: &mut Reader<'_>) -> Option<()> {
         Some(())
     }

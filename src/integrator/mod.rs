@@ -1,13 +1,13 @@
-//! Marches a hybrid system through time and knows no mechanism, only [`System`].
+//! The integrator: advances a hybrid system in time. It knows no mechanism, only [`System`].
 //!
-//! A hybrid system has a continuous state, which follows its rates, and a discrete state, which holds
-//! during a step and changes only at events. [`Integrator::advance`] attempts a step, judges its
-//! error, locates the first event in it, lands on that event and commits. Steps never look at
-//! communication points: [`Integrator::state_at`] interpolates back into the last step, so that the
-//! sequence of steps is the same however a host cuts up time.
+//! A hybrid system has a continuous state, which follows its rates, and a discrete state, which is constant in a step
+//! and changes only at events. [`Integrator::advance`] attempts a step, judges its error, locates the first event in
+//! it, repeats the step up to that event and commits it. Steps do not depend on communication points:
+//! [`Integrator::state_at`] interpolates back into the last step, so that the sequence of steps is the same for any
+//! communication intervals.
 //!
-//! States are slices, methods are values behind [`Method`]: all of this is compiled once. Nothing is allocated once an
-//! integrator has started.
+//! States are slices and methods are values behind [`Method`], so that this code is compiled once. An integrator does
+//! not allocate after it has been started.
 
 pub mod complementarity;
 pub mod dense_output;
@@ -43,16 +43,16 @@ pub use system::{
 pub use tableau::{MAX_STAGES, Tableau};
 pub use unilateral::{ContactLaw, Impulses, Relative, Unilateral};
 
-use state::lost_state;
+use state::first_invalid;
 use stepper::Stepper;
 
-/// A one-step integrator with event location.
+/// An integrator with event location.
 pub struct Integrator<D> {
     stepper: Stepper<D>,
 }
 
 impl<D: Copy> Integrator<D> {
-    /// Starts from the state `y` at `t`.
+    /// Starts a motion from the state `y` at `t`.
     pub fn start(
         system: &dyn System<Discrete = D>,
         mut method: Box<dyn Method<D>>,
@@ -65,7 +65,7 @@ impl<D: Copy> Integrator<D> {
         Self { stepper: Stepper::new(system, method, settings, state_of_start(system, t, y, discrete)) }
     }
 
-    /// Goes on from a saved state, by a method that remembers what it did then.
+    /// Resumes from a saved state, with a method whose memory was saved with it.
     pub fn resume(
         system: &dyn System<Discrete = D>,
         method: Box<dyn Method<D>>,
@@ -75,22 +75,22 @@ impl<D: Copy> Integrator<D> {
         Self { stepper: Stepper::new(system, method, settings, state) }
     }
 
-    /// All that is needed to go on, beside what the method remembers.
+    /// The solver's state: all that a later [`resume`](Self::resume) needs apart from the method's memory.
     pub fn state(&self) -> &SolverState<D> {
         &self.stepper.state
     }
 
-    /// The method, with what it remembers.
+    /// The method and its memory.
     pub fn method(&self) -> &dyn Method<D> {
         &*self.stepper.method
     }
 
-    /// Takes back what the method remembered when it was saved.
+    /// Restores the memory of the method from a snapshot; `None` if no run can have produced it.
     pub fn load_method(&mut self, reader: &mut Reader<'_>) -> Option<()> {
         self.stepper.with_method(|method| method.load(reader))
     }
 
-    /// Goes on from another state.
+    /// Continues from another state.
     pub fn set_state(&mut self, system: &dyn System<Discrete = D>, state: SolverState<D>) {
         self.stepper.set_state(system, state);
     }
@@ -111,8 +111,8 @@ impl<D: Copy> Integrator<D> {
         self.march(system, t, None)
     }
 
-    /// Steps until `t` lies within the last step, or until a step has ended with an event after `after`, and tells
-    /// when that was.
+    /// Steps until `t` lies within the last step, or until a step has ended with an event later than `after`.
+    /// Returns the time [s] of that event, if it happened by `t`.
     ///
     /// # Errors
     /// As [`Integrator::advance`].
@@ -126,7 +126,7 @@ impl<D: Copy> Integrator<D> {
         Ok(Some(self.state().front().t).filter(|&event| self.has_crossed(after) && event <= t))
     }
 
-    /// Starts anew from the state `y` at `t`, with the step that it had.
+    /// Restarts from the state `y` at `t`, with the present step size and statistics.
     pub fn place(&mut self, system: &dyn System<Discrete = D>, t: f64, y: &[f64], discrete: D) {
         let SolverState { step, mut statistics, .. } = *self.state();
         statistics.evaluations += 1;
@@ -136,26 +136,26 @@ impl<D: Copy> Integrator<D> {
         self.stepper.set_state(system, state);
     }
 
-    /// The last step has ended with an event after `after`.
+    /// Whether the last step ended with an event after the time `after`.
     fn has_crossed(&self, after: f64) -> bool {
         self.state().crossings > 0 && self.state().front().t > after
     }
 
-    /// Steps until `t` lies within the last step, or until a step has ended with an event after `after`.
+    /// Steps until `t` lies within the last step, or until a step has ended with an event after the time `after`.
     fn march(&mut self, system: &dyn System<Discrete = D>, t: f64, after: Option<f64>) -> Result<(), IntegrationError> {
-        let mut standing = 0;
+        let mut stalled_steps = 0;
         let before = self.state().statistics.evaluations;
-        let most = self.stepper.settings.effort.over(t - self.state().front().t);
+        let work_limit = self.stepper.settings.effort.over(t - self.state().front().t);
         while self.state().front().t < t && !after.is_some_and(|after| self.has_crossed(after)) {
             let front = self.state().front().t;
             let evaluations = self.state().statistics.evaluations - before;
-            if evaluations > most {
+            if evaluations > work_limit {
                 return Err(IntegrationError::TooMuchWork { time: front, evaluations });
             }
             event_location::settle(&mut self.stepper, system)?;
             self.step(system)?;
-            standing = if self.state().front().t > front { 0 } else { standing + 1 };
-            if standing == event_location::STANDSTILL {
+            stalled_steps = if self.state().front().t > front { 0 } else { stalled_steps + 1 };
+            if stalled_steps == event_location::MAX_EVENTS_AT_ONE_TIME {
                 let events = &self.stepper.events[..system.event_count()];
                 return Err(IntegrationError::events_accumulate(front, events));
             }
@@ -163,19 +163,19 @@ impl<D: Copy> Integrator<D> {
         Ok(())
     }
 
-    /// One accepted step, up to the first event in it.
+    /// Makes one accepted step, up to the first event in it.
     fn step(&mut self, system: &dyn System<Discrete = D>) -> Result<(), IntegrationError> {
         let stepper = &mut self.stepper;
         let StepPoint { t, rates, .. } = stepper.state.front();
-        if let Some(component) = lost_state(rates) {
+        if let Some(component) = first_invalid(rates) {
             return Err(IntegrationError::NotFinite { time: *t, component });
         }
         // Attempt and judge.
-        let foreseen = step_acceptance::foreseen_discontinuity(stepper, system);
+        let predicted = step_acceptance::predicted_discontinuity(stepper, system);
         let earlier_kind = stepper.method.kind();
         stepper.state.begin_step();
         stepper.set_kind(stepper.method.next_kind());
-        let h = match step_acceptance::accepted(stepper, system, foreseen) {
+        let h = match step_acceptance::accepted(stepper, system, predicted) {
             Ok(h) => h,
             Err(error) => {
                 stepper.state.give_up_step();
@@ -187,7 +187,7 @@ impl<D: Copy> Integrator<D> {
         // Commit.
         let before = stepper.events;
         stepper.commit(stepper.state.start().t + h);
-        if let Some(component) = lost_state(&stepper.state.end().rates) {
+        if let Some(component) = first_invalid(&stepper.state.end().rates) {
             return self.take_back(before, h, component);
         }
         let advice = stepper.method.accepted(system, stepper.state.start(), stepper.state.end());
@@ -196,23 +196,25 @@ impl<D: Copy> Integrator<D> {
         if system.event_count() == 0 {
             return Ok(());
         }
-        // A state beyond a dead end is not one, not even between two communication points.
+        // The state behind a dead end is invalid, even between two communication points: every method locates dead
+        // ends.
         if !stepper.properties.locates && !(0..system.event_count()).any(|event| system.is_dead_end(event)) {
             event_location::notice(stepper, system);
             return Ok(());
         }
-        // Locate, and commit anew.
+        // Locate the first event, and commit the step that ends at it.
         if let Some((share, event)) = event_location::first(stepper, system, &before) {
             event_location::land(stepper, system, h, share, event);
-            // The shorter step up to the event was not judged.
-            if let Some(component) = lost_state(&stepper.state.front().y) {
+            // The error of the shorter step to the event was not judged.
+            if let Some(component) = first_invalid(&stepper.state.front().y) {
                 return self.take_back(before, h, component);
             }
         }
         Ok(())
     }
 
-    /// Takes back the last step, of `h` from where the event functions were `events`: this `component` was lost in it.
+    /// Discards the last step, of length `h`, because state `component` became invalid in it. `events` are the event
+    /// functions where it started.
     fn take_back(&mut self, events: EventFunctions, h: f64, component: usize) -> Result<(), IntegrationError> {
         let Stepper { state, method, properties, events: at_front, .. } = &mut self.stepper;
         state.take_back();
@@ -222,33 +224,32 @@ impl<D: Copy> Integrator<D> {
         method.forget();
         *at_front = events;
         if properties.adaptive {
-            // Nothing had estimated the error of what was lost: a shorter step may end before that.
+            // The error estimate did not include the invalid rates: a shorter step may end before them.
             state.statistics.rejected += 1;
             state.step = step_control::shrinkage(f64::INFINITY, properties.error_power) * h;
             return Ok(());
         }
-        // Without an error estimate a step may have led anywhere.
+        // A step without an error estimate may have ended anywhere.
         Err(IntegrationError::NotFinite { time: state.start().t, component })
     }
 
-    /// State and discrete state at `t` in the last step.
+    /// State and discrete state at the time `t` in the last step.
     pub fn state_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> (&[f64], D) {
         self.stepper.state_at(system, t)
     }
 
-    /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
-    /// step of its own.
+    /// Shortens the last step so that it ends at `t`, by a new step.
     pub fn truncate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         truncate::truncate(&mut self.stepper, system, t);
     }
 
-    /// Gives the front another discrete state: rates and event functions are computed anew.
+    /// Replaces the discrete state at the front; rates and event functions are computed again.
     pub fn set_discrete(&mut self, system: &dyn System<Discrete = D>, discrete: D) {
         self.stepper.set_discrete(system, discrete);
     }
 }
 
-/// What is remembered at the start of a motion.
+/// The solver's state at the start of a motion.
 fn state_of_start<D: Copy>(system: &dyn System<Discrete = D>, t: f64, y: &[f64], discrete: D) -> SolverState<D> {
     let mut point = StepPoint::new(t, y, discrete);
     system.rates(&discrete, t, y, &mut point.rates);

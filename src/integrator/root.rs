@@ -1,12 +1,11 @@
-//! A bracketing root finder with a bound on its iterations.
+//! A bracketing root finder with a bounded number of iterations.
 
-/// Enough for any bracket in [0, 1]: bisection steps among them halve it to the last bit.
+/// Enough for any bracket in [0, 1]: the bisection steps among the iterations halve it to the last bit.
 const ITERATIONS: usize = 120;
 
-/// The share in [a, b] at which `f` falls through zero, where it is positive (or zero) at `a` and
-/// negative (or zero) at `b`; to `resolution` in the share. Of the last bracket, the end after the
-/// fall. Inverse quadratic interpolation with bisection: T. R. Chandrupatla, Adv. Eng. Softw. 28
-/// (1997) 145-149.
+/// The point in [a, b] at which `f` falls through zero, to `resolution`. `f` must be ≥ 0 at `a` and ≤ 0 at `b`. Returns
+/// the end of the last bracket that lies behind the fall. Inverse quadratic interpolation with bisection: T. R.
+/// Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149.
 pub fn falling(a: f64, b: f64, fa: f64, fb: f64, resolution: f64, f: impl Fn(f64) -> f64) -> f64 {
     // The newest point, the other end of the bracket and the point before.
     let (mut new, mut f_new) = (b, fb);

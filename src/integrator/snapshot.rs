@@ -1,14 +1,14 @@
-//! A saved state as plain numbers.
+//! A saved state as a list of numbers.
 
 use serde::{Deserialize, Serialize};
 
-/// Everything that a simulation needs to go on as if never stopped. Two are equal if they are to the bit: rates under a
-/// load beyond all measure are no numbers, and they are the same after a restart.
+/// All numbers that a simulation needs to continue as if it had never stopped. Two snapshots are equal if all bits are
+/// equal: rates under an excessive load may be NaN, and they are the same NaN after a restart.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// Real-valued memory.
+    /// Real numbers of the memory.
     pub reals: Vec<f64>,
-    /// Counters and flags.
+    /// Counters and flags of the memory.
     pub integers: Vec<u64>,
 }
 
@@ -24,38 +24,39 @@ impl PartialEq for Snapshot {
     }
 }
 
-/// Takes a snapshot apart in the order in which it was put together. Its numbers may come from anywhere: what no run
-/// can have is `None`, as what is missing is.
+/// Reads a snapshot in the order in which it was written. The numbers may come from anywhere: a missing number and one
+/// that no run can produce are reported as `None`.
 pub struct Reader<'a> {
     reals: std::slice::Iter<'a, f64>,
     integers: std::slice::Iter<'a, u64>,
 }
 
 impl<'a> Reader<'a> {
-    /// From the start.
+    /// Reads from the start.
     pub fn new(snapshot: &'a Snapshot) -> Self {
         Self { reals: snapshot.reals.iter(), integers: snapshot.integers.iter() }
     }
 
-    /// The next real number, if it is finite.
+    /// The next real number; `None` if it is missing or not finite.
     pub fn real(&mut self) -> Option<f64> {
         self.any_real().filter(|real| real.is_finite())
     }
 
-    /// The next real numbers, if they are finite.
+    /// The next `COUNT` real numbers; `None` if one is missing or not finite.
     pub fn reals<const COUNT: usize>(&mut self) -> Option<[f64; COUNT]> {
         let mut list = [0.0; COUNT];
         self.fill(&mut list)?;
         Some(list)
     }
 
-    /// Fills a list with the next real numbers, if they are finite.
+    /// Fills a list with the next real numbers; `None` if one is missing or not finite.
     pub fn fill(&mut self, list: &mut [f64]) -> Option<()> {
         self.fill_any(list)?;
         list.iter().all(|real| real.is_finite()).then_some(())
     }
 
-    /// The same, of rates: under a load beyond all measure they are not finite.
+    /// Fills a list with the next real numbers, which need not be finite, as rates under an excessive load; `None` if
+    /// one is missing.
     pub fn fill_any(&mut self, list: &mut [f64]) -> Option<()> {
         for place in list {
             *place = self.any_real()?;
@@ -67,12 +68,12 @@ impl<'a> Reader<'a> {
         self.reals.next().copied()
     }
 
-    /// The next integer.
+    /// The next integer; `None` if it is missing.
     pub fn integer(&mut self) -> Option<u64> {
         self.integers.next().copied()
     }
 
-    /// Nothing is left.
+    /// Whether all numbers have been read.
     pub fn is_at_end(&self) -> bool {
         self.reals.len() == 0 && self.integers.len() == 0
     }

@@ -1,41 +1,41 @@
-//! What an integrator remembers between steps.
+//! The memory of an integrator between steps.
 
 use super::dense_output::Step;
 use super::statistics::Statistics;
 use super::system::StateLayout;
 
-/// No run counts as far as this.
-const MOST: u64 = 1 << 62;
-/// States and rates from here on count as lost.
-const GREATEST: f64 = 1e25;
-/// After so many steps in a row that were cut, the motion creeps along a derivative discontinuity: it is passed over as
-/// any error is, until a step does not fail.
-pub const CREEPING: u32 = 8;
-/// Start, end and front of a step, and an attempt at the next.
+/// No run counts further than this.
+const MAX_COUNT: u64 = 1 << 62;
+/// States and rates from this magnitude on are invalid.
+const INVALID_FROM: f64 = 1e25;
+/// After this many successive steps that were cut at a derivative discontinuity, the motion creeps along it.
+/// Discontinuities are then treated as any other error, until a step does not fail.
+pub const CREEPING_CUTS: u32 = 8;
+/// Start, end and front of the last step, and the end of an attempt at the next step.
 const POINTS: usize = 4;
 
-/// One end of a step: a time, a state, its rates under the discrete state that holds on this side.
+/// A point in time at the end of a step: the state and its rates under the discrete state on this side of the events.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepPoint<D> {
-    /// [s]
+    /// [s] Time.
     pub t: f64,
     /// State.
     pub y: Vec<f64>,
-    /// Its rates.
+    /// Rates of the state.
     pub rates: Vec<f64>,
     /// Discrete state.
     pub discrete: D,
-    /// [s] When the last impact is over.
+    /// [s] Time at which the last impact ends.
     pub impact_end: f64,
 }
 
 impl<D: Copy> StepPoint<D> {
-    /// The state `y` at `t`, its rates not known.
+    /// The state `y` at `t`, with rates not computed yet.
     pub fn new(t: f64, y: &[f64], discrete: D) -> Self {
         Self { t, y: y.to_vec(), rates: vec![0.0; y.len()], discrete, impact_end: t }
     }
 
-    /// Becomes the same as another.
+    /// Copies `other` into this point.
     pub fn copy_from(&mut self, other: &Self) {
         let Self { t, y, rates, discrete, impact_end } = self;
         (*t, *discrete, *impact_end) = (other.t, other.discrete, other.impact_end);
@@ -44,25 +44,25 @@ impl<D: Copy> StepPoint<D> {
     }
 }
 
-/// All that an integrator remembers beside what its method does: as plain numbers, a part of a saved state.
+/// The memory of an integrator, apart from that of its method. As numbers it is part of a saved state.
 #[derive(Clone, Debug)]
 pub struct SolverState<D> {
-    /// The ends of the last step, and a place for the end of an attempt.
+    /// The ends of the last step, and a free place for the end of an attempt.
     points: [StepPoint<D>; POINTS],
     start: usize,
     end: usize,
     front: usize,
-    /// Start of the step before, while one is attempted; otherwise `start`.
+    /// Start of the previous step while a step is attempted; otherwise equal to `start`.
     earlier: usize,
-    /// [s] The next step.
+    /// [s] Length of the next step.
     pub step: f64,
     /// Error of the last accepted step over the tolerance.
     pub last_error: f64,
-    /// So many of the last accepted steps were cut short at a derivative discontinuity.
+    /// Number of successive accepted steps that were cut short at a derivative discontinuity.
     pub cuts: u32,
-    /// Events at the front, which the end does not know yet.
+    /// Number of events at the front; the end is the point before them.
     pub crossings: u64,
-    /// Work done.
+    /// Work done since the start.
     pub statistics: Statistics,
 }
 
@@ -75,12 +75,12 @@ impl<D: Copy + PartialEq> PartialEq for SolverState<D> {
 }
 
 impl<D: Copy> SolverState<D> {
-    /// Of a motion that starts at `point`, with this first step [s].
+    /// The state of a motion that starts at `point`, with the first step `step` [s].
     pub fn new(point: &StepPoint<D>, step: f64) -> Self {
         Self::of([point.clone(), point.clone(), point.clone()], step)
     }
 
-    /// With this start, end and front of the last step.
+    /// The state with the given start, end and front of the last step.
     pub fn of([start, end, front]: [StepPoint<D>; 3], step: f64) -> Self {
         let attempt = front.clone();
         Self {
@@ -103,13 +103,13 @@ impl<D: Copy> SolverState<D> {
         &self.points[self.start]
     }
 
-    /// Its end, before the events there.
+    /// End of the last step, before the events at that time.
     #[inline]
     pub fn end(&self) -> &StepPoint<D> {
         &self.points[self.end]
     }
 
-    /// The same instant after its events: where the next step starts.
+    /// The end of the last step after the events at that time: the start of the next step.
     #[inline]
     pub fn front(&self) -> &StepPoint<D> {
         &self.points[self.front]
@@ -121,14 +121,14 @@ impl<D: Copy> SolverState<D> {
         &self.points[self.free()]
     }
 
-    /// A place that is none of the last step's.
+    /// Index of a point that the last step does not use.
     #[inline]
     fn free(&self) -> usize {
         let taken = 1_u32 << self.start | 1 << self.end | 1 << self.front | 1 << self.earlier;
         (!taken).trailing_zeros() as usize % POINTS
     }
 
-    /// Start of the step, and the place for the end of an attempt at it.
+    /// Start of the step, and the point to which an attempt writes its end.
     #[inline]
     pub fn ends(&mut self) -> (&StepPoint<D>, &mut StepPoint<D>) {
         let free = self.free();
@@ -137,7 +137,7 @@ impl<D: Copy> SolverState<D> {
         (start, end)
     }
 
-    /// Start and end of the last step, and the place for the end of an attempt; where the step has a length.
+    /// Start and end of the last step, and the point to which an attempt writes its end. The step must have a length.
     pub fn all_ends(&mut self) -> (&StepPoint<D>, &StepPoint<D>, &mut StepPoint<D>) {
         let free = self.free();
         let [start, end, attempt] =
@@ -145,7 +145,7 @@ impl<D: Copy> SolverState<D> {
         (start, end, attempt)
     }
 
-    /// The front, to be changed. What is told of the end stays as it is.
+    /// The front, for changes; the end of the last step is unaffected.
     pub fn front_mut(&mut self) -> &mut StepPoint<D> {
         if self.front == self.end || self.front == self.start {
             let free = self.free();
@@ -163,19 +163,19 @@ impl<D: Copy> SolverState<D> {
         self.start = self.front;
     }
 
-    /// Goes back to the last step.
+    /// Returns to the last step after the attempts at the next one have failed.
     pub fn give_up_step(&mut self) {
         self.start = self.earlier;
     }
 
-    /// Makes the attempt the step that ends at `t`.
+    /// Makes the attempt the last step, which ends at `t`.
     #[inline]
     pub fn commit(&mut self, t: f64) {
         let StepPoint { discrete, impact_end, .. } = *self.start();
         self.commit_with(t, discrete, impact_end);
     }
 
-    /// The same, with another discrete state.
+    /// As [`commit`](Self::commit), with another discrete state.
     #[inline]
     pub fn commit_with(&mut self, t: f64, discrete: D, impact_end: f64) {
         let (_, end) = self.ends();
@@ -186,7 +186,7 @@ impl<D: Copy> SolverState<D> {
         self.statistics.steps += 1;
     }
 
-    /// Takes the whole last step back.
+    /// Discards the last step.
     pub fn take_back(&mut self) {
         (self.end, self.front, self.earlier) = (self.start, self.start, self.start);
     }
@@ -197,29 +197,29 @@ impl<D: Copy> SolverState<D> {
         Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates, layout }
     }
 
-    /// Whether a run at `time` can have come to this: a last step around it, no longer than any, between states that
-    /// are kept.
+    /// Whether a run at `time` can have produced this state: the last step contains `time`, is at most `longest_step`
+    /// [s] long and has valid states.
     pub fn is_sound(&self, time: f64, longest_step: f64) -> bool {
         let Self { step, cuts, crossings, statistics, .. } = self;
         let (start, end, front) = (self.start(), self.end(), self.front());
-        let kept = |y: &[f64]| y.iter().all(|y| is_kept(*y));
+        let valid = |y: &[f64]| y.iter().all(|y| is_valid(*y));
         let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
         let impacts_end = |front: &StepPoint<D>| front.impact_end - front.t <= longest_step + rounding;
         let length = end.t - start.t;
         let Statistics { steps, rejected, evaluations, events } = *statistics;
-        let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MOST);
-        [start, end, front].iter().all(|front| kept(&front.y) && impacts_end(front))
+        let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MAX_COUNT);
+        [start, end, front].iter().all(|front| valid(&front.y) && impacts_end(front))
             && end.t == front.t
             && (start.t..=front.t).contains(&time)
             && (0.0..=longest_step + rounding).contains(&length)
             && (length == 0.0 || steps > 0)
             && *step >= 0.0
-            && *cuts <= CREEPING
+            && *cuts <= CREEPING_CUTS
             && *crossings <= events
             && counted
     }
 
-    /// Work done since the start to reach `t` in the last step.
+    /// Statistics of the work done to reach `t` in the last step.
     pub fn statistics_at(&self, t: f64) -> Statistics {
         let mut statistics = self.statistics;
         if t < self.front().t {
@@ -229,16 +229,16 @@ impl<D: Copy> SolverState<D> {
     }
 }
 
-/// The first state (or rate) that is not a number, or so large that its powers are not.
+/// Index of the first state or rate that is not valid, see [`is_valid`].
 #[inline]
-pub fn lost_state(states: &[f64]) -> Option<usize> {
-    // Without leaving at the first one, several are looked at in one go.
-    let all_kept = states.iter().fold(true, |kept, y| kept & is_kept(*y));
-    if all_kept { None } else { states.iter().position(|y| !is_kept(*y)) }
+pub fn first_invalid(states: &[f64]) -> Option<usize> {
+    // Without an early exit the compiler tests several numbers at once.
+    let all_valid = states.iter().fold(true, |valid, y| valid & is_valid(*y));
+    if all_valid { None } else { states.iter().position(|y| !is_valid(*y)) }
 }
 
-/// A number, and not so large that its powers are not.
+/// Whether a state or rate is a number, and not so large that its powers overflow.
 #[inline]
-pub fn is_kept(y: f64) -> bool {
-    y.abs() < GREATEST
+pub fn is_valid(y: f64) -> bool {
+    y.abs() < INVALID_FROM
 }

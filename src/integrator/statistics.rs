@@ -1,14 +1,14 @@
-//! Work done since the start.
+//! Counters of the work done since the start.
 
 /// Counts of steps, evaluations and events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps rejected for their error.
+    /// Number of steps rejected for their error.
     pub rejected: u64,
-    /// Evaluations of the right-hand side by steps and by landing on events; interpolation apart.
+    /// Number of evaluations of the rates by steps and by steps to events, without those for interpolation.
     pub evaluations: u64,
-    /// Guards that fell through zero.
+    /// Number of event functions that fell through zero.
     pub events: u64,
 }

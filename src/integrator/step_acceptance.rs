@@ -1,67 +1,72 @@
-//! How long a step is: as its error and its derivative discontinuities allow.
+//! Step acceptance: shortens a step until its error is tolerable, and ends it at derivative discontinuities.
 
 use super::derivative_discontinuity as discontinuity;
 use super::error::IntegrationError;
-use super::state::{CREEPING, lost_state};
+use super::state::{CREEPING_CUTS, first_invalid};
 use super::step_control as control;
 use super::stepper::Stepper;
 use super::system::System;
 
-/// The flight after an impact, and every impact after that, make its errors larger than those of a contact that stays:
-/// only this share of what else is tolerable is for them.
+/// Share of the tolerance for steps during an impact: the flight after it and every later impact amplify its errors.
 const IMPACT_SHARE: f64 = 0.1;
-/// A step that is predicted from the last is not made longer for an error above this: one that is as long is predicted with
-/// less work, and can begin before the error is known.
-const STEADY: f64 = 1e-2;
-/// Most times that one step is cut short at a derivative discontinuity.
-const CUTS: usize = 6;
-/// After so many failed attempts at one step another of the method's kinds takes over, if there is one: long before a step
-/// comes down to a rounding of time.
-const TOO_MANY: usize = 8;
-/// A failed attempt with a larger error than this predicts nothing. Its accelerations are those of states that no motion
-/// comes to, and states predicted from them can be worse: velocities enter accelerations as squares, so that rounds of
-/// correction that begin far off run away, however short the step is. Accelerations that stay as they are at the start
-/// lead to an attempt that is as good as it is short.
-const PREDICTABLE: f64 = 1e4;
-/// [roundings of time] No derivative discontinuity makes a step shorter than this.
-const SHORTEST_CUT: f64 = 1e3;
+/// A method that predicts from the last step does not lengthen the next step if the error is above this: a step of
+/// equal length is predicted with less work.
+const STEADY_ERROR: f64 = 1e-2;
+/// Maximum number of times that one step is cut short at a derivative discontinuity.
+const MAX_CUTS: usize = 6;
+/// After this many failed attempts at one step another kind of the method takes over, if it has one. This happens long
+/// before the step reaches the rounding of time.
+const MAX_FAILURES: usize = 8;
+/// A failed attempt with a larger error is not used to predict the next attempt. Its accelerations belong to states
+/// that no motion reaches, and states predicted from them can be worse: velocities enter accelerations as squares, so
+/// that corrector rounds that start far from the solution diverge, however short the step is. An attempt with constant
+/// accelerations improves as it becomes shorter.
+const MAX_PREDICTING_ERROR: f64 = 1e4;
+/// [roundings of time] A step is not cut at a derivative discontinuity if it would be shorter than this.
+const MIN_CUT: f64 = 1e3;
 
-/// The share of the next step at which a derivative discontinuity lies, where one is to be looked for.
-pub fn foreseen_discontinuity<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) -> Option<f64> {
+/// The share of the next step at which a derivative discontinuity is predicted; `None` if none is predicted or the last
+/// step was not cut at one.
+pub fn predicted_discontinuity<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>) -> Option<f64> {
     let state = &mut stepper.state;
-    let goes_on = (1..CREEPING).contains(&state.cuts) && state.crossings == 0 && state.front().t > state.start().t;
-    if !goes_on {
+    let is_cut = (1..CREEPING_CUTS).contains(&state.cuts) && state.crossings == 0 && state.front().t > state.start().t;
+    if !is_cut {
         return None;
     }
     let h = state.step.min(system.longest_step());
-    discontinuity::foreseen(system, state.start(), state.front(), h)
+    discontinuity::predicted(system, state.start(), state.front(), h)
 }
 
-/// Attempts until the error is tolerable, and tells how long that step is. A step that fails time and again goes from one
-/// of the method's kinds to the next; only where each of them has come down to a step that does not move time, there
-/// is none. A derivative discontinuity `foreseen` at a share of the step is where the first attempt ends.
+/// Attempts a step until its error is tolerable and returns the length [s] of that step. The first attempt ends at the
+/// derivative discontinuity predicted at the share `predicted`. If attempts keep failing, the method's other kinds take
+/// turns.
+///
+/// # Errors
+/// `StepUnderflow` if every kind has come down to a step that does not move time.
 pub fn accepted<D: Copy>(
     stepper: &mut Stepper<D>,
     system: &dyn System<Discrete = D>,
-    foreseen: Option<f64>,
+    predicted: Option<f64>,
 ) -> Result<f64, IntegrationError> {
     let time = stepper.state.start().t;
-    // Forces that are gone may have left a step that no longer moves time.
-    let least = time.next_up() - time;
+    // The step size may have become too short to move time under forces that no longer act.
+    let resolution = time.next_up() - time;
     let adaptive = stepper.properties.adaptive;
-    let first = if adaptive { stepper.state.step.max(least) } else { stepper.settings.fixed_step };
+    let first = if adaptive { stepper.state.step.max(resolution) } else { stepper.settings.fixed_step };
     let own = stepper.method.kind();
     let others = stepper.properties.others;
-    let failures = if others.is_empty() { usize::MAX } else { TOO_MANY };
-    let mut shortest = match fitted(stepper, system, first, foreseen, failures) {
+    let failures = if others.is_empty() { usize::MAX } else { MAX_FAILURES };
+    let mut shortest = match fitted(stepper, system, first, predicted, failures) {
         Ok(h) => return Ok(h),
         Err(shortest) => shortest,
     };
-    let in_turn = others.iter().map(|other| (*other, first, TOO_MANY));
-    let to_the_end = std::iter::once(&own).chain(others).map(|kind| (*kind, 0.0, usize::MAX));
+    let in_turn = others.iter().map(|other| (*other, Some(first), MAX_FAILURES));
+    // At last every kind continues from the shortest length reached, until a step does not move time.
+    let to_the_end = std::iter::once(&own).chain(others).map(|kind| (*kind, None, usize::MAX));
     for (kind, wanted, failures) in in_turn.chain(to_the_end.filter(|_| !others.is_empty())) {
         stepper.set_kind(kind);
-        match fitted(stepper, system, wanted.max(shortest), None, failures) {
+        let wanted = wanted.map_or(shortest, |wanted: f64| wanted.max(shortest));
+        match fitted(stepper, system, wanted, None, failures) {
             Ok(h) => {
                 stepper.with_method(|method| method.hand_over());
                 return Ok(h);
@@ -74,31 +79,35 @@ pub fn accepted<D: Copy>(
     Err(IntegrationError::StepUnderflow { time, step: shortest, component })
 }
 
-/// Attempts a step that is as long as `wanted`, and shorter ones, until the error is tolerable: tells how long that step
-/// is, or, after so many `failures` or where time does not move, how long the next attempt would be. The end of an
-/// accepted step is looked at. One that fails because a derivative discontinuity lies in it ends there, and the next is as
-/// long as this one should have been; so does one with a discontinuity `foreseen` at that share.
+/// Attempts a step of the length `wanted` [s] and shorter ones until the error is tolerable; rates and event functions
+/// at the end of the accepted step are then known. Returns the length [s] of that step. A step that fails because of a
+/// derivative discontinuity is cut there, and the next step is as long as this one should have been; so is a step with
+/// a discontinuity predicted at the share `predicted`.
+///
+/// # Errors
+/// The length [s] that the next attempt would have, after `failures` failed attempts or if the step does not
+/// move time.
 fn fitted<D: Copy>(
     stepper: &mut Stepper<D>,
     system: &dyn System<Discrete = D>,
     mut wanted: f64,
-    foreseen: Option<f64>,
+    predicted: Option<f64>,
     failures: usize,
 ) -> Result<f64, f64> {
     let start = stepper.state.start();
     let time = start.t;
-    let least = time.next_up() - time;
-    let of_impact = if time < start.impact_end { IMPACT_SHARE } else { 1.0 };
-    let tolerance = of_impact * stepper.properties.error_share * stepper.settings.tolerance;
+    let resolution = time.next_up() - time;
+    let impact_share = if time < start.impact_end { IMPACT_SHARE } else { 1.0 };
+    let tolerance = impact_share * stepper.properties.error_share * stepper.settings.tolerance;
     let (mut first, mut cuts, mut cut) = (None, 0, false);
-    let creeping = stepper.state.cuts >= CREEPING;
+    let creeping = stepper.state.cuts >= CREEPING_CUTS;
     let mut failed = None;
-    if let Some(share) = foreseen.filter(|share| share * wanted > SHORTEST_CUT * least) {
+    if let Some(share) = predicted.filter(|share| share * wanted > MIN_CUT * resolution) {
         (first, cuts, cut) = (Some(wanted), 1, true);
         wanted = share * wanted.min(system.longest_step());
     }
     for _ in 0..failures {
-        // The step is what time really moves by: nothing drifts from its rounding.
+        // The step is the difference of two representable times, so that rounding does not accumulate.
         let h = time + wanted.min(system.longest_step()) - time;
         if h <= 0.0 {
             break;
@@ -112,34 +121,34 @@ fn fitted<D: Copy>(
             state.step = match first {
                 Some(first) if cut => first,
                 Some(_) => h * growth().min(1.0),
-                None if predicts && error > STEADY => wanted,
+                None if predicts && error > STEADY_ERROR => wanted,
                 None => h * growth(),
             };
             state.last_error = error.max(1e-4);
             state.cuts = match (cut, failed) {
                 (true, _) => state.cuts + 1,
-                (false, Some(_)) if creeping => CREEPING,
+                (false, Some(_)) if creeping => CREEPING_CUTS,
                 _ => 0,
             };
             return Ok(h);
         }
         first.get_or_insert(h);
         state.statistics.rejected += 1;
-        if error < PREDICTABLE {
-            // A shorter one goes over the same ground.
+        if error < MAX_PREDICTING_ERROR {
+            // The next attempt is shorter and covers the same interval.
             stepper.predict_from_attempt(time + h);
         } else {
             stepper.method.forget();
         }
         let state = &stepper.state;
-        let look = error.is_finite() && cuts < CUTS && !creeping;
-        let share = if look {
+        let searches = error.is_finite() && cuts < MAX_CUTS && !creeping;
+        let share = if searches {
             discontinuity::first(system, state.start(), &stepper.events, h, &state.attempt().y)
         } else {
             None
         };
-        // A discontinuity that close is where the step starts.
-        let share = share.filter(|share| share * h > SHORTEST_CUT * least);
+        // A discontinuity this close to the start belongs to the start.
+        let share = share.filter(|share| share * h > MIN_CUT * resolution);
         cut = share.is_some();
         cuts += usize::from(cut);
         let power = failed.map_or(full, |before| control::error_power([before, (h, error)], full));
@@ -149,10 +158,10 @@ fn fitted<D: Copy>(
     Err(wanted)
 }
 
-/// The error of the attempted step of `h` over the tolerance; of one that is tolerable the end is looked at. One that is
-/// lost there is infinitely wrong, unless no shorter one is to be attempted.
+/// The error of the attempted step of length `h` [s] over the tolerance. If it is tolerable, rates and event functions
+/// at the end are computed; if these are invalid in an adaptive method, the error is infinite.
 fn judged<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, h: f64, tolerance: f64) -> f64 {
-    if lost_state(&stepper.state.attempt().y).is_some() {
+    if first_invalid(&stepper.state.attempt().y).is_some() {
         return f64::INFINITY;
     }
     let start = stepper.state.start();
@@ -161,8 +170,8 @@ fn judged<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, 
     let error =
         control::norm(&stepper.attempt, &start.y, &system.scales()[..weighted], stepper.properties.coarse, tolerance);
     if error <= 1.0 {
-        stepper.look_at_end_if_due(system, t);
-        if stepper.properties.adaptive && lost_state(&stepper.state.attempt().rates).is_some() {
+        stepper.evaluate_end_if_missing(system, t);
+        if stepper.properties.adaptive && first_invalid(&stepper.state.attempt().rates).is_some() {
             return f64::INFINITY;
         }
     }

@@ -1,16 +1,16 @@
-//! The last step and what is done with it: attempted, looked at, committed, looked into.
+//! The last step and the operations on it: attempt, evaluate its end, commit, interpolate.
 
 use super::dense_output::Correction;
 use super::method::{Attempt, Method, MethodKind, Properties};
-use super::state::{SolverState, StepPoint, lost_state};
+use super::state::{SolverState, StepPoint, first_invalid};
 use super::step_control::Settings;
 use super::system::{EventFunctions, StateLayout, System};
 
-/// A method, its last step, and its attempt at the next.
+/// A method, the last step and the attempt at the next step.
 pub struct Stepper<D> {
     pub(super) settings: Settings,
     pub(super) method: Box<dyn Method<D>>,
-    /// Of the method, and of its present kind.
+    /// Properties of the method's present kind.
     pub(super) properties: Properties,
     pub(super) layout: StateLayout,
     pub(super) state: SolverState<D>,
@@ -23,7 +23,7 @@ pub struct Stepper<D> {
 }
 
 impl<D: Copy> Stepper<D> {
-    /// Goes on from a saved state.
+    /// Resumes from a saved state.
     pub(super) fn new(
         system: &dyn System<Discrete = D>,
         method: Box<dyn Method<D>>,
@@ -36,74 +36,74 @@ impl<D: Copy> Stepper<D> {
         let (properties, layout) = (*method.properties(), system.layout());
         let mut stepper =
             Self { settings, method, properties, layout, state, events, attempt, correction, inside: vec![0.0; n] };
-        stepper.find_events(system);
+        stepper.update_events(system);
         stepper
     }
 
-    /// Goes on from another state.
+    /// Continues from another state.
     pub(super) fn set_state(&mut self, system: &dyn System<Discrete = D>, state: SolverState<D>) {
         self.state = state;
         self.correction.forget();
-        self.find_events(system);
+        self.update_events(system);
     }
 
-    /// Does something to the method, and finds out what it is like now.
+    /// Changes the method and updates the copy of its properties.
     pub(super) fn with_method<R>(&mut self, work: impl FnOnce(&mut dyn Method<D>) -> R) -> R {
         let done = work(&mut *self.method);
         self.properties = *self.method.properties();
         done
     }
 
-    /// Makes attempts in this way, if there is a choice.
+    /// Selects the kind of steps, if the method has more than one.
     pub(super) fn set_kind(&mut self, kind: MethodKind) {
         if kind != self.method.kind() {
             self.with_method(|method| method.set_kind(kind));
         }
     }
 
-    fn find_events(&mut self, system: &dyn System<Discrete = D>) {
+    fn update_events(&mut self, system: &dyn System<Discrete = D>) {
         let StepPoint { t, y, discrete, .. } = self.state.front();
         system.event_functions(discrete, *t, y, &mut self.events);
     }
 
-    /// Attempts a step of `h` from the start of the last one.
+    /// Attempts a step of length `h` [s] from the start of the present step.
     pub(super) fn attempt(&mut self, system: &dyn System<Discrete = D>, h: f64) {
         let (start, end) = self.state.ends();
         let evaluations = self.method.attempt(system, start, h, end, &mut self.attempt);
         self.state.statistics.evaluations += evaluations;
     }
 
-    /// Attempts the last step anew, up to `t`.
+    /// Repeats the attempt at the last step so that it ends at `t`.
     pub(super) fn attempt_to(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         let start = self.state.start().t;
         let h = t - start;
         self.attempt(system, h);
-        // Where the step is rounded, its end is not quite at `t`.
+        // The end of a rounded step differs from `t`.
         if self.gives_end() && start + h != t {
-            self.look_at_end(system, t);
+            self.evaluate_end(system, t);
         }
     }
 
-    /// An attempt has given rates and event functions at its end.
+    /// Whether an attempt computes the rates and event functions at its end.
     pub(super) fn gives_end(&self) -> bool {
         self.properties.gives_end
     }
 
-    /// Takes rates and event functions at the end of the attempt, at `t`.
-    pub(super) fn look_at_end(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+    /// Computes the rates and event functions at the end of the attempt, at `t`.
+    pub(super) fn evaluate_end(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         let (start, StepPoint { y, rates, .. }) = self.state.ends();
         system.rates_and_event_functions(&start.discrete, t, y, rates, &mut self.attempt.events);
         self.state.statistics.evaluations += 1;
     }
 
-    /// The same, if the attempt has not given them.
-    pub(super) fn look_at_end_if_due(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+    /// Computes the rates and event functions at the end of the attempt, unless the method has computed them.
+    pub(super) fn evaluate_end_if_missing(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         if !self.gives_end() {
-            self.look_at_end(system, t);
+            self.evaluate_end(system, t);
         }
     }
 
-    /// Makes the attempt, whose end has been looked at, the step that ends at `t`.
+    /// Makes the attempt, with rates and event functions at its end, the step that ends at `t`.
     pub(super) fn commit(&mut self, t: f64) {
         self.events = self.attempt.events;
         self.state.commit(t);
@@ -111,20 +111,20 @@ impl<D: Copy> Stepper<D> {
         self.predict_from_attempt(t);
     }
 
-    /// Predicts the next attempt from the last one, which ends at `t`, if the method predicts any.
+    /// Makes the last attempt, which ends at `t`, the history of the next prediction, if the method predicts.
     pub(super) fn predict_from_attempt(&mut self, t: f64) {
         if self.properties.predicts {
             self.method.remember(self.state.start(), t);
         }
     }
 
-    /// Gives the front another discrete state.
+    /// Replaces the discrete state at the front.
     pub(super) fn set_discrete(&mut self, system: &dyn System<Discrete = D>, discrete: D) {
         self.state.front_mut().discrete = discrete;
         self.refresh(system);
     }
 
-    /// Computes rates and event functions at the front anew, whose discrete state has changed.
+    /// Computes rates and event functions at the front after a change of its discrete state.
     pub(super) fn refresh(&mut self, system: &dyn System<Discrete = D>) {
         self.method.forget();
         let StepPoint { t, y, rates, discrete, .. } = self.state.front_mut();
@@ -133,8 +133,8 @@ impl<D: Copy> Stepper<D> {
         self.state.statistics.evaluations += 1;
     }
 
-    /// Makes what is told of `t` in the last step the end of the attempt.
-    pub(super) fn attempt_as_told(&mut self, system: &dyn System<Discrete = D>, t: f64) {
+    /// Makes the state at `t` in the last step, as [`state_at`](Self::state_at) reports it, the end of the attempt.
+    pub(super) fn attempt_interpolated(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         if self.is_attempted_at(system, t) {
             return;
         }
@@ -156,17 +156,18 @@ impl<D: Copy> Stepper<D> {
         (&self.inside, discrete)
     }
 
-    /// Attempts a step to `t` within the last one where the method asks for it, and tells whether it leads somewhere.
+    /// For a method that does not interpolate, attempts a step to `t` within the last one. Returns whether its end is
+    /// valid.
     fn is_attempted_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> bool {
         if self.properties.interpolates || t <= self.state.start().t {
             return false;
         }
         let (start, end) = self.state.ends();
         self.method.attempt(system, start, t - start.t, end, &mut self.attempt);
-        lost_state(&end.y).is_none()
+        first_invalid(&end.y).is_none()
     }
 
-    /// Writes the state at `t` within the last step as it is interpolated.
+    /// Interpolates the state at `t` within the last step.
     fn interpolate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         let step = self.state.last_step(self.layout);
         self.correction.find(&step, system, &self.state.start().discrete, self.settings.tolerance);

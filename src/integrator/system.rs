@@ -1,44 +1,45 @@
-//! What the integrator asks of a hybrid system: traits, each with one duty.
+//! Interface between the integrator and a hybrid system: traits, each with one duty.
 //!
-//! States are slices of [`StateLayout::states`] numbers, at most [`MAX_STATES`].
+//! States are slices of [`StateLayout::states`] numbers, at most [`MAX_STATES`]. The first [`StateLayout::positions`]
+//! are positions, as many velocities follow, and then first-order states.
 
 use super::tableau::Tableau;
 use crate::math::F64x8;
 
-/// Most states that a system may have.
+/// Maximum number of states.
 pub const MAX_STATES: usize = 64;
 
-/// Most event functions that a system may have.
+/// Maximum number of event functions.
 pub const MAX_EVENTS: usize = 8;
 
-/// An event function at one instant. The event happens when `value` falls through zero.
+/// The value of an event function at one instant. The event happens when `value` falls through zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EventFunction {
-    /// Distance to the event, positive before it.
+    /// Distance to the event; positive before it.
     pub value: f64,
-    /// Its time derivative.
+    /// Time derivative of `value`.
     pub rate: f64,
 }
 
 /// All event functions at one instant.
 pub type EventFunctions = [EventFunction; MAX_EVENTS];
 
-/// Which event functions fell through zero at the same instant.
+/// For each event function, whether it fell through zero at the present instant.
 pub type Triggered = [bool; MAX_EVENTS];
 
-/// What holds after an event.
+/// The result of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reset<D> {
-    /// The discrete state from now on.
+    /// The discrete state after the event.
     pub discrete: D,
-    /// [s] How long the impact lasts that begins here, where one does.
+    /// [s] Duration of the impact that begins with the event; `None` without an impact.
     pub impact: Option<f64>,
 }
 
-/// Most functions whose zeros are discontinuities of a derivative.
+/// Maximum number of functions whose zeros are derivative discontinuities.
 const MAX_DISCONTINUITIES: usize = 42;
 
-/// Functions whose zeros are derivative discontinuities: there a rate goes on with another slope.
+/// Functions whose zeros are derivative discontinuities: the slope of a rate jumps there.
 #[derive(Clone, Copy, Debug)]
 pub struct Discontinuities {
     values: [f64; MAX_DISCONTINUITIES],
@@ -49,7 +50,7 @@ impl Discontinuities {
     /// An empty list.
     pub const NONE: Self = Self { values: [0.0; MAX_DISCONTINUITIES], count: 0 };
 
-    /// Adds one function by its value.
+    /// Adds the value of one function.
     pub fn push(&mut self, value: f64) {
         self.values[self.count] = value;
         self.count += 1;
@@ -61,30 +62,30 @@ impl Discontinuities {
     }
 }
 
-/// How many states a system has, and of which kinds.
+/// Number and kinds of the states of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateLayout {
-    /// Positions, which come first; as many rates of the positions follow, and then first-order states.
+    /// Number of positions, which come first. As many velocities follow, and then first-order states.
     pub positions: usize,
-    /// Leading states that the error norm weighs; the others follow from the weighted ones.
+    /// Number of leading states in the error norm; the other states depend on them.
     pub weighted: usize,
-    /// All states.
+    /// Number of all states.
     pub states: usize,
 }
 
 impl StateLayout {
-    /// `states` states: positions and their rates.
+    /// The layout of `states` states: positions and their velocities.
     pub const fn second_order(states: usize) -> Self {
         Self { positions: states / 2, weighted: states, states }
     }
 
-    /// There are no states but positions and their rates.
+    /// Whether there are only positions and their velocities.
     pub fn is_second_order(self) -> bool {
         self.states == 2 * self.positions
     }
 }
 
-/// How the rates of a system depend on its states and on time.
+/// Derivatives of the rates with respect to the states and to time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jacobian {
     states: usize,
@@ -94,7 +95,7 @@ pub struct Jacobian {
 }
 
 impl Jacobian {
-    /// All zeros, of so many states.
+    /// A Jacobian of zeros for `states` states.
     pub fn new(states: usize) -> Self {
         Self { states, elements: vec![0.0; states * states], time: vec![0.0; states] }
     }
@@ -104,34 +105,35 @@ impl Jacobian {
         &self.elements[i * self.states..][..self.states]
     }
 
-    /// The same, to be written.
+    /// The row [`row`](Self::row) for writing.
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.elements[i * self.states..][..self.states]
     }
 }
 
-/// Ordinary differential equations of second order in the positions, with first-order states beside them.
+/// Ordinary differential equations of second order in the positions, with additional first-order states.
 pub trait Ode {
     /// The discrete state. It is constant within a step.
     type Discrete: Copy;
 
-    /// How many states there are.
+    /// Number and kinds of the states.
     fn layout(&self) -> StateLayout;
 
     /// Writes the rates of the state `y` at time `t`: the velocities, then the accelerations, then the
     /// rates of first-order states.
     fn rates(&self, discrete: &Self::Discrete, t: f64, y: &[f64], rates: &mut [f64]);
 
-    /// [unit of each state] An error of `tolerance` times this is just tolerable in one step.
+    /// [unit of each state] Scales of the error norm: an error of `tolerance` times the scale is just tolerable in one
+    /// step.
     fn scales(&self) -> &[f64];
 
-    /// [s] No step is longer.
+    /// [s] Upper bound of a step.
     fn longest_step(&self) -> f64;
 
-    /// Writes the rates at the stages of a method after its first and before its end is known, for a step of `h` from
-    /// the state `y` at time `t`. The rates of stage i have the place i·n to (i + 1)·n in `k`, where n is the number of
-    /// states; the first n are known. A system that knows n when it is compiled can do so with the stages' sums and its
-    /// rates in one function; `false` means that it has not.
+    /// Writes the rates at the inner stages of an explicit method, those after the first and before the end, for a step
+    /// of `h` [s] from the state `y` at time `t`. The rates of stage i occupy places i·n to (i + 1)·n of `k`, where n
+    /// is the number of states; those of stage 0 are given. A system whose n is known at compile time can compute the
+    /// sums and rates of all stages in one function. Returns `false` if the system does not implement this.
     fn stages(
         &self,
         _tableau: &Tableau,
@@ -147,15 +149,15 @@ pub trait Ode {
 
 /// The events of a system.
 pub trait Events: Ode {
-    /// How many event functions there are, at most [`MAX_EVENTS`].
+    /// Number of event functions, at most [`MAX_EVENTS`].
     fn event_count(&self) -> usize {
         0
     }
 
-    /// Writes all event functions. Only positions and the discrete state decide `value`.
+    /// Writes all event functions. Their values depend only on positions and on the discrete state.
     fn event_functions(&self, _discrete: &Self::Discrete, _t: f64, _y: &[f64], _functions: &mut EventFunctions) {}
 
-    /// Both rates and event functions, for a system that computes them cheaper together.
+    /// Writes rates and event functions, for a system that computes both at lower cost together.
     fn rates_and_event_functions(
         &self,
         discrete: &Self::Discrete,
@@ -168,24 +170,22 @@ pub trait Events: Ode {
         self.event_functions(discrete, t, y, functions);
     }
 
-    /// Adds the functions whose zeros are derivative discontinuities of the rates; their number and order depend on the
-    /// discrete state alone. They only tell where a step may end with advantage: one that is left out costs steps, not
-    /// accuracy.
+    /// Adds the functions whose zeros are derivative discontinuities of the rates. Their number and order depend only
+    /// on the discrete state. They suggest where a step should end: omitting one costs steps, not accuracy.
     fn discontinuities(&self, _discrete: &Self::Discrete, _t: f64, _y: &[f64], _functions: &mut Discontinuities) {}
 
-    /// No motion leads beyond the fall of this event function, nor goes on from a tenth of the event scale before it.
-    /// Every method locates it.
+    /// Whether the event is a dead end: the equations are singular where its function falls through zero, and a motion
+    /// does not continue from a tenth of the event scale before it. Every method locates dead ends.
     fn is_dead_end(&self, _event: usize) -> bool {
         false
     }
 
-    /// [unit of the event functions] An error of `tolerance` times this in an event function is just tolerable.
+    /// [unit of the event functions] An error of `tolerance` times this is just tolerable in an event function.
     fn event_scale(&self) -> f64 {
         1.0
     }
 
-    /// The discrete state after the event functions in `triggered` fell through zero at `t`; may reset first-order
-    /// states.
+    /// The discrete state after the events in `triggered` at `t`; first-order states in `y` may be reset.
     fn reset(
         &self,
         discrete: &Self::Discrete,
@@ -197,35 +197,36 @@ pub trait Events: Ode {
     }
 }
 
-/// A system whose rates have derivatives. The default takes differences.
+/// A system whose rates have derivatives. The default implementation takes finite differences.
 pub trait Linearizable: Ode {
-    /// Writes the derivatives of the rates at `t` and `y`. Where a rate has a corner, the derivative is that of the
-    /// branch that `rates` takes.
+    /// Writes the derivatives of the rates at `t` and `y`. At a corner of a rate the derivative is that of the branch
+    /// that `rates` takes.
     fn jacobian(&self, discrete: &Self::Discrete, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         by_differences(self, discrete, t, y, jacobian);
     }
 }
 
-/// A system that computes the rates of several instants together. The default computes one after the other.
+/// A system that computes the rates at several instants together. The default implementation computes one after the
+/// other.
 pub trait SeveralInstants: Ode {
-    /// Writes the rates of eight states at their times.
+    /// Writes the rates of eight states, each at its own time.
     fn rates_in_row(&self, discrete: &Self::Discrete, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         one_by_one(self, discrete, t, y, rates);
     }
 
-    /// Whether rates at eight states take so little more time than at one that steps are best made in blocks, see
+    /// Whether rates at eight states take so little more time than at one that steps in blocks pay; see
     /// [`block`](super::methods::block).
     fn suits_blocks(&self) -> bool {
         false
     }
 }
 
-/// A hybrid system: all of these.
+/// A hybrid system: the union of these traits.
 pub trait System: Events + Linearizable + SeveralInstants {}
 
 impl<S: Events + Linearizable + SeveralInstants + ?Sized> System for S {}
 
-/// [`SeveralInstants::rates_in_row`] by the rates of each state.
+/// [`SeveralInstants::rates_in_row`] by one evaluation per state.
 pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
     let n = y.len();
     let (mut at, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
@@ -242,9 +243,10 @@ pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &F64x8
     }
 }
 
-/// [`Linearizable::jacobian`] by differences over the scale of each state: for rates that are smooth over so much.
+/// [`Linearizable::jacobian`] by central differences over a thousandth of each state's scale; the rates must be smooth
+/// there.
 pub fn by_differences<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: f64, y: &[f64], jacobian: &mut Jacobian) {
-    /// [s] Half the interval of time.
+    /// [s] Half the time interval of a difference.
     const INSTANT: f64 = 1e-7;
     let n = y.len();
     let (mut at, mut before, mut after) = ([0.0; MAX_STATES], [0.0; MAX_STATES], [0.0; MAX_STATES]);

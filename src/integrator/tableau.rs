@@ -1,6 +1,6 @@
-//! Butcher tableaux, as printed in their sources and summed up by the compiler.
+//! Butcher tableaux, as printed in their sources; their consistency is checked at compile time.
 
-/// Most stages that a method may have.
+/// Maximum number of stages of a method.
 pub const MAX_STAGES: usize = 12;
 
 /// Coefficients of an explicit Runge-Kutta method with up to two error estimates.
@@ -10,7 +10,7 @@ pub struct Tableau {
     pub name: &'static str,
     /// Number of stages.
     pub stages: usize,
-    /// Order of the solution that is carried on.
+    /// Order of the solution.
     pub order: u32,
     /// Stage coefficients, strictly lower triangular.
     pub a: [[f64; MAX_STAGES]; MAX_STAGES],
@@ -18,21 +18,22 @@ pub struct Tableau {
     pub b: [f64; MAX_STAGES],
     /// Nodes.
     pub c: [f64; MAX_STAGES],
-    /// Weights of the error estimate: the solution's minus those of the embedded one. All zero for
-    /// a method without one.
+    /// Weights of the error estimate: those of the solution less those of the embedded method; all zero without an
+    /// embedded method.
     pub error: [f64; MAX_STAGES],
-    /// Weights of a second, lower-order estimate, where the method has one.
+    /// Weights of a second, lower-order error estimate, where the method has one.
     pub coarse_error: Option<[f64; MAX_STAGES]>,
-    /// The power of the step with which the error estimate falls.
+    /// The error estimate is proportional to the step raised to this power.
     pub error_power: f64,
-    /// The last stage is at the step's end: its weights are those of the solution, its rates the next step's first.
+    /// Whether the last stage is at the step's end with the weights of the solution; its rates are then the first of
+    /// the next step.
     pub first_same_as_last: bool,
-    /// Events are located and landed on; otherwise they are noticed at the end of a step.
+    /// Whether events are located and steps end at them; otherwise events are noticed at the end of a step.
     pub locates: bool,
 }
 
 impl Tableau {
-    /// Rows of different lengths as one square array.
+    /// Combines rows of different lengths into one square array.
     pub const fn rows(rows: &[&[f64]]) -> [[f64; MAX_STAGES]; MAX_STAGES] {
         let mut a = [[0.0; MAX_STAGES]; MAX_STAGES];
         let mut i = 0;
@@ -43,7 +44,7 @@ impl Tableau {
         a
     }
 
-    /// One row, filled up with zeros.
+    /// One row, padded with zeros.
     pub const fn row(row: &[f64]) -> [f64; MAX_STAGES] {
         let mut full = [0.0; MAX_STAGES];
         let mut j = 0;
@@ -65,13 +66,13 @@ impl Tableau {
         full
     }
 
-    /// Number of stages before the step's end is known.
+    /// Number of stages before the step's end.
     pub const fn inner_stages(&self) -> usize {
         if self.first_same_as_last { self.stages - 1 } else { self.stages }
     }
 
-    /// The first stage after the first of all that an error estimate weighs; 0 without an estimate.
-    pub const fn first_weighed_stage(&self) -> usize {
+    /// The first stage after stage 0 that the error estimate weighs; 0 without an estimate.
+    pub const fn first_weighted_stage(&self) -> usize {
         let mut i = 1;
         while i < self.stages {
             if self.error[i] != 0.0 {
@@ -82,11 +83,11 @@ impl Tableau {
         0
     }
 
-    /// Each row sums to its node, the weights to one and the error's weights to zero.
+    /// Whether each row sums to its node, the weights to one and the weights of the error estimates to zero.
     pub const fn is_consistent(&self) -> bool {
         let mut i = 0;
         while i < self.stages {
-            // A row of Verner's holds coefficients near 200, printed to double precision.
+            // A row of Verner's tableau has coefficients near 200, printed to double precision.
             if !is_small(sum(&self.a[i]) - self.c[i], 1e-13) {
                 return false;
             }

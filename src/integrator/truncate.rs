@@ -1,11 +1,10 @@
-//! The last step made anew, shorter.
+//! Shortens the last step.
 
-use super::state::lost_state;
+use super::state::first_invalid;
 use super::stepper::Stepper;
 use super::system::System;
 
-/// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a
-/// step of its own.
+/// Shortens the last step so that it ends at `t`, by a new step.
 pub fn truncate<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t: f64) {
     let state = &mut stepper.state;
     if t >= state.front().t {
@@ -20,19 +19,20 @@ pub fn truncate<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete 
     } else {
         stepper.attempt_to(system, t);
         keep(stepper, system, t);
-        stepper.look_at_end_if_due(system, t);
+        stepper.evaluate_end_if_missing(system, t);
         stepper.commit(t);
     }
 }
 
-/// A shorter step to `t` was not judged. Where it is lost, what was told of this instant takes its place, and where
-/// that is lost, too, the straight line between the longer step's ends, which are not.
+/// Replaces the end of the shorter step to `t` if it is invalid, because its error was not judged: by the state at `t`
+/// in the longer step, or, if that is invalid, too, by linear interpolation between the longer step's ends, which are
+/// valid.
 fn keep<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t: f64) {
-    if lost_state(&stepper.state.attempt().y).is_none() {
+    if first_invalid(&stepper.state.attempt().y).is_none() {
         return;
     }
-    stepper.attempt_as_told(system, t);
-    if lost_state(&stepper.state.attempt().y).is_some() {
+    stepper.attempt_interpolated(system, t);
+    if first_invalid(&stepper.state.attempt().y).is_some() {
         let state = &mut stepper.state;
         let share = (t - state.start().t) / (state.end().t - state.start().t);
         let (start, end, attempt) = state.all_ends();
@@ -41,6 +41,6 @@ fn keep<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, t:
         }
     }
     if stepper.gives_end() {
-        stepper.look_at_end(system, t);
+        stepper.evaluate_end(system, t);
     }
 }

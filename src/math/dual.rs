@@ -1,5 +1,5 @@
-//! Forward differentiation: numbers that carry their derivatives along (A. Griewank, A. Walther,
-//! Evaluating Derivatives, 2nd ed. 2008, 3.1: tangents, several at a time).
+//! Forward-mode differentiation: numbers that carry their derivatives (A. Griewank, A. Walther, Evaluating Derivatives,
+//! 2nd ed. 2008, 3.1: tangents, several directions at a time).
 
 use super::fused::Fused;
 use super::lanes::LANES;
@@ -10,8 +10,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number and its derivatives along `D` directions.
 ///
-/// The value has the bits that `f64` would have. Where a function has a corner, the derivative is the
-/// one of the branch that the value takes.
+/// The value has the same bits as the same computation in `f64`. Where a function has a corner, the derivative is that
+/// of the branch that the value takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const D: usize> {
     /// The number.
@@ -21,20 +21,20 @@ pub struct Dual<const D: usize> {
 }
 
 impl<const D: usize> Dual<D> {
-    /// A variable: the derivative along `direction` is 1.
+    /// An independent variable: its derivative along `direction` is 1 and all others are 0.
     pub fn variable(value: f64, direction: usize) -> Self {
         let mut slope = [0.0; D];
         slope[direction] = 1.0;
         Self { value, slope }
     }
 
-    /// A function of this number with this value and derivative.
+    /// The function g(`self`) whose value is g and whose derivative is g′ (chain rule).
     #[inline(always)]
     fn chained(self, value: f64, derivative: f64) -> Self {
         Self { value, slope: self.slope.map(|slope| slope * derivative) }
     }
 
-    /// A function of two numbers with this value and these partial derivatives.
+    /// A function of two numbers, given its value and its two partial derivatives (chain rule).
     #[inline(always)]
     fn joined(self, other: Self, value: f64, first: f64, second: f64) -> Self {
         Self { value, slope: std::array::from_fn(|k| self.slope[k] * first + other.slope[k] * second) }

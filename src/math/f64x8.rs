@@ -1,4 +1,4 @@
-//! Eight numbers that are computed together: those of one quantity at eight instants of a step.
+//! Eight numbers that are computed together: the values of one quantity at eight instants of a step.
 
 use super::fused::Fused;
 use super::lanes::LANES;
@@ -10,40 +10,40 @@ use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use wide::{CmpGt, f64x4};
 
-/// How many numbers a [`F64x8`] has.
+/// How many numbers an [`F64x8`] holds.
 pub const ROW: usize = REGISTERS * LANES;
 const REGISTERS: usize = 2;
 
-/// Eight numbers side by side: two registers of four, where the processor has such, so that one half computes while the
-/// other waits for a result.
+/// Eight numbers side by side. They fill two registers of four on processors that have such registers, so that one half
+/// computes while the other waits for a result.
 ///
-/// Each has the bits that `f64` would have. Two rows are equal, or one is greater, where that holds of all their numbers; where
-/// they are not alike in that, no comparison holds.
+/// Each number has the bits that `f64` would have. A comparison of two `F64x8` holds only if it holds for all eight
+/// pairs of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct F64x8([f64x4; REGISTERS]);
 
 impl F64x8 {
-    /// These.
+    /// Packs eight numbers.
     #[inline(always)]
     pub const fn of(numbers: [f64; ROW]) -> Self {
         let [a, b, c, d, e, f, g, h] = numbers;
         Self([f64x4::new([a, b, c, d]), f64x4::new([e, f, g, h])])
     }
 
-    /// Them.
+    /// Unpacks the eight numbers.
     #[inline(always)]
     pub fn numbers(self) -> [f64; ROW] {
         let ([a, b, c, d], [e, f, g, h]) = (self.0[0].to_array(), self.0[1].to_array());
         [a, b, c, d, e, f, g, h]
     }
 
-    /// The last one.
+    /// The last of the eight numbers.
     #[inline(always)]
     pub fn last(self) -> f64 {
         self.0[1].to_array()[LANES - 1]
     }
 
-    /// Of all eight.
+    /// The sum of all eight numbers.
     #[inline(always)]
     pub fn sum(self) -> f64 {
         let [a, b, c, d] = (self.0[0] + self.0[1]).to_array();
@@ -62,7 +62,7 @@ impl F64x8 {
         Self(std::array::from_fn(|k| of(self.0[k], other.0[k])))
     }
 
-    /// A function that is not written for four at a time.
+    /// Applies a function that has no implementation for four numbers at a time.
     fn one_by_one(self, of: impl Fn(f64) -> f64) -> Self {
         self.each(|four| f64x4::new(four.to_array().map(&of)))
     }
@@ -215,7 +215,7 @@ impl Real for F64x8 {
     fn constant(value: f64) -> Self {
         Self([f64x4::splat(value); REGISTERS])
     }
-    /// The first one.
+    /// The first of the eight numbers.
     #[inline(always)]
     fn value(self) -> f64 {
         self.0[0].to_array()[0]
@@ -234,7 +234,7 @@ impl Real for F64x8 {
     }
     #[inline(always)]
     fn max(self, limit: f64) -> Self {
-        // Of equal ones, and where it is not a number, the limit.
+        // The limit is returned where both are equal and where the number is NaN.
         self.each(|x| x.fast_max(f64x4::splat(limit)))
     }
     #[inline(always)]

@@ -2,9 +2,9 @@
 
 /// a·b + c.
 ///
-/// Compiled for processors that do it in one instruction it rounds once, and otherwise the product, too: then it has the
-/// bits of `a * b + c`. Only what takes time is written so. It is called by name, and not left to the compiler to find:
-/// the same expression has the same bits wherever it stands.
+/// On processors with a fused multiply-add instruction the result is rounded once; on others the product is rounded,
+/// too, and the result has the bits of `a * b + c`. Only code whose speed matters uses it. It is called by name rather
+/// than left to the compiler, so that the same expression has the same bits wherever it stands.
 pub trait Fused<F = Self>: Sized {
     /// `self`·`factor` + `term`.
     fn multiply_add(self, factor: F, term: Self) -> Self;

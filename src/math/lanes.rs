@@ -3,17 +3,17 @@
 use super::fused::Fused;
 use std::array;
 
-/// How many there are.
+/// How many numbers a [`Lanes`] holds.
 pub const LANES: usize = 4;
 
-/// Four numbers that are computed together: in one register, where the processor has such. The compiler does not come
-/// upon that by itself in sums that it has written out.
+/// Four numbers that are computed together, in one register on processors that have registers of four. The compiler
+/// does not vectorise sums that are written out term by term.
 pub trait Lanes<R>: Copy {
-    /// These.
+    /// Packs four numbers.
     fn of(numbers: [R; LANES]) -> Self;
-    /// Adds `factor` times each number.
+    /// Adds `factor` times each of `numbers`.
     fn add(&mut self, factor: R, numbers: &[f64; LANES]);
-    /// Them.
+    /// Unpacks the four numbers.
     fn numbers(self) -> [R; LANES];
 }
 

@@ -1,8 +1,8 @@
-//! Numbers, vectors and the elementary functions, in one place: the same bits on every platform, but for what [`Fused`]
-//! tells of processors that multiply and add in one instruction.
+//! Numbers, vectors and the elementary functions. Their results have the same bits on every platform, except that
+//! [`Fused`] operations round differently on processors that multiply and add in one instruction.
 //!
-//! `f64`'s own come from the platform's C library, whose last digits differ. Square roots are exact
-//! by IEEE 754 everywhere and stay `f64::sqrt`.
+//! The elementary functions of `f64` are not used: they come from the platform's C library, whose last digits differ.
+//! Square roots are correctly rounded everywhere by IEEE 754, so `f64::sqrt` is used.
 
 mod dual;
 mod f64x8;
@@ -63,7 +63,7 @@ pub fn atan2<R: Real>(y: R, x: R) -> R {
     R::atan2(y, x)
 }
 
-/// x^y to a few parts in a thousand, for positive normal x and moderate powers.
+/// x^y to a few parts in a thousand, for positive normal x and |y·log₂x| below 1000.
 pub fn rough_power(x: f64, y: f64) -> f64 {
     rough_exp2(y * rough_log2(x))
 }
@@ -71,7 +71,7 @@ pub fn rough_power(x: f64, y: f64) -> f64 {
 const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
 const ONE: u64 = 1023 << MANTISSA;
 
-/// Exponent, and a parabola through log2 of the mantissa at 1, √2 and 2.
+/// log₂ x: the exponent plus a parabola through log₂ of the mantissa at 1, √2 and 2.
 fn rough_log2(x: f64) -> f64 {
     let bits = x.to_bits();
     let exponent = f64::from((bits >> MANTISSA) as i32) - 1023.0;
@@ -79,7 +79,7 @@ fn rough_log2(x: f64) -> f64 {
     exponent + m + 0.343_145_750_507_620 * m * (1.0 - m)
 }
 
-/// Exponent, and a parabola through 2^x at 0, ½ and 1.
+/// 2^x: the exponent plus a parabola through 2^x at 0, ½ and 1.
 fn rough_exp2(x: f64) -> f64 {
     let biased = x.clamp(-1000.0, 1000.0) + 1023.0;
     let exponent = biased as i32;

@@ -1,4 +1,4 @@
-//! The numbers that the equations of motion are computed with.
+//! The number types that the equations of motion are computed with.
 
 use super::fused::Fused;
 use super::lanes::Lanes;
@@ -7,10 +7,11 @@ use super::vec2::Vec2;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// `f64`, or a [`Dual`](super::Dual) number, which carries derivatives along, or a [`F64x8`](super::F64x8) of numbers.
+/// A number: `f64`, a [`Dual`](super::Dual), which carries derivatives, or an [`F64x8`](super::F64x8), which holds
+/// eight.
 ///
-/// Code that is generic over it computes with `f64` what code for `f64` would. Parameters stay `f64`
-/// and stand on the right of an operator. Comparisons look at values alone.
+/// Generic code over `Real` computes with `f64` exactly what code for `f64` would. Parameters of the model stay `f64`
+/// and stand on the right of an operator. Comparisons look at values alone, not at derivatives.
 pub trait Real:
     Copy
     + Debug
@@ -32,38 +33,38 @@ pub trait Real:
     + Fused
     + Fused<f64>
 {
-    /// It carries no derivatives; loops that are short may then be written out.
+    /// Whether the type carries no derivatives; short loops are then written out.
     const PLAIN: bool = false;
-    /// It stands for several numbers that are computed together: what depends on a comparison is then computed both ways.
+    /// Whether the type holds several numbers; both branches of a comparison are then computed.
     const MANY: bool = false;
-    /// Four of them side by side.
+    /// Four numbers of this type side by side.
     type Lanes: Lanes<Self>;
     /// 0.
     const ZERO: Self;
     /// 1.
     const ONE: Self;
 
-    /// A number that depends on nothing.
+    /// A number that depends on no variable: its derivatives are 0.
     fn constant(value: f64) -> Self;
-    /// The number without its derivatives.
+    /// The number without its derivatives; of several numbers the first.
     fn value(self) -> f64;
     /// 1/x.
     fn recip(self) -> Self;
-    /// √x; its derivative at 0 counts as 0.
+    /// √x; the derivative at 0 is taken as 0.
     fn sqrt(self) -> Self;
-    /// |x|; its derivative at ±0 is ±1.
+    /// |x|; the derivative at ±0 is taken as ±1.
     fn abs(self) -> Self;
-    /// The larger one; of equal ones `limit`.
+    /// The larger of `self` and `limit`; `limit` if they are equal.
     fn max(self, limit: f64) -> Self;
-    /// The smaller one; of equal ones `limit`.
+    /// The smaller of `self` and `limit`; `limit` if they are equal.
     fn min(self, limit: f64) -> Self;
-    /// Within `low` and `high`; a bound has no derivative.
+    /// `self` limited to `low..=high`; at a bound the derivative is 0.
     fn clamp(self, low: f64, high: f64) -> Self;
-    /// `then` where this is positive, and `other` where not; of a single number the other one is not computed.
+    /// `then()` where `self` is positive and `other()` elsewhere. For a single number only one of the two is called.
     fn choose(self, then: impl FnOnce() -> Self, other: impl FnOnce() -> Self) -> Self;
     /// |x| with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
-    /// (sin x, cos x) of every x.
+    /// (sin x, cos x) of each x.
     fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K];
     /// e^x.
     fn exp(self) -> Self;
@@ -71,7 +72,7 @@ pub trait Real:
     fn tanh(self) -> Self;
     /// Inverse hyperbolic sine.
     fn asinh(self) -> Self;
-    /// x^p; with derivatives for x ≥ 0, p ≥ 1.
+    /// x^p; derivatives are valid for x ≥ 0, p ≥ 1.
     fn powf(self, p: f64) -> Self;
     /// Angle of the point (x, `self`).
     fn atan2(self, x: Self) -> Self;
@@ -149,13 +150,13 @@ impl<R: Real> Vec2<R> {
     /// (0, 0).
     pub const ZERO: Self = Self { x: R::ZERO, y: R::ZERO };
 
-    /// The same, without derivatives.
+    /// The vector `v` with derivatives 0.
     #[inline(always)]
     pub fn constant(v: Vec2) -> Self {
         Self { x: R::constant(v.x), y: R::constant(v.y) }
     }
 
-    /// √(x² + y²); its derivatives at 0 count as 0.
+    /// √(x² + y²); the derivatives at 0 are taken as 0.
     #[inline(always)]
     pub fn norm(self) -> R {
         self.norm_squared().sqrt()

@@ -1,5 +1,5 @@
-//! Sine and cosine together, without a branch and without a call: from a table of the circle and short series for the
-//! rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
+//! Sine and cosine together, without a branch or a call: a table of the circle gives the nearest entry, short series
+//! the rest of the angle (P. T. P. Tang, Table-lookup algorithms for elementary functions, ARITH 10 (1991) 232).
 
 use super::fused::Fused;
 use super::lanes::LANES;
@@ -7,18 +7,18 @@ use super::unroll::unroll;
 use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
-/// Greatest angle that the reduction below takes: its multiple of [`STEP`] has 27 bits.
-const GREATEST: f64 = 1.6e6;
+/// Largest angle that the argument reduction accepts: its multiple of [`STEP`] has 27 bits.
+const MAX_REDUCED_ANGLE: f64 = 1.6e6;
 
-/// Adding and subtracting it rounds to an integer: 1.5·2⁵².
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+/// 1.5·2⁵²: adding and subtracting this number rounds to an integer.
+const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
-/// Entries of the table: the circle's parts.
+/// Number of table entries in the circle.
 const PARTS: usize = 512;
 
-/// 2π/[`PARTS`] as a sum: a number of 26 bits, whose product with an integer of 27 bits is exact, and the rest
-/// (W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980). π/2 is 0x3FF9_21FB_5444_2D18 and
-/// 0x3C91_A626_3314_5C07 more; its 26 bits and what follows them, scaled by powers of two.
+/// 2π/[`PARTS`] as a sum of two numbers: the first has 26 bits, so that its product with an integer of 27 bits is
+/// exact; the second is the rest (W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980). π/2 is
+/// 0x3FF9_21FB_5444_2D18 plus 0x3C91_A626_3314_5C07; its leading 26 bits and the remainder are scaled by powers of two.
 const STEP: [f64; 2] = {
     const PER_STEP: f64 = 4.0 / PARTS as f64;
     let high = f64::from_bits(0x3FF9_21FB_5000_0000);
@@ -37,14 +37,14 @@ static CIRCLE: [(f64, f64); PARTS] = {
     circle
 };
 
-/// (sin, cos) of a part of the circle, from within the first eighth of it.
+/// (sin, cos) of multiple `part` of [`STEP`], reduced to the first eighth of the circle.
 const fn of_part(part: usize) -> (f64, f64) {
     let quarter = PARTS / 4;
-    let place = part % quarter;
-    let (sin, cos) = if place <= quarter / 2 {
-        series(place)
+    let index = part % quarter;
+    let (sin, cos) = if index <= quarter / 2 {
+        series(index)
     } else {
-        let (sin, cos) = series(quarter - place);
+        let (sin, cos) = series(quarter - index);
         (cos, sin)
     };
     match part / quarter {
@@ -55,7 +55,8 @@ const fn of_part(part: usize) -> (f64, f64) {
     }
 }
 
-/// Taylor's series from their small ends, of an angle in the first eighth of the circle; rounded once, nearly.
+/// Taylor series of an angle in the first eighth of the circle, summed from the smallest term, with nearly one
+/// rounding.
 const fn series(part: usize) -> (f64, f64) {
     let (x, rest) = (part as f64 * STEP[0], part as f64 * STEP[1]);
     let (z, mut sin, mut cos) = (x * x, 0.0, 0.0);
@@ -68,13 +69,13 @@ const fn series(part: usize) -> (f64, f64) {
     (x + (x * sin + (1.0 + cos) * rest), 1.0 + (cos - x * (1.0 + sin) * rest))
 }
 
-/// (sin x, cos x) of every x, within about two roundings of the exact ones.
+/// (sin x, cos x) of each x, with an error of about two roundings.
 #[inline(always)]
 pub fn sin_cos<const K: usize>(x: [f64; K]) -> [(f64, f64); K] {
     let mut found = [(0.0, 0.0); K];
     let mut within_reach = true;
     unroll!(true, k < K => {
-        within_reach &= x[k].abs() < GREATEST;
+        within_reach &= x[k].abs() < MAX_REDUCED_ANGLE;
     });
     if within_reach {
         unroll!(true, k < K => {
@@ -94,13 +95,13 @@ pub fn of_four(x: f64x4) -> (f64x4, f64x4) {
     let angles = x.to_array();
     let mut within_reach = true;
     unroll!(true, k < LANES => {
-        within_reach &= angles[k].abs() < GREATEST;
+        within_reach &= angles[k].abs() < MAX_REDUCED_ANGLE;
     });
     if !within_reach {
-        return far(angles);
+        return beyond_reduction(angles);
     }
-    let shifted = multiply_add(x, f64x4::splat(PARTS as f64 / TAU), f64x4::splat(ROUNDER));
-    let k = shifted - f64x4::splat(ROUNDER);
+    let shifted = multiply_add(x, f64x4::splat(PARTS as f64 / TAU), f64x4::splat(ROUND_TO_INTEGER));
+    let k = shifted - f64x4::splat(ROUND_TO_INTEGER);
     let (places, mut sin_k, mut cos_k) = (shifted.to_array(), [0.0; LANES], [0.0; LANES]);
     unroll!(true, k < LANES => {
         (sin_k[k], cos_k[k]) = CIRCLE[places[k].to_bits() as usize % PARTS];
@@ -115,12 +116,12 @@ pub fn of_four(x: f64x4) -> (f64x4, f64x4) {
 }
 
 #[cold]
-fn far(x: [f64; LANES]) -> (f64x4, f64x4) {
+fn beyond_reduction(x: [f64; LANES]) -> (f64x4, f64x4) {
     let found = x.map(one_by_one);
     (f64x4::new(found.map(|(sin, _)| sin)), f64x4::new(found.map(|(_, cos)| cos)))
 }
 
-/// a·b + c, as [`Fused`] for each.
+/// a·b + c, rounded as [`Fused`] rounds it.
 #[inline(always)]
 pub fn multiply_add(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
@@ -128,17 +129,17 @@ pub fn multiply_add(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
 
 #[cold]
 fn one_by_one(x: f64) -> (f64, f64) {
-    if x.abs() < GREATEST { reduced(x) } else { libm::sincos(x) }
+    if x.abs() < MAX_REDUCED_ANGLE { reduced(x) } else { libm::sincos(x) }
 }
 
 #[inline(always)]
 fn reduced(x: f64) -> (f64, f64) {
     // x = k·STEP + r, |r| ≤ π/PARTS.
-    let shifted = x.multiply_add(PARTS as f64 / TAU, ROUNDER);
-    let k = shifted - ROUNDER;
+    let shifted = x.multiply_add(PARTS as f64 / TAU, ROUND_TO_INTEGER);
+    let k = shifted - ROUND_TO_INTEGER;
     let (sin_k, cos_k) = CIRCLE[shifted.to_bits() as usize % PARTS];
     let r = k.multiply_add(-STEP[1], k.multiply_add(-STEP[0], x));
-    // sin r and cos r − 1; the first terms left out are below 1e-17.
+    // sin r and cos r − 1; the first neglected terms are below 1e-17.
     const { assert!((PI / PARTS as f64) < 0.0062) };
     let z = r * r;
     let sin_r = (r * z).multiply_add(z.multiply_add(1.0 / 120.0, -1.0 / 6.0), r);

@@ -1,31 +1,32 @@
-//! Short loops of which every round is code of its own.
+//! Loops with few iterations that are written out.
 
-/// `unroll!(ALONE, i in first..end, MOST => { … })` is `for i in first..end { … }`, with an `end` of at most `MOST`. With
-/// `ALONE` it is written out round by round, at most sixteen, so that where the range is known to the compiler nothing of
-/// the loop is left, and what depends on `i` alone is known before the program runs. (The compiler does so by itself only
-/// with the shortest loops, and often too late: arrays that such a loop fills then stay in memory, written in other
-/// portions than they are read in, and the processor waits for them to have left its store buffer.) `ALONE` and `MOST`
-/// are constants; of rounds beyond `MOST` nothing is compiled. From 0 on, the range is `i < end`, and an `end` that is a
-/// constant needs no `MOST`.
+/// `unroll!(UNROLLED, i in first..end, MAX => { … })` is `for i in first..end { … }` with `end` at most `MAX`. If the
+/// constant `UNROLLED` is true, the loop is written out iteration by iteration, at most sixteen. Where the compiler
+/// knows the range, nothing of the loop is left, and whatever depends on `i` alone is computed at compile time.
+/// Iterations beyond the constant `MAX` produce no code. `i < end` stands for a range from 0; a constant `end` needs no
+/// `MAX`.
+///
+/// The compiler unrolls only the shortest loops by itself, and often too late: arrays that such a loop fills then stay
+/// in memory, are written in other portions than they are read in, and the processor waits for its store buffer.
 macro_rules! unroll {
-    ($alone:expr, $i:ident < $end:expr => $work:block) => {
-        unroll!($alone, $i in 0..$end, $end => $work)
+    ($unrolled:expr, $i:ident < $end:expr => $work:block) => {
+        unroll!($unrolled, $i in 0..$end, $end => $work)
     };
-    ($alone:expr, $i:ident < $end:expr, $most:expr => $work:block) => {
-        unroll!($alone, $i in 0..$end, $most => $work)
+    ($unrolled:expr, $i:ident < $end:expr, $max:expr => $work:block) => {
+        unroll!($unrolled, $i in 0..$end, $max => $work)
     };
-    ($alone:expr, $i:ident in $range:expr, $most:expr => $work:block) => {{
+    ($unrolled:expr, $i:ident in $range:expr, $max:expr => $work:block) => {{
         let range: std::ops::Range<usize> = $range;
-        if const { $alone } {
-            assert!(range.end <= const { if $most < 16 { $most } else { 16 } }, "more rounds than are written out");
-            unroll!(@ $i range, $most, $work 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
+        if const { $unrolled } {
+            assert!(range.end <= const { if $max < 16 { $max } else { 16 } }, "more iterations than are written out");
+            unroll!(@ $i range, $max, $work 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15)
         } else {
             #[allow(clippy::needless_range_loop, clippy::manual_memcpy)]
             for $i in range $work
         }
     }};
-    (@ $i:ident $range:ident, $most:expr, $work:block $($number:literal)*) => {{
-        $(if const { $number < $most } && $range.start <= $number && $number < $range.end {
+    (@ $i:ident $range:ident, $max:expr, $work:block $($number:literal)*) => {{
+        $(if const { $number < $max } && $range.start <= $number && $number < $range.end {
             let $i: usize = $number;
             $work
         })*

@@ -3,7 +3,7 @@
 use super::fused::Fused;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A vector of the plane, in inertial axes unless said otherwise.
+/// A vector of the plane, in inertial axes unless stated otherwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec2<R = f64> {
     /// Along the first axis.
@@ -27,7 +27,7 @@ impl<R: Copy + Fused + Mul<Output = R>> Vec2<R> {
         self.x.multiply_add(other.x, self.y * other.y)
     }
 
-    /// So many times as long, and `other` added.
+    /// `factor`·`self` + `other`.
     #[inline(always)]
     pub fn multiply_add<S: Copy>(self, factor: S, other: Self) -> Self
     where

@@ -1,4 +1,4 @@
-//! The model of a scene: its mechanism, as the integrator and the simulation ask for it.
+//! The model of a scene: its mechanism, with the interfaces of the integrator and the simulation.
 
 use super::bristles::bristled_contacts;
 use super::compiled::Compiled;
@@ -23,7 +23,7 @@ use crate::integrator::{
 use crate::math::F64x8;
 use crate::scene::Scene;
 
-/// The model of a scene: a mechanism, and the code that its steps are made of.
+/// The model of a scene: a mechanism and the functions that are compiled for its structure.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// The mechanism.
@@ -36,7 +36,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Assembles the model of a scene. Nothing in it changes afterwards: time, states, contacts and inputs are arguments.
+    /// Assembles the model of a scene. It is immutable: time, states, contacts and inputs are arguments.
     pub fn assemble(scene: &Scene) -> Self {
         let mechanism = Mechanism::assemble(scene);
         let (structure, states) = (mechanism.structure, mechanism.states());
@@ -63,7 +63,7 @@ impl Model {
         }
         Self {
             compiled: Compiled::of(&mechanism),
-            suits_blocks: structure.topology.has_one_play_in_a_pin() && states == 2 * p,
+            suits_blocks: structure.topology.has_one_pin_clearance() && states == 2 * p,
             scales,
             longest_step: scale.longest_step,
             event_scale: if structure.closed { IdealMechanism::CHANGE_POINT_SCALE } else { scale.length },
@@ -71,13 +71,14 @@ impl Model {
         }
     }
 
-    /// The same by the code for every structure: it has the same motion, and takes longer.
+    /// This model with the functions for any structure in place of the specialised ones. The motion is the same; it
+    /// takes longer.
     pub fn general(mut self) -> Self {
         self.compiled = Compiled::general(&self.mechanism);
         self
     }
 
-    /// The same with a flexible rod's modes in arrays that have room for more of them: it has the same motion.
+    /// This model with a flexible rod's modes in larger arrays. The motion is the same.
     pub fn with_capacity(mut self, room: RodCapacity) -> Self {
         if let Some(FlexibleRod { rod, modes, .. }) = &mut self.mechanism.rod {
             *modes = Modes::with_capacity(rod, room);
@@ -108,7 +109,7 @@ impl Ode for Model {
     }
 
     fn stages(&self, tableau: &Tableau, conditions: &Conditions, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
-        // With bristles, there are more states than the compiled loops have places for.
+        // The compiled loops have no room for the first-order states of bristles.
         let second_order = self.scales.len() == 2 * self.mechanism.positions();
         second_order && (self.compiled.stages)(&self.mechanism, tableau, conditions, t, y, h, k)
     }
@@ -194,7 +195,7 @@ impl Unilateral for Model {
     }
 }
 
-/// What the contacts do in a step.
+/// Impulses of a step as forces, for a mechanism with `states` states.
 fn acting(impulses: &Impulses, states: usize) -> StepForces<'_> {
     let acts = std::array::from_fn(|contact| impulses.acts(contact));
     StepForces { t: impulses.t, y: &impulses.y[..states], forces: &impulses.forces, acts }

@@ -1,12 +1,12 @@
-//! The energy audit: works and losses integrated beside the motion.
+//! The energy audit: works and losses, integrated with the motion.
 //!
-//! An audited mechanism has seven first-order states more: the works of torque, load and normal
-//! forces, the losses of friction, viscous and modal damping, and, constant, the energy that it started
-//! with. They follow from the motion and are not weighted by the error norm: an audit changes no bit of it.
+//! An audited mechanism has seven additional first-order states: the works of the torque, the load and the normal
+//! forces; the losses of friction, viscous damping and modal damping; and the initial energy, which is constant. They
+//! depend on the motion and are not in the error norm: an audit changes no bit of the motion.
 //!
-//! What contacts lose is the work that normal forces take less the elastic energy that it leaves in them.
-//! That power is 0 while a contact that has no adhesion lets go, where the loss itself has corners that
-//! steps of a smooth motion would step over.
+//! The loss of contacts is the work of normal forces less the elastic energy stored in the contacts. The power of
+//! normal forces tends to 0 where a contact without adhesion opens. The loss itself has corners there, which long steps
+//! of a smooth motion would miss.
 
 use super::bodies::bodies;
 use super::body::Bodies;
@@ -31,13 +31,13 @@ use crate::scene::Scene;
 
 /// Number of states of an audit.
 pub const STATES: usize = 7;
-/// Place of the normal forces' work, which begins with the elastic energy of the start.
+/// Index of the normal forces' work; it starts with the elastic energy at the start.
 const NORMAL_WORK: usize = 2;
 
-/// A mechanism whose energy is reckoned up.
+/// A mechanism with an energy audit.
 pub struct Audited {
     model: Box<dyn MechanismModel>,
-    /// Of its own states 0: the error norm does not weigh them.
+    /// Scales of all states; 0 for those of the audit, which are not in the error norm.
     scales: Vec<f64>,
     topology: Topology,
     bodies: Bodies,
@@ -45,16 +45,16 @@ pub struct Audited {
     viscous: Viscous,
 }
 
-/// Viscous friction of all joints.
+/// Coefficients of viscous friction of all joints.
 struct Viscous {
-    /// [N·m·s/rad] Of A, B, C.
+    /// [N·m·s/rad] Revolute joints A, B, C.
     revolute: [f64; 3],
-    /// [N·s/m]
+    /// [N·s/m] Guide T.
     guide: f64,
 }
 
 impl Viscous {
-    /// [W]
+    /// [W] Power lost in viscous friction.
     fn loss<R: Real>(&self, pose: &Pose<R>) -> R {
         let Pose { rotations, section_speed, velocity, .. } = pose;
         let relative = [
@@ -71,7 +71,7 @@ impl Viscous {
 }
 
 impl Audited {
-    /// `model` of a scene, which must have room for the audit.
+    /// The `model` of the scene with an audit; it must have at most [`MAX_STATES`] less [`STATES`] states.
     pub fn new(scene: &Scene, model: Box<dyn MechanismModel>) -> Self {
         let joint = &scene.joint;
         let states = model.layout().states;
@@ -87,12 +87,12 @@ impl Audited {
         }
     }
 
-    /// Where the audit's states begin.
+    /// Index of the audit's first state.
     fn first(&self) -> usize {
         self.model.layout().states
     }
 
-    /// [J] Kinetic energy, and Σ m·g·y.
+    /// [J] Kinetic energy, and potential energy of gravity Σ m·g·y.
     fn mechanical(&self, evaluation: &Evaluation) -> (f64, f64) {
         let Pose { rotations, place, velocity, .. } = &evaluation.pose;
         let points = [(place.crank, velocity.crank), (place.big_end, velocity.big_end), (place.pin, velocity.pin)];
@@ -138,7 +138,7 @@ impl Audited {
         ]
     }
 
-    /// Kinetic and potential energies alone.
+    /// [J] Kinetic and potential energies; works and losses are 0.
     fn stored(&self, evaluation: &Evaluation, contact_energy: &ContactEnergy) -> EnergyOutputs {
         let (kinetic, gravity) = self.mechanical(evaluation);
         let elastic = evaluation.flexible.map_or(0.0, |flexible| flexible.elastic.energy);
@@ -179,14 +179,14 @@ impl Ode for Audited {
 }
 
 impl SeveralInstants for Audited {
-    /// As without the audit, whose steps these are.
+    /// The steps are those of the motion without audit.
     fn suits_blocks(&self) -> bool {
         self.model.suits_blocks()
     }
 }
 
 impl Linearizable for Audited {
-    /// The audit's own rows are exact, too; its columns are 0.
+    /// The rows of the audit's states are exact, too; their columns are 0.
     fn jacobian(&self, conditions: &Conditions, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let first = self.first();
         differentiate::<MAX_STATES>(first + STATES, first, t, y, jacobian, &|t, y, rates| {
@@ -230,7 +230,7 @@ impl MechanismModel for Audited {
         let (own, sums) = y.split_at_mut(first);
         self.model.write_start(pose, own);
         let contacts = self.model.start_contacts(0.0, own);
-        // No energy that is stored depends on the inputs.
+        // Stored energy does not depend on the inputs.
         let conditions = Conditions::without_inputs(contacts);
         let evaluation = self.model.evaluation(&conditions, 0.0, own);
         let stored = self.stored(&evaluation, &self.model.contact_energy(&contacts, &evaluation.pose, own));

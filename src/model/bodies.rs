@@ -1,35 +1,48 @@
 //! Crank, rod and slider as rigid bodies, and the constants of augmented bodies.
 //!
 //! ```text
-//!                                      com
-//!                                     *
-//!                              s _ -'     inertia about the centre of mass
-//!      reference point (first joint) o─────────── length ───────────o second joint ──> body x axis
+//!                                       com
+//!                                      *
+//!                               s _ -'     inertia about the centre of mass
+//!       reference point (first joint) o─────────── length ───────────o second joint ──> body x axis
+//!
+//!
+//!    a chain: crank, rod and slider joined by ideal joints A, B, C       a_ik is fixed in body k
+//!
+//!                 B                       a_11 crank: A to its centre of mass
+//!           a_21 _o-._   a_32             a_21 crank: A to B        (the rod hangs on the crank at B)
+//!              _-'    `-._                a_22 rod:   B to its centre of mass
+//!      crank _-'      rod `-._            a_31 crank: A to B        (the slider hangs on the rod)
+//!         _-'                 `-._        a_32 rod:   B to C        (the slider hangs on the rod at C)
+//! root A o                        `o C    a_33 slider: C to its centre of mass
 //! ```
 //!
-//! Within a chain (see [`structure`](super::structure)) every centre of mass is the chain's root plus vectors that turn
-//! with a body: r_i = root + Σ_k rot(θ_k)·a_ik, where the arm a_ik leads, in the axes of body k, from the joint by which
-//! k hangs to the joint by which i hangs on it, or to the centre of mass if i = k; and is zero where i does not hang on
-//! k. With absolute angles θ_k as coordinates the kinetic energy is
+//! The chains and their roots are those of [`structure`](super::structure). Frames: body axes of body k are turned by
+//! the absolute angle θ_k against inertial axes; rot(θ) turns a vector by θ and perp(v) = (−v_y, v_x). Symbols: m_i
+//! mass and J_i moment of inertia of body i about its centre of mass, r_i position of its centre of mass.
 //!
-//! T = ½·Σ_i (m_i·|ṙ_i|² + J_i·θ̇_i²), ṙ_i = root' + Σ_k θ̇_k·perp(rot(θ_k)·a_ik),
+//! In a chain r_i = root + Σ_k rot(θ_k)·a_ik. The arm a_ik leads, in the axes of body k, from the joint by which k
+//! hangs to the joint by which i hangs on k, or to the centre of mass if i = k; it is zero if i does not hang on k.
+//! With the angles θ_k as coordinates the kinetic energy is
 //!
-//! and since rotations keep products, rot(θ_k)·a · rot(θ_l)·b = cos(θ_l − θ_k)·a·b + sin(θ_l − θ_k)·a·perp(b), the mass
-//! matrix holds nothing but constants of the augmented bodies beside the angles' differences:
+//! T = ½·Σ_i (m_i·|ṙ_i|² + J_i·θ̇_i²), ṙ_i = root' + Σ_k θ̇_k·perp(rot(θ_k)·a_ik).
+//!
+//! Since rot(θ_k)·a · rot(θ_l)·b = cos(θ_l − θ_k)·a·b + sin(θ_l − θ_k)·a·perp(b), the mass matrix depends only on
+//! constants of the augmented bodies and on differences of angles:
 //!
 //! - M_kk = J_k + Σ_i m_i·|a_ik|² (`diagonal`),
-//! - M_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), α_kl = Σ_i m_i·a_ik·a_il, β_kl = Σ_i m_i·a_ik·perp(a_il) (`cos`,
-//!   `sin`),
-//! - and with the root's velocity, Σ_i m_i·perp(rot(θ_k)·a_ik) = perp(rot(θ_k)·h_k), h_k = Σ_i m_i·a_ik (`moment`).
+//! - M_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), α_kl = Σ_i m_i·a_ik·a_il (`cos`), β_kl = Σ_i m_i·a_ik·perp(a_il)
+//!   (`sin`),
+//! - and the coupling with the root's velocity is Σ_i m_i·perp(rot(θ_k)·a_ik) = perp(rot(θ_k)·h_k), h_k = Σ_i m_i·a_ik
+//!   (`moment`).
 //!
-//! The root of a chain that floats is its own centre of mass: each arm is then less h_k/m, with m the chain's mass, and
-//! nothing is left of the last line. What leads from the centre of mass to the chain's first joint is the sum of
-//! rot(θ_k)·(−h_k/m) (`anchor`).
-//! (J. Wittenburg, Dynamics of Systems of Rigid Bodies, 1977, 5.2.)
+//! The root of a floating chain is its centre of mass. Every arm is then reduced by h_k/m, where m is the chain's mass,
+//! and the coupling with the root's velocity vanishes. The vector from the centre of mass to the chain's first joint is
+//! Σ_k rot(θ_k)·(−h_k/m) (`anchor`). (J. Wittenburg, Dynamics of Systems of Rigid Bodies, 1977, 5.2.)
 //!
-//! A flexible rod's length L, first moment D and moment of inertia J about its big end change as it deforms. Its chain's
-//! augmented bodies are then not constants, but follow from them with few products ([`RodInChain`]); the chain's root is a
-//! joint, and no h_k is taken off.
+//! The length L, the first moment D and the moment of inertia J about the big end of a flexible rod change as it
+//! deforms. The augmented bodies of its chain then depend on L, D and J, with few products ([`RodInChain`]). The root
+//! of that chain is a joint, and its arms are not reduced.
 
 use super::body::{Bodies, Body};
 use super::plane::{Vec2, perp};
@@ -38,7 +51,7 @@ use super::structure::{CRANK, Link, ROD, SLIDER, Structure, Topology};
 use crate::math::Real;
 use crate::scene::{Point, Scene};
 
-/// The three bodies of a scene; a flexible rod's mass properties are its beam's.
+/// The three bodies of a scene. The mass properties of a flexible rod are those of its undeformed beam.
 pub fn bodies(scene: &Scene) -> Bodies {
     let point = |p: Point| Vec2::new(p.x, p.y);
     let Scene { crank, rod, slider, .. } = scene;
@@ -53,29 +66,30 @@ pub fn bodies(scene: &Scene) -> Bodies {
     ]
 }
 
-/// Constants of the augmented bodies, or what they are at one instant; lists are by body, or by the pairs crank and rod, rod and slider, crank and slider.
+/// Constants of the augmented bodies, or their values at one instant with a flexible rod. `diagonal`, `moment`,
+/// `anchor` and `per_mass` are listed by body; `cos` and `sin` by the pairs crank–rod, rod–slider, crank–slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AugmentedBodies<C = f64> {
     /// [kg·m²] M_kk.
     pub diagonal: [C; 3],
-    /// [kg·m²] α of the pairs.
+    /// [kg·m²] α of each pair.
     pub cos: [C; 3],
-    /// [kg·m²] β of the pairs.
+    /// [kg·m²] β of each pair.
     pub sin: [C; 3],
-    /// [kg·m] h_k; zero in a chain whose root is its centre of mass.
+    /// [kg·m] h_k; zero in a floating chain.
     pub moment: [Vec2<C>; 3],
-    /// [m] −h_k/m in a chain whose root is its centre of mass; zero in the others.
+    /// [m] −h_k/m in a floating chain; zero in others.
     pub anchor: [Vec2; 3],
-    /// [1/kg] Inverse mass of the chain that holds each body.
+    /// [1/kg] Inverse mass of the chain of each body.
     pub per_mass: [f64; 3],
 }
 
 impl AugmentedBodies {
-    /// Sums the chains of a mechanism.
+    /// Sums over the chains of a mechanism.
     pub fn new(bodies: &Bodies, structure: &Structure) -> Self {
         let Topology { b, c, .. } = structure.topology;
         let mut sum = Self::default();
-        // arms[i][k] is a_ik; bodies of one chain have the same first one.
+        // arms[i][k] is a_ik; first[i] is the first body of the chain of body i.
         let (arms, first) = if structure.rod == Link::After { inwards(bodies, b) } else { outwards(bodies, b, c) };
         let mut arms = arms;
         let mut mass = [0.0; 3];
@@ -109,24 +123,26 @@ impl AugmentedBodies {
     }
 }
 
-/// How a flexible rod hangs in its chain: by its big end, or by its small end where the slider is on its rail.
+/// The position of a flexible rod in its chain: it hangs by its big end, or by its small end if the slider is on its
+/// rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RodInChain {
-    /// The far joint, by which others hang on the rod, lies so many chords along its x axis from the joint by which it
-    /// hangs itself: 1 or −1.
+    /// Position of the joint by which other bodies hang on the rod, in chords along the rod's x axis from the joint by
+    /// which the rod hangs: 1 or −1.
     pub far: f64,
-    /// Where its big end lies, likewise: 0 or −1.
+    /// Position of the big end in the same measure: 0 or −1.
     pub big_end: f64,
-    /// [kg] κ of its first moment about the joint by which it hangs, with what hangs on it: h = D + κ·L along x.
+    /// [kg] κ in the first moment about the joint by which the rod hangs, including the bodies that hang on it: h = D +
+    /// κ·L along x.
     pub first: f64,
-    /// [kg] |κ|, that of its moment of inertia: J + 2·big_end·L·D_x + |κ|·L².
+    /// [kg] |κ| in the moment of inertia about that joint: J + 2·big_end·L·D_x + |κ|·L².
     pub second: f64,
     /// [m] Length of the crank.
     throw: f64,
 }
 
 impl RodInChain {
-    /// In a mechanism.
+    /// The rod's position in the chain of a mechanism.
     pub fn new(bodies: &Bodies, structure: &Structure) -> Self {
         let (Topology { b, c, .. }, throw) = (structure.topology, bodies[CRANK].length);
         if structure.rod == Link::After {
@@ -138,8 +154,8 @@ impl RodInChain {
         }
     }
 
-    /// The augmented bodies while the rod's chord is `length` [m] long, its first moment about its big end `first` [kg·m] in
-    /// its own axes and its moment of inertia `inertia` [kg·m²]; from those with the rod as it is undeformed.
+    /// The augmented bodies for a chord of `length` [m], a first moment `first` [kg·m] about the big end in rod axes
+    /// and a moment of inertia `inertia` [kg·m²] about the big end. `constant` are those of the undeformed rod.
     #[inline(always)]
     pub fn augmented<R: Real>(
         &self,
@@ -173,14 +189,15 @@ impl RodInChain {
     }
 }
 
-/// Arms of each centre of mass, and the first body of each chain.
+/// Arms a_ik of each centre of mass, and the first body of each chain.
 type Arms = ([[Vec2; 3]; 3], [usize; 3]);
 
+/// The vector from a body's reference point to a point on its x axis.
 const fn along(length: f64) -> Vec2 {
     Vec2::new(length, 0.0)
 }
 
-/// Each body hangs by its first joint, on the one before it where their joint is ideal.
+/// Arms if every body hangs by its first joint, on the body before it where that joint is ideal.
 fn outwards(bodies: &Bodies, b: bool, c: bool) -> Arms {
     let (mut arms, mut first) = ([[Vec2::ZERO; 3]; 3], [CRANK, ROD, SLIDER]);
     for i in [CRANK, ROD, SLIDER] {
@@ -198,7 +215,8 @@ fn outwards(bodies: &Bodies, b: bool, c: bool) -> Arms {
     (arms, first)
 }
 
-/// The slider is on its rail, the rod hangs on it by its last joint, and the crank on the rod if their joint is ideal.
+/// Arms if the slider is on its rail, the rod hangs on the slider by its last joint, and the crank hangs on the rod if
+/// joint B is ideal.
 fn inwards(bodies: &Bodies, b: bool) -> Arms {
     let mut arms = [[Vec2::ZERO; 3]; 3];
     arms[SLIDER][SLIDER] = bodies[SLIDER].com;

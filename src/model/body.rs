@@ -2,12 +2,12 @@
 
 use super::plane::Vec2;
 
-/// A rigid body: its mass properties and its joint on the x axis.
+/// A rigid body: its mass properties and its second joint, which lies on the x axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
-    /// [kg]
+    /// [kg] Mass.
     pub mass: f64,
-    /// [kg·m²] About the centre of mass.
+    /// [kg·m²] Moment of inertia about the centre of mass.
     pub inertia: f64,
     /// [m] Centre of mass from the reference point, in body axes.
     pub com: Vec2,

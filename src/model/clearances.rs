@@ -1,7 +1,7 @@
-//! The joints with clearance of one mechanism: their forces, their event functions, their memory.
+//! The joints with clearance of a mechanism: their contact forces, event functions, and contact states.
 //!
-//! `play` says which joints have clearance; it is that of the mechanism's [`Structure`](super::structure::Structure), which
-//! may be a constant.
+//! The argument `play` says which joints have clearance. It is that of the mechanism's
+//! [`Structure`](super::structure::Structure), which may be a compile-time constant.
 
 use super::bodies::bodies;
 use super::bristles::bristled_contacts;
@@ -17,22 +17,23 @@ use super::structure::{CRANK, ROD, SLIDER};
 use crate::integrator::{ContactLaw, Discontinuities, EventFunctions, MAX_EVENTS, Reset, Triggered};
 use crate::scene::{Contact, FrictionLaw, Scene};
 
-/// The joints of a scene as contacts.
+/// The joints of a scene with their contact parameters.
 #[derive(Clone, Debug)]
 pub struct Clearances {
     pub(super) revolute: [Revolute; 3],
     pub(super) guide: Guide,
-    /// [kg] Of crank, rod and slider.
+    /// [kg] Masses of crank, rod and slider.
     mass: [f64; 3],
-    /// The contacts with bristles, in the order of their states.
+    /// The contacts with bristles, by their index among all contacts, in the order of their states.
     pub bristles: Vec<usize>,
-    /// Place of every contact's bristles among their states.
+    /// For each contact, the index of its bristles among the bristle states.
     bristle: [Option<usize>; CONTACTS],
     /// Restitution and friction of rigid contacts.
     pub(super) laws: [ContactLaw; CONTACTS],
 }
 
-/// Restitution and friction of every contact of a scene: of a friction law, its (kinetic) coefficient.
+/// Restitution and friction coefficient of every contact of a scene; of a friction law, the (kinetic) coefficient is
+/// taken.
 fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
     let law = |contact: &Contact| ContactLaw {
         restitution: contact.restitution,
@@ -47,7 +48,7 @@ fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
 }
 
 impl Clearances {
-    /// Of a scene.
+    /// The joints of a scene.
     pub fn new(scene: &Scene) -> Self {
         let joint = &scene.joint;
         let bristles: Vec<usize> = bristled_contacts(scene).into_iter().map(|(contact, _)| contact).collect();
@@ -61,8 +62,8 @@ impl Clearances {
         }
     }
 
-    /// Adds the forces of the closed contacts. Their bristles are deflected by `deflections` [m], the rates [m/s] of which
-    /// it writes; both lists are in the order of the states, and empty where there are none.
+    /// Adds the forces of the closed contacts. `deflections` [m] are those of the bristles, and their rates [m/s] are
+    /// written to `deflection_rates`. Both lists are in the order of the bristle states, and empty without bristles.
     #[inline(always)]
     pub fn add_loads<R: Scalar>(
         &self,
@@ -76,7 +77,7 @@ impl Clearances {
         if !self.bristles.is_empty() {
             deflection_rates[..self.bristles.len()].fill(R::ZERO);
         }
-        // One after another: in a loop the loads would stay in memory.
+        // The calls are written out: in a loop the compiler would keep the loads in memory.
         self.add_pin(Pin::MainBearing, play, contacts, pose, deflections, deflection_rates, loads);
         self.add_pin(Pin::CrankPin, play, contacts, pose, deflections, deflection_rates, loads);
         self.add_pin(Pin::SliderPin, play, contacts, pose, deflections, deflection_rates, loads);
@@ -121,7 +122,7 @@ impl Clearances {
         }
     }
 
-    /// Elastic energy of the closed contacts, and the powers that they take.
+    /// Elastic energy of the closed contacts and the powers that they absorb.
     pub fn contact_energy<R: Scalar>(
         &self,
         play: JointSet,
@@ -144,7 +145,7 @@ impl Clearances {
         contact_energy
     }
 
-    /// Those of the guide's contacts; 0 for those that have none.
+    /// The bristle deflections [m] of the guide's contacts; 0 without bristles.
     #[inline(always)]
     fn guide_deflections<R: Scalar>(&self, deflections: &[R]) -> [R; GUIDE_CONTACTS] {
         let mut z = [R::ZERO; GUIDE_CONTACTS];
@@ -156,7 +157,7 @@ impl Clearances {
         z
     }
 
-    /// Penetration and approach speed of every contact; far open for a joint without clearance.
+    /// Penetration [m] and approach speed [m/s] of every contact; −∞ and 0 for a joint without clearance.
     #[inline(always)]
     pub fn penetrations(&self, play: JointSet, pose: &Pose) -> [(f64, f64); CONTACTS] {
         let mut all = [(f64::NEG_INFINITY, 0.0); CONTACTS];
@@ -170,7 +171,7 @@ impl Clearances {
         all
     }
 
-    /// [m] Penetration in the joints A, B, C and of the guide's corners; −∞ in an ideal joint.
+    /// [m] Penetration in joints A, B, C and at the guide's corners; −∞ for an ideal joint.
     pub fn depths(&self, play: JointSet, pose: &Pose) -> [f64; 3 + CORNERS] {
         let mut depths = self.penetrations(play, pose).map(|(depth, _)| depth);
         if play.guide {
@@ -179,13 +180,13 @@ impl Clearances {
         depths
     }
 
-    /// How many event functions there are; an ideal joint has none.
+    /// Number of event functions; an ideal joint has none.
     #[inline(always)]
     pub fn event_count(&self, play: JointSet) -> usize {
         play.pins().count() + if play.guide { CORNERS } else { 0 }
     }
 
-    /// Writes the event functions.
+    /// Writes the event functions of all joints with clearance.
     #[inline(always)]
     pub fn event_functions(
         &self,
@@ -221,7 +222,7 @@ impl Clearances {
         }
     }
 
-    /// Adds the discontinuities of the closed contacts' forces.
+    /// Adds the functions whose zeros are derivative discontinuities of the closed contacts' forces.
     pub fn discontinuities(
         &self,
         play: JointSet,
@@ -240,8 +241,8 @@ impl Clearances {
         }
     }
 
-    /// The contacts after the `crossed` ones have closed or opened; `bristles` of those that open are
-    /// straight again.
+    /// The contact states after the contacts in `crossed` have closed or opened. The `bristles` of a contact that opens
+    /// are reset to 0. The impact lasts as long as the shortest contact time of the contacts that close.
     pub fn cross(
         &self,
         play: JointSet,
@@ -269,7 +270,7 @@ impl Clearances {
         reset
     }
 
-    /// The contacts of a pose that no motion has led to: those that penetrate are closed.
+    /// The contact states at a start pose: contacts with penetration are closed.
     pub fn start(&self, play: JointSet, pose: &Pose) -> Contacts {
         let mut contacts = Contacts::default();
         for (index, (state, (depth, rate))) in contacts.iter_mut().zip(self.penetrations(play, pose)).enumerate() {
@@ -284,7 +285,7 @@ impl Clearances {
         if index < 3 { &self.revolute[index].contact } else { &self.guide.contact }
     }
 
-    /// [kg] The lighter of the bodies that meet in a contact.
+    /// [kg] The smaller mass of the two bodies in a contact.
     fn lighter_mass(&self, index: usize) -> f64 {
         match index {
             0 => self.mass[CRANK],
@@ -295,7 +296,7 @@ impl Clearances {
     }
 }
 
-/// The same with a place for every contact, whether its joint has clearance or not.
+/// Reorders `crossed`, which lists the event functions of joints with clearance only, by the index of the contact.
 fn by_contact(play: JointSet, crossed: &Triggered) -> Triggered {
     let mut all = [false; MAX_EVENTS];
     let mut next = 0;

@@ -1,20 +1,21 @@
-//! The number types, and the constant structures, that get code of their own.
+//! The equations of motion compiled for several number types and for constant structures.
 //!
-//! The equations of motion are compiled once a number, for every structure: one state, eight states, a state with
-//! derivatives; with a flexible rod, for three sizes of arrays. Where there is little to compute, asking what hangs on what
-//! takes as long, and where numbers of modes are not known, arrays stay in memory. So for the structures listed here, those
-//! of the usual studies, the same source is compiled again, with nothing left to ask. `cargo bench --bench compiled` shows
-//! what that saves in a stage of a step: about a tenth with four plays, half with one, and half with a flexible rod. A
-//! structure for which it saves less has no place here. Code for eight states is compiled again where steps in blocks are the usual ones.
+//! The generic equations are compiled once per number type for any structure: for one state, for eight states and for a
+//! state with derivatives. With a flexible rod they are compiled for three array sizes. If there is little to compute,
+//! the branches on the structure take about as long as the computation, and if the number of modes is unknown, arrays
+//! stay in memory. For the structures listed here, those of the usual studies, the same source is therefore compiled
+//! again with the structure as a constant. `cargo bench --bench compiled` measures the saving in a stage of a step:
+//! about a tenth with four clearances, half with one, and half with a flexible rod. A structure with a smaller saving
+//! does not belong here. Code for eight states is specialised only where steps in blocks are usual.
 //!
-//! What a step's stages hand on to one another must not pass through memory in other portions than it is read in; so the
-//! loop over them is compiled with the equations in it.
+//! The loop over the stages of a step is compiled together with the equations, so that the results of a stage do not
+//! pass through memory in other portions than they are read in.
 
 use super::contact::ContactEnergy;
 use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
 use super::rod::{Chord, CompiledCounts, FixedCounts, RodCapacity, RuntimeCounts};
 use super::scalar::{Scalar, Tangent};
-use super::stages::of_so_many;
+use super::stages::run_stages;
 use super::state::{Conditions, Evaluation, Pose};
 use super::structure::{Structure, Topology};
 use crate::integrator::{EventFunctions, Tableau};
@@ -22,35 +23,35 @@ use crate::math::F64x8;
 
 /// Writes the rates of a state.
 type Rates = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64]);
-/// Writes the rates of eight states at their times.
+/// Writes the rates of eight states, each at its own time.
 type RatesOfEight = fn(&Mechanism, &Conditions, F64x8, &[F64x8], &mut [F64x8]);
-/// Writes the rates of a state, and the event functions.
+/// Writes the rates of a state and the event functions.
 type Ends = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64], &mut EventFunctions);
 /// See [`Ode::stages`](crate::integrator::Ode::stages).
 type Stages = fn(&Mechanism, &Tableau, &Conditions, f64, &[f64], f64, &mut [f64]) -> bool;
 
-/// The equations of motion, compiled for one structure or for all.
+/// The equations of motion, compiled for one structure or for any.
 #[derive(Clone, Copy, Debug)]
 pub struct Compiled {
     /// Rates of one state.
     pub rates: Rates,
     /// Rates of eight states.
     pub rates_of_eight: RatesOfEight,
-    /// Rates and event functions of one.
+    /// Rates and event functions of one state.
     pub ends: Ends,
     /// Rates at the stages of a step.
     pub stages: Stages,
 }
 
-/// The code of a constant structure with so many states: what these methods of a mechanism do, with a flexible rod for its
-/// counts.
+/// The code of a constant structure with `$states` states: the methods `$rates` and `$ends` of a mechanism, with a
+/// flexible rod for the counts `$counts`.
 macro_rules! code {
     ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {
         Compiled {
             rates: |mechanism, conditions, t, y, rates| {
                 mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
             },
-            rates_of_eight: if const { suits_rows(&$structure) } {
+            rates_of_eight: if const { suits_blocks(&$structure) } {
                 |mechanism, conditions, t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 }
@@ -61,7 +62,7 @@ macro_rules! code {
                 mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
             },
             stages: |mechanism, tableau, conditions, t, y, h, k| {
-                of_so_many::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
+                run_stages::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 })
             },
@@ -69,8 +70,9 @@ macro_rules! code {
     };
 }
 
-/// Chooses the code of the structure as a constant, or `$all` where that does not pay. A line has the ideal joints
-/// (main bearing, crank pin, slider pin, guide), and whether the crank's angle is prescribed.
+/// Selects the code of the structure as a constant, or `$all` if the structure is not in the list. Each entry of the
+/// list says whether the main bearing, the crank pin, the slider pin and the guide are ideal, and whether the crank
+/// angle is prescribed.
 macro_rules! by_structure {
     ($structure:expr, $all:expr) => {
         by_structure!(
@@ -93,13 +95,13 @@ macro_rules! by_structure {
     };
 }
 
-/// Whether steps in blocks, which ask for eight states at a time, are the usual ones of a structure.
-const fn suits_rows(structure: &Structure) -> bool {
-    structure.closed || structure.topology.has_one_play_in_a_pin()
+/// Whether steps in blocks, which evaluate eight states at a time, are usual for a structure.
+const fn suits_blocks(structure: &Structure) -> bool {
+    structure.closed || structure.topology.has_one_pin_clearance()
 }
 
 impl Compiled {
-    /// The code for every structure.
+    /// The code for any structure.
     pub fn general(mechanism: &Mechanism) -> Self {
         Self {
             rates: Mechanism::rates_of_one,
@@ -109,7 +111,7 @@ impl Compiled {
         }
     }
 
-    /// The code for a mechanism: that for its structure, if there is such.
+    /// The code for a mechanism: specialised for its structure if that is in the list.
     pub fn of(mechanism: &Mechanism) -> Self {
         let all = Self::general(mechanism);
         match &mechanism.rod {
@@ -119,9 +121,9 @@ impl Compiled {
     }
 }
 
-/// The code for a flexible rod: for some structures and numbers of modes of its own, in which nothing is left to ask and
-/// loops over modes are written out. A line has the ideal joints, whether the crank's angle is prescribed, and the numbers of
-/// bending and axial modes.
+/// The code for a flexible rod: specialised for some structures and numbers of modes, with loops over modes written
+/// out. Each entry says which joints are ideal, whether the crank angle is prescribed, and the numbers of bending and
+/// axial modes.
 fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled {
     macro_rules! own {
         ($(($a:literal $b:literal $c:literal $t:literal $speed:literal, $bending:literal $axial:literal))*) => {
@@ -130,7 +132,7 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
                 const TOPOLOGY: Topology = Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed };
                 const OWN: Structure = Structure::with_rod(TOPOLOGY, true);
                 if structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
-                    return code!(OWN, 2 * (OWN.positions + Own::MODES), counted_rates, counted_rates_and_guards, Own);
+                    return code!(OWN, 2 * (OWN.positions + Own::MODES), counted_rates, counted_rates_and_event_functions, Own);
                 }
             })*
         };
@@ -146,13 +148,14 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
     all
 }
 
-/// The loop over a step's stages of any structure with so many states, which its sums know.
+/// The loop over the stages of a step for any structure with `states` states; the number of states is a constant in its
+/// sums.
 fn stages_of_all(states: usize) -> Stages {
     macro_rules! of {
         ($($n:literal)*) => {
             match states {
                 $($n => |mechanism, tableau, conditions, t, y, h, k| {
-                    of_so_many::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(conditions, t, y, rates))
+                    run_stages::<$n>(tableau, t, y, h, k, |t, y, rates| mechanism.rates_of_one(conditions, t, y, rates))
                 },)*
                 _ => |_, _, _, _, _, _, _| false,
             }
@@ -161,7 +164,7 @@ fn stages_of_all(states: usize) -> Stages {
     of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// `with_capacity!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the arrays that the rod has room in: of `K` modes
+/// `with_capacity!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the array sizes of the rod: `K` modes
 /// and `F` functions along the rod.
 macro_rules! with_capacity {
     ($rod:expr, $own:ident . $name:ident $(:: <$number:ty>)? ($($argument:expr),*)) => {
@@ -173,9 +176,9 @@ macro_rules! with_capacity {
     };
 }
 
-/// What is compiled once a number, for every structure; with a flexible rod, once for each size of arrays.
+/// Code compiled once per number type for any structure; with a flexible rod, once per array size.
 impl Mechanism {
-    /// Rates of a state.
+    /// Writes the rates of a state.
     #[inline(never)]
     pub fn rates_of_one(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
@@ -184,7 +187,7 @@ impl Mechanism {
         }
     }
 
-    /// Rates of eight states at their times.
+    /// Writes the rates of eight states, each at its own time.
     #[inline(never)]
     pub fn rates_of_eight(&self, conditions: &Conditions, t: F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         match &self.rod {
@@ -193,7 +196,7 @@ impl Mechanism {
         }
     }
 
-    /// Rates with derivatives.
+    /// Writes the rates with derivatives.
     #[inline(never)]
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
@@ -202,7 +205,7 @@ impl Mechanism {
         }
     }
 
-    /// Rates and event functions.
+    /// Writes the rates and event functions.
     #[inline(never)]
     pub fn ends(
         &self,
@@ -225,11 +228,11 @@ impl Mechanism {
 
     /// Angles, places and velocities with a flexible rod, and its chord.
     #[inline(never)]
-    pub(super) fn bent_pose(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
+    pub(super) fn pose_and_chord(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
         with_capacity!(rod, self.flexible_pose(rod, t, y))
     }
 
-    /// Everything about an instant, and its rates.
+    /// The evaluation of an instant; writes the rates.
     #[inline(never)]
     pub fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
         match &self.rod {
@@ -238,7 +241,7 @@ impl Mechanism {
         }
     }
 
-    /// Everything about an instant with derivatives, and what its contacts hold and take.
+    /// The evaluation of an instant with derivatives, and the energy of its contacts; writes the rates.
     #[inline(never)]
     pub fn tangent_evaluation(
         &self,
@@ -255,7 +258,7 @@ impl Mechanism {
         (evaluation, contact_energy)
     }
 
-    /// Rates with a flexible rod of known counts.
+    /// Writes the rates with a flexible rod whose counts are known at compile time.
     #[inline(always)]
     fn counted_rates<R: Scalar, C: CompiledCounts>(
         &self,
@@ -270,9 +273,9 @@ impl Mechanism {
         }
     }
 
-    /// The same, and the event functions.
+    /// Writes the rates and event functions with a flexible rod whose counts are known at compile time.
     #[inline(always)]
-    fn counted_rates_and_guards<C: CompiledCounts>(
+    fn counted_rates_and_event_functions<C: CompiledCounts>(
         &self,
         of: &Structure,
         conditions: &Conditions,
@@ -325,7 +328,7 @@ impl Mechanism {
         self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates)
     }
 
-    /// Rates alone, by the same code.
+    /// Writes the rates and discards the motion.
     #[inline(never)]
     fn drop_flexible_motion<R: Scalar, const K: usize, const F: usize>(
         &self,

@@ -1,12 +1,13 @@
-//! Takes the modal coordinates out of the equations of motion, so that those of the angles are solved as with a rigid rod.
+//! Condensation: eliminates the modal coordinates from the equations of motion, so that those of the angles are solved
+//! as with a rigid rod.
 //!
 //! ```text
 //!     | M_ηη  C  | | η̈ |   | Q_η |
 //!     | Cᵀ    M  |·| θ̈ | = | Q   |      M − Cᵀ·M_ηη⁻¹·C,   Q − Cᵀ·M_ηη⁻¹·Q_η
 //! ```
 //!
-//! M_ηη is positive definite and is eliminated by L·D·Lᵀ. D is of blocks of two, since pivots wait for one another, each
-//! with a division: there are half as many.
+//! M_ηη is positive definite and is factorised into L·D·Lᵀ. D has 2×2 blocks, because each pivot waits for the division
+//! of the pivot before it, and blocks halve the number of divisions.
 
 #![allow(clippy::needless_range_loop)] // triangles are read by their indices
 
@@ -14,19 +15,19 @@ use super::dynamics::Equations;
 use super::rod::CompiledCounts;
 use crate::math::{Real, unroll};
 
-/// Equations of at most `K` modal coordinates.
+/// The equations of at most `K` modal coordinates.
 pub struct ModalEquations<R, const K: usize> {
-    /// How many there are.
+    /// Number of modal coordinates.
     pub size: usize,
     /// [kg] M_ηη; the upper triangle.
     pub matrix: [[R; K]; K],
-    /// [kg·m] C: of each mode with the angles of crank, rod and slider.
+    /// [kg·m] C: coupling of each mode with the angles of crank, rod and slider.
     pub with: [[R; 3]; K],
-    /// [N] Q_η.
+    /// [N] Q_η: right-hand side.
     pub right: [R; K],
 }
 
-/// Two coordinates that are eliminated together, and what their block divides by.
+/// A 2×2 block |a b; b d| that is eliminated at once, and its inverse determinant.
 #[derive(Clone, Copy)]
 struct Block<R> {
     a: R,
@@ -36,14 +37,14 @@ struct Block<R> {
 }
 
 impl<R: Real> Block<R> {
-    /// The inverse block's determinant apart, times a column.
+    /// The adjugate of the block times a column.
     #[inline(always)]
     fn adjugate(&self, [one, two]: [R; 2]) -> [R; 2] {
         let Self { a, b, d, .. } = *self;
         [d.multiply_add(one, -(b * two)), a.multiply_add(two, -(b * one))]
     }
 
-    /// What is left of an element after both have been eliminated.
+    /// The element that remains after the elimination of the block.
     #[inline(always)]
     fn reduced(&self, [p, q]: [R; 2], [one, two]: [R; 2], element: R) -> R {
         p.multiply_add(one, q * two).multiply_add(-self.per, element)
@@ -51,13 +52,13 @@ impl<R: Real> Block<R> {
 }
 
 impl<R: Real, const K: usize> ModalEquations<R, K> {
-    /// No equations yet, of `size` coordinates.
+    /// Equations of zeros for `size` coordinates.
     #[inline(always)]
     pub fn new(size: usize) -> Self {
         Self { size, matrix: [[R::ZERO; K]; K], with: [[R::ZERO; 3]; K], right: [R::ZERO; K] }
     }
 
-    /// Takes them out of the equations of the angles.
+    /// Eliminates the modal coordinates from the equations of the `angles`.
     #[inline(always)]
     pub(super) fn condense<C: CompiledCounts>(&mut self, angles: &mut Equations<R>) {
         let size = self.size;
@@ -70,7 +71,7 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
             angles.reduce(&block, self.with[k], self.with[k + 1], [self.right[k], self.right[k + 1]]);
         });
         if !size.is_multiple_of(2) {
-            // The last one alone is a block with a coordinate that nothing moves.
+            // A last coordinate without partner is paired with one that is decoupled.
             let last = size - 1;
             let (b, d) = (R::ZERO, R::ONE);
             let a = self.matrix[last][last];
@@ -79,7 +80,7 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
         }
     }
 
-    /// Takes the block of `k` and `k` + 1 out of the equation of `i`.
+    /// Eliminates the block of coordinates `k` and `k` + 1 from the equation of `i`.
     #[inline(always)]
     fn eliminate<C: CompiledCounts>(&mut self, block: &Block<R>, k: usize, i: usize) {
         let own = block.adjugate([self.matrix[k][i], self.matrix[k + 1][i]]);
@@ -94,14 +95,14 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
         self.right[i] = block.reduced(own, [self.right[k], self.right[k + 1]], self.right[i]);
     }
 
-    /// The block of the coordinates `k` and `k` + 1.
+    /// The block of coordinates `k` and `k` + 1.
     #[inline(always)]
     fn block(&self, k: usize) -> Block<R> {
         let (a, b, d) = (self.matrix[k][k], self.matrix[k][k + 1], self.matrix[k + 1][k + 1]);
         Block { a, b, d, per: a.multiply_add(d, -(b * b)).recip() }
     }
 
-    /// The accelerations [m/s²] of the modal coordinates at those of the angles [rad/s²].
+    /// The accelerations [m/s²] of the modal coordinates, given those of the angles [rad/s²].
     #[inline(always)]
     pub(super) fn accelerations<C: CompiledCounts>(self, angles: [R; 3]) -> [R; K] {
         let (size, mut found) = (self.size, self.right);
@@ -120,7 +121,7 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
         found
     }
 
-    /// Puts the coordinates `k` and `k` + 1 in place of their right sides, those after them being there.
+    /// Replaces the right-hand sides of `k` and `k` + 1 by the solution, given the solution of all later coordinates.
     #[inline(always)]
     fn substitute<C: CompiledCounts>(&self, k: usize, found: &mut [R; K]) {
         unroll!(C::KNOWN, later in k + 2..self.size, C::MODES => {
@@ -134,8 +135,8 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
 }
 
 impl<R: Real> Equations<R> {
-    /// What is left of the equations of the angles after a block of modal coordinates has been eliminated that stands with
-    /// them in such columns and has such right sides.
+    /// Subtracts the contribution of an eliminated block of modal coordinates. `one` and `two` are its columns of C,
+    /// `right` its right-hand sides.
     #[inline(always)]
     fn reduce(&mut self, block: &Block<R>, one: [R; 3], two: [R; 3], right: [R; 2]) {
         let column = |angle: usize| [one[angle], two[angle]];
@@ -162,7 +163,7 @@ mod tests {
 
     const ROOM: usize = 12;
 
-    /// Element of a chain of springs between masses, and a corner that fills up.
+    /// Element of the matrix of a chain of springs and masses, with fill-in far from the diagonal.
     fn element(i: usize, j: usize) -> f64 {
         match i.abs_diff(j) {
             0 => 3.0 + i as f64,
@@ -175,8 +176,8 @@ mod tests {
         if k.is_multiple_of(2) { k as f64 + 1.0 } else { -(k as f64 + 1.0) }
     }
 
-    /// The modal coordinates found with the angles', which come after them, at their solution; and what is left of the
-    /// angles' equations there.
+    /// The modal coordinates at the exact accelerations of the angles, and the residual of the angles' condensed
+    /// equations.
     fn found<C: CompiledCounts>(size: usize) -> ([f64; ROOM], [f64; 3]) {
         let right = |i: usize| (0..size + 3).map(|j| element(i, j) * solution(j)).sum::<f64>();
         let mut modal = ModalEquations::<f64, ROOM>::new(size);

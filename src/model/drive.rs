@@ -1,4 +1,4 @@
-//! What drives and loads the mechanism: inputs in time, the prescribed crank angle, viscous friction.
+//! Drive and load of the mechanism: input signals, the prescribed crank angle, viscous friction.
 
 use super::joint::guide;
 use super::joint_set::Pin;
@@ -9,19 +9,19 @@ use super::structure::{CRANK, SLIDER};
 use crate::math::Real;
 use crate::scene::Scene;
 
-/// Inputs from a communication point on: u(t) = value + rate·(t − at).
+/// Inputs after a communication point: u(t) = value + rate·(t − at).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InputSignal {
-    /// [s] The communication point.
+    /// [s] Time of the communication point.
     pub at: f64,
-    /// Inputs there.
+    /// Inputs at the communication point.
     pub value: Inputs,
-    /// [1/s] Their rates.
+    /// [1/s] Rates of the inputs.
     pub rate: Inputs,
 }
 
 impl InputSignal {
-    /// Inputs at `t`.
+    /// Inputs at the time `t` [s].
     #[inline(always)]
     pub fn at<R: Real>(&self, t: R) -> Inputs<R> {
         let passed = t - self.at;
@@ -31,7 +31,7 @@ impl InputSignal {
         }
     }
 
-    /// It only goes on as `other` would from its own communication point, to the bit.
+    /// Whether this signal equals `other` from its own communication point on, bit for bit.
     pub fn continues(&self, other: &Self) -> bool {
         let bits = |value: &Inputs, rate: &Inputs| {
             [value.crank_torque, value.slider_load, rate.crank_torque, rate.slider_load].map(f64::to_bits)
@@ -40,38 +40,39 @@ impl InputSignal {
     }
 }
 
-/// The prescribed rotation θ1 = θ0 + ω0·t, t counted from the start of the run.
+/// The prescribed rotation θ1 = θ0 + ω0·t, where t is 0 at the start of the run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotor {
-    /// [rad] θ0.
+    /// [rad] θ0, angle at the start.
     pub angle: f64,
-    /// [rad/s] ω0.
+    /// [rad/s] ω0, speed.
     pub speed: f64,
 }
 
 impl Rotor {
-    /// Of a scene.
+    /// The rotation of a scene's crank.
     pub fn new(scene: &Scene) -> Self {
         Self { angle: scene.crank.angle_start, speed: scene.crank.speed_start }
     }
 
-    /// [rad] at `t`.
+    /// [rad] The crank angle at `t` [s].
     #[inline(always)]
     pub fn at<R: Real>(&self, t: R) -> R {
         t.multiply_add(self.speed, R::constant(self.angle))
     }
 }
 
-/// Viscous friction in one joint's relative rotation.
+/// Viscous friction of the relative rotation in one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryDamper {
     /// The joint.
     pub pin: Pin,
-    /// [N·m·s/rad]
+    /// [N·m·s/rad] Damping coefficient.
     pub coefficient: f64,
 }
 
-/// Adds the couples of viscous friction at the speeds [rad/s] of crank, rod's ends and slider.
+/// Adds the couples of viscous friction at the speeds [rad/s] of crank, rod and slider (`speed`) and of the rod's
+/// sections at its ends (`ends`).
 #[inline(always)]
 pub fn add_viscous<R: Real>(dampers: &[RotaryDamper], speed: &[R; 3], ends: &[R; 2], loads: &mut Loads<R>) {
     for damper in dampers {
@@ -85,7 +86,7 @@ pub fn add_viscous<R: Real>(dampers: &[RotaryDamper], speed: &[R; 3], ends: &[R;
     }
 }
 
-/// The revolute joints with viscous friction.
+/// The viscous friction of the revolute joints that have any.
 pub fn rotary_dampers(scene: &Scene) -> Vec<RotaryDamper> {
     let joint = &scene.joint;
     Pin::ALL
@@ -96,7 +97,7 @@ pub fn rotary_dampers(scene: &Scene) -> Vec<RotaryDamper> {
         .collect()
 }
 
-/// The guide's viscous friction on a slider whose pin moves along it at `speed` [m/s].
+/// The guide's viscous friction on a slider whose pin moves along the guide at `speed` [m/s].
 #[inline(always)]
 pub fn viscous_guide<R: Real>(damping: f64, speed: R) -> guide::Load<R> {
     guide::Load { force: Vec2::new(speed * -damping, R::ZERO), couple: R::ZERO }

@@ -1,22 +1,23 @@
-//! M(q)·q̈ = Q(t, q, q̇): loads on the bodies in, accelerations out.
+//! M(q)·q̈ = Q(t, q, q̇): accelerations from the loads on the bodies.
 //!
-//! The coordinates of a chain are its root's and the absolute angles θ of its bodies. Constants of augmented bodies (see
-//! [`bodies`](super::bodies)) give the matrix of the angles,
+//! The coordinates of a chain are those of its root and the absolute angles θ of its bodies. Constants of augmented
+//! bodies (see [`bodies`](super::bodies)) give the mass matrix of the angles,
 //!
 //! ```text
 //!          | d1   m12  m13 |
-//!     M =  | m12  d2   m23 |,   m_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), zero where k and l are in different chains
+//!     M =  | m12  d2   m23 |,   m_kl = α_kl·cos(θ_l − θ_k) + β_kl·sin(θ_l − θ_k), 0 if k and l are in different chains
 //!          | m13  m23  d3  |
 //! ```
 //!
-//! and the centrifugal terms θ̇²·∂m/∂θ. Forces go inwards: what acts on a body beyond a joint acts, with its moment about
-//! that joint, on the body that it hangs on. Then
+//! and the centrifugal terms θ̇²·∂m/∂θ. Forces are accumulated inwards: a force on a body beyond a joint acts on the
+//! body inside that joint, too, with its moment about the joint. Then
 //!
 //! - a root on the ground does not move;
-//! - a floating root is its chain's centre of mass, m·r̈ = ΣF, and shares no inertia with the angles;
-//! - the pin on its rail has m·ẍ − Σ h_k,y·θ̈_k = F, with F the force along the rail and h_k,y that of rot(θ_k)·h_k:
-//!   ẍ is eliminated, which takes h_k,y·h_l,y/m from m_kl and adds h_k,y·F/m to Q_k;
-//! - in a closed loop the rod follows the crank, θ̈2 = ρ·θ̈1 + σ: the equations of both, times 1 and ρ, are summed.
+//! - a floating root is the centre of mass of its chain: m·r̈ = ΣF, without inertial coupling to the angles;
+//! - a pin on the rail has m·ẍ − Σ h_k,y·θ̈_k = F, with F the force along the rail and h_k,y the component of
+//!   rot(θ_k)·h_k. ẍ is eliminated, which subtracts h_k,y·h_l,y/m from m_kl and adds h_k,y·F/m to Q_k;
+//! - in a closed loop the rod follows the crank, θ̈2 = ρ·θ̈1 + σ: the crank's equation plus ρ times the rod's is
+//!   solved.
 
 use super::bodies::AugmentedBodies;
 use super::ideal::IdealMotion;
@@ -30,64 +31,65 @@ use std::ops::Mul;
 /// Accelerations of the roots and of the three angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Accelerations<R = f64> {
-    /// [m/s²]
+    /// [m/s²] Roots of the chains.
     pub roots: Roots<Vec2<R>>,
-    /// [rad/s²] Of crank, rod and slider.
+    /// [rad/s²] Angles of crank, rod and slider.
     pub angle: [R; 3],
 }
 
 /// The mass matrix of the angles.
 #[derive(Clone, Copy)]
 pub(super) struct MassMatrix<R> {
-    /// [kg·m²] Of the crank's angle,
+    /// [kg·m²] Crank angle.
     pub d1: R,
-    /// of the rod's,
+    /// [kg·m²] Rod angle.
     pub d2: R,
-    /// of the slider's;
+    /// [kg·m²] Slider angle.
     pub d3: R,
-    /// of crank and rod,
+    /// [kg·m²] Coupling of crank and rod.
     pub m12: R,
-    /// rod and slider,
+    /// [kg·m²] Coupling of rod and slider.
     pub m23: R,
-    /// crank and slider.
+    /// [kg·m²] Coupling of crank and slider.
     pub m13: R,
 }
 
 /// M and Q of the angles of crank, rod and slider, each about the root of its chain.
 ///
-/// Every number has a name of its own: lists that some structures fill in part stay in memory, which takes 1.4 times as
-/// long.
+/// Each number is a separate field: arrays that are filled only in part stay in memory, which takes 1.4 times as long.
 pub(super) struct Equations<R> {
-    /// M.
+    /// Mass matrix M.
     pub m: MassMatrix<R>,
-    /// [N·m] Q of the crank's angle,
+    /// [N·m] Q of the crank angle.
     pub q1: R,
-    /// of the rod's,
+    /// [N·m] Q of the rod angle.
     pub q2: R,
-    /// and of the slider's.
+    /// [N·m] Q of the slider angle.
     pub q3: R,
-    /// [kg·m] First moments of chains that do not float, about the joints by which the crank
+    /// [kg·m] First moment of the crank's augmented body about the joint by which it hangs, in inertial axes; zero if
+    /// its chain floats.
     pub h1: Vec2<R>,
-    /// and the rod hang, in inertial axes.
+    /// [kg·m] First moment of the rod's augmented body about the joint by which it hangs, in inertial axes; zero if its
+    /// chain floats.
     pub h2: Vec2<R>,
 }
 
-/// Forces [N], gathered inwards.
+/// Forces [N], accumulated inwards.
 pub(super) struct AccumulatedForces<R> {
-    /// On the chain that floats with the crank.
+    /// Force on the floating chain that contains the crank.
     pub crank: Vec2<R>,
-    /// On the chain that floats and begins with the rod.
+    /// Force on the floating chain that begins with the rod.
     pub rod: Vec2<R>,
-    /// On the slider that floats alone.
+    /// Force on the slider if it floats alone.
     pub slider: Vec2<R>,
-    /// On the pin that an ideal guide holds.
+    /// Force on the pin that an ideal guide holds.
     pub rail: Vec2<R>,
-    /// On the rod at the end by which it does not hang, from what hangs there, too.
+    /// Force on the rod at the end by which it does not hang, including that of the bodies that hang there.
     pub far_end: Vec2<R>,
 }
 
 impl<R: Real> Equations<R> {
-    /// Inertia, couples, centrifugal terms and weight.
+    /// Equations with inertia, couples, centrifugal terms and weight.
     #[inline(always)]
     pub fn new<C: Copy>(
         of: &Structure,
@@ -105,7 +107,7 @@ impl<R: Real> Equations<R> {
         let (s1, s2, s3) = (w1 * w1, w2 * w2, w3 * w3);
         let [mut q1, mut q2, mut q3] = loads.couples();
 
-        // M, and its centrifugal terms in Q.
+        // M and its centrifugal terms in Q.
         let [d1, d2, d3] = bodies.diagonal.map(number);
         let mut m = MassMatrix { d1, d2, d3, m12: R::ZERO, m23: R::ZERO, m13: R::ZERO };
         if of.coupled[0] {
@@ -135,7 +137,7 @@ impl<R: Real> Equations<R> {
         Self { m, q1, q2, q3, h1, h2 }
     }
 
-    /// Forces, inwards to the roots: their moments go into Q.
+    /// Accumulates the forces inwards to the roots and adds their moments to Q.
     #[inline(always)]
     pub fn gather(&mut self, of: &Structure, arms: &Arms<Vec2<R>>, loads: &Loads<R>) -> AccumulatedForces<R> {
         let Self { q1, q2, q3, .. } = self;
@@ -188,7 +190,7 @@ impl<R: Real> Equations<R> {
     }
 }
 
-/// Solves the equations of motion with a rigid rod. `closing` says how the rod of a closed loop follows its crank.
+/// Solves the equations of motion with a rigid rod. `closing` describes how the rod of a closed loop follows its crank.
 #[inline(always)]
 pub fn accelerate<R: Real>(
     of: &Structure,
@@ -238,7 +240,7 @@ pub fn accelerate<R: Real>(
 }
 
 impl<R: Real> AccumulatedForces<R> {
-    /// Accelerations of the chains' centres of mass that float.
+    /// Accelerations of the centres of mass of floating chains.
     #[inline(always)]
     pub fn fall(&self, of: &Structure, bodies: &AugmentedBodies, gravity: f64) -> Roots<Vec2<R>> {
         let fall = Vec2::constant(Vec2::new(0.0, -gravity));
@@ -256,7 +258,8 @@ impl<R: Real> AccumulatedForces<R> {
     }
 }
 
-/// m_kl of a pair of bodies that turn by `k` and `l` at speeds of these squares; adds its centrifugal terms to Q.
+/// m_kl of the pair `pair` of bodies with rotations `k` and `l` and squared speeds `square_k` and `square_l`; adds its
+/// centrifugal terms to Q.
 #[inline(always)]
 fn couple<R: Real + Mul<C, Output = R> + Fused<C>, C: Copy>(
     bodies: &AugmentedBodies<C>,
@@ -275,9 +278,9 @@ fn couple<R: Real + Mul<C, Output = R> + Fused<C>, C: Copy>(
     cos.multiply_add(alpha, sin * beta)
 }
 
-/// Right sides are known last: what is divided by is inverted before.
+/// The right-hand sides are available last; reciprocals of the matrix are computed before them.
 impl<R: Real> MassMatrix<R> {
-    /// The slider does not turn.
+    /// Accelerations of the angles of crank and rod; the slider does not turn.
     #[inline(always)]
     pub fn solve_crank_and_rod(&self, of: &Structure, [q1, q2]: [R; 2]) -> [R; 3] {
         let Self { d1, d2, m12, .. } = *self;
@@ -291,8 +294,8 @@ impl<R: Real> MassMatrix<R> {
         }
     }
 
-    /// By cofactors: one division, and nothing but the last products waits for the right side. A matrix without
-    /// couplings is solved angle by angle.
+    /// Accelerations of the three angles by cofactors: one division, and only the last products wait for the right-hand
+    /// side. A matrix without couplings is solved angle by angle.
     #[inline(always)]
     pub fn solve(&self, of: &Structure, [q1, q2, q3]: [R; 3]) -> [R; 3] {
         let Self { d1, d2, d3, m12, m23, m13 } = *self;
@@ -318,7 +321,7 @@ impl<R: Real> MassMatrix<R> {
         }
     }
 
-    /// (M11 + 2·ρ·M12 + ρ²·M22)·θ̈1 = Q1 + ρ·Q2 − (M12 + ρ·M22)·σ.
+    /// Accelerations in a closed loop: (M11 + 2·ρ·M12 + ρ²·M22)·θ̈1 = Q1 + ρ·Q2 − (M12 + ρ·M22)·σ.
     #[inline(always)]
     fn solve_closed(&self, of: &Structure, closing: &IdealMotion<R>, [q1, q2]: [R; 2]) -> [R; 3] {
         let Self { d1, d2, m12, .. } = *self;

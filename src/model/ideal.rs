@@ -1,4 +1,4 @@
-//! The ideal slider-crank: rod and slider as functions of the crank's angle.
+//! The ideal slider-crank: rod and slider as functions of the crank angle.
 
 use super::plane::Rotation;
 use super::rod::Chord;
@@ -6,69 +6,70 @@ use crate::integrator::EventFunction;
 use crate::math::Real;
 use crate::scene::Scene;
 
-/// Least cosine of the rod's angle. A rod that is longer than its crank by less than half a millionth does not pass it:
-/// rounding and the errors of steps would decide on which side of standing across the guide it goes on.
-const LEAST_COSINE: f64 = 1e-3;
+/// Smallest cosine of the rod angle. A rod that is longer than its crank by less than half a millionth cannot pass the
+/// change point: rounding and integration errors would decide on which branch it continues.
+const MIN_COSINE: f64 = 1e-3;
 
-/// Lengths of an ideal slider-crank.
+/// Dimensions of an ideal slider-crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IdealMechanism {
-    /// [m] Crank.
+    /// [m] Length of the crank.
     pub crank: f64,
-    /// [m] Rod.
+    /// [m] Length of the rod.
     pub rod: f64,
     /// [m] Height of the slider's pin, h − gy.
     pub height: f64,
 }
 
-/// Where the rod and the slider are, and how they move.
+/// Motion of rod and slider with the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct IdealMotion<R = f64> {
     /// Rotation of the rod.
     pub rod: Rotation<R>,
-    /// dφ/dθ: rod speed over crank speed.
+    /// dφ/dθ: rod speed over crank speed, with φ the rod angle and θ the crank angle.
     pub rod_ratio: R,
-    /// [rad/s²] Rod acceleration at a steady crank speed.
+    /// [rad/s²] Rod acceleration at constant crank speed.
     pub rod_bias: R,
-    /// [m] Pin along the guide.
+    /// [m] Position of the pin along the guide.
     pub x: R,
     /// [m] dx/dθ.
     pub x_ratio: R,
-    /// [m/s²] d²x/dt² at a steady crank speed.
+    /// [m/s²] d²x/dt² at constant crank speed.
     pub x_bias: R,
-    /// [rad/m] dφ/dL, with the length L of a flexible rod's chord.
+    /// [rad/m] dφ/dL, with L the chord length of a flexible rod.
     pub rod_per_length: R,
 }
 
 impl IdealMechanism {
-    /// Of a scene.
+    /// The dimensions of a scene.
     pub fn new(scene: &Scene) -> Self {
         Self { crank: scene.crank.length, rod: scene.rod.length, height: scene.guide.offset - scene.slider.centre.y }
     }
 
-    /// The crank can bring the rod across the guide, where the slider may go on either way.
+    /// Whether the crank can bring the rod perpendicular to the guide (change point), where the slider may continue on
+    /// either side.
     pub fn has_change_point(&self) -> bool {
-        self.crank + self.height.abs() > (1.0 - LEAST_COSINE * LEAST_COSINE) * self.rod
+        self.crank + self.height.abs() > (1.0 - MIN_COSINE * MIN_COSINE) * self.rod
     }
 
-    /// The event at which the rod, then `rod` [m] long and growing at `rate` [m/s], stands across the guide: cos²φ and
-    /// its rate, which are smooth there.
+    /// The event function of the change point, where the rod, of length `rod` [m] that grows at `rate` [m/s], is
+    /// perpendicular to the guide: cos²φ less its smallest value, and its rate, both smooth there.
     pub fn change_point(&self, crank: Rotation, speed: f64, rod: f64, rate: f64) -> EventFunction {
         let sin = (self.height - crank.sin * self.crank) / rod;
         let sin_rate = -(crank.cos * self.crank * speed + sin * rate) / rod;
-        EventFunction { value: (1.0 - sin) * (1.0 + sin) - LEAST_COSINE * LEAST_COSINE, rate: -2.0 * sin * sin_rate }
+        EventFunction { value: (1.0 - sin) * (1.0 + sin) - MIN_COSINE * MIN_COSINE, rate: -2.0 * sin * sin_rate }
     }
 
-    /// [unit of that event's value] What is just noticeable in it.
-    pub const CHANGE_POINT_SCALE: f64 = LEAST_COSINE * LEAST_COSINE;
+    /// [unit of the change point's event function] Scale of its tolerable error.
+    pub const CHANGE_POINT_SCALE: f64 = MIN_COSINE * MIN_COSINE;
 
-    /// At the crank's rotation and speed [rad/s]. Not finite where the mechanism cannot be.
+    /// The motion at the crank's rotation and speed [rad/s]; not finite where the mechanism cannot be assembled.
     #[inline(always)]
     pub fn motion<R: Real>(&self, crank: Rotation<R>, speed: R) -> IdealMotion<R> {
         let Self { crank: r, rod: l, height } = *self;
         let sin = (-(crank.sin * r) + height) / l;
         let cos = ((-sin + 1.0) * (sin + 1.0)).sqrt();
-        // r·sin θ + l·sin φ = height, once and twice differentiated.
+        // Derivatives of r·sin θ + l·sin φ = height.
         let per_reach = (cos * l).recip();
         let rod_ratio = crank.cos * -r * per_reach;
         let rod_speed = rod_ratio * speed;
@@ -84,15 +85,15 @@ impl IdealMechanism {
         }
     }
 
-    /// The rod at the crank's rotation and speed [rad/s], whose chord changes its length; nothing of the slider. Its speed
-    /// is `rod_ratio` times the crank's and `rod_per_length` times the chord's rate.
+    /// The motion of a rod with a variable chord, at the crank's rotation and speed [rad/s]; the slider's fields are 0.
+    /// The rod's speed is `rod_ratio` times the crank's plus `rod_per_length` times the chord's rate.
     #[inline(always)]
     pub fn flexible_motion<R: Real>(&self, crank: Rotation<R>, speed: R, chord: &Chord<R>) -> IdealMotion<R> {
         let Self { crank: r, height, .. } = *self;
         let Chord { length, rate, bias, .. } = *chord;
         let sin = (-(crank.sin * r) + height) / length;
         let cos = ((-sin + 1.0) * (sin + 1.0)).sqrt();
-        // r·sin θ + L·sin φ = height, once and twice differentiated.
+        // Derivatives of r·sin θ + L·sin φ = height.
         let per_reach = (cos * length).recip();
         let (rod_ratio, rod_per_length) = (crank.cos * -r * per_reach, -(sin * per_reach));
         let rod_speed = rod_ratio * speed + rod_per_length * rate;

@@ -1,20 +1,21 @@
-//! What a body's motion needs.
+//! Force and moment that the motion of a body requires.
 
 use super::body::Body;
 use super::plane::{Rotation, Vec2, cross, perp};
 use crate::math::Real;
 
-/// What a body's motion needs of forces and of moments about its reference point, gravity subtracted.
+/// Force and moment about the reference point that the motion of a body requires, less those of gravity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InertialLoad<R = f64> {
-    /// [N]
+    /// [N] Force.
     pub force: Vec2<R>,
-    /// [N·m] About the body's reference point.
+    /// [N·m] Moment about the body's reference point.
     pub moment: R,
 }
 
 impl<R: Real> InertialLoad<R> {
-    /// Of a rigid body.
+    /// The load of a rigid body with this rotation, speed [rad/s] and angular acceleration `alpha` [rad/s²], whose
+    /// reference point accelerates with `point` [m/s²].
     pub fn new(body: &Body, rotation: Rotation<R>, speed: R, alpha: R, point: Vec2<R>, gravity: f64) -> Self {
         let com = rotation.apply(body.com);
         let acceleration = point + alpha * perp(com) - speed * speed * com;

@@ -1,14 +1,14 @@
-//! Jacobians of right-hand sides by differentiating their own code: exact, several columns at a time.
+//! Jacobians of right-hand sides by forward differentiation of their code: exact, several columns at a time.
 
 use super::scalar::{DIRECTIONS, Tangent};
 use crate::integrator::Jacobian;
 use crate::math::Real;
 
-/// Rates of a state at a time, all with derivatives.
+/// Computes the rates of a state at a time, all with derivatives.
 pub type Rates<'a> = dyn Fn(Tangent, &[Tangent], &mut [Tangent]) + 'a;
 
-/// Evaluates `rates` with derivatives along the first `moving` states and time, and writes those of
-/// the first `states` rates at `t` and `y`, with arrays of `N`. Nothing depends on the other states.
+/// Writes the derivatives of the first `states` rates at `t` and `y` with respect to the first `moving` states and to
+/// time. The rates must not depend on the other states. `N` is the size of the arrays.
 pub fn differentiate<const N: usize>(
     states: usize,
     moving: usize,

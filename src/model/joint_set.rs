@@ -1,4 +1,4 @@
-//! Joints by name: the three pins, and sets of joints.
+//! Names of the three pins, and sets of joints.
 
 /// A revolute joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,25 +12,25 @@ pub enum Pin {
 }
 
 impl Pin {
-    /// In the order of lists of pins.
+    /// All pins, in the order of lists by pin.
     pub const ALL: [Self; 3] = [Self::MainBearing, Self::CrankPin, Self::SliderPin];
 }
 
-/// Some of the four joints.
+/// A subset of the four joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct JointSet {
-    /// A is among them.
+    /// Whether A is in the set.
     pub main_bearing: bool,
-    /// B is among them.
+    /// Whether B is in the set.
     pub crank_pin: bool,
-    /// C is among them.
+    /// Whether C is in the set.
     pub slider_pin: bool,
-    /// T is among them.
+    /// Whether T is in the set.
     pub guide: bool,
 }
 
 impl JointSet {
-    /// Whether `pin` is among them.
+    /// Whether `pin` is in the set.
     #[inline(always)]
     pub const fn contains(self, pin: Pin) -> bool {
         match pin {
@@ -40,7 +40,7 @@ impl JointSet {
         }
     }
 
-    /// The pins among them.
+    /// The pins in the set.
     pub fn pins(self) -> impl Iterator<Item = Pin> {
         Pin::ALL.into_iter().filter(move |&pin| self.contains(pin))
     }

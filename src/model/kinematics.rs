@@ -7,9 +7,9 @@
 //!               (main journal)
 //! ```
 //!
-//! Position, velocity and acceleration of a point are the same sum over arms that are fixed in bodies; only what becomes
-//! of an arm a differs: rot(θ)·a, ω·perp(rot(θ)·a), α·perp(rot(θ)·a) − ω²·rot(θ)·a. So the way through the mechanism is
-//! written once, in [`JointVectors::outwards`].
+//! Position, velocity and acceleration of a point are the same sum over arms that are fixed in bodies. Only the
+//! contribution of an arm a differs: rot(θ)·a, ω·perp(rot(θ)·a), α·perp(rot(θ)·a) − ω²·rot(θ)·a. The path through the
+//! mechanism is therefore coded once, in [`JointVectors::outwards`].
 
 use super::bodies::AugmentedBodies;
 use super::plane::{Rotation, Vec2, perp};
@@ -17,56 +17,57 @@ use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure};
 use crate::math::Real;
 use std::ops::{Add, Mul, Sub};
 
-/// Something for every joint centre.
+/// A value for every joint centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointPoints<V> {
-    /// The crank's main journal.
+    /// Main journal of the crank.
     pub crank: V,
-    /// The crank's pin journal.
+    /// Pin journal of the crank.
     pub crank_pin: V,
-    /// The rod's big end.
+    /// Big end of the rod.
     pub big_end: V,
-    /// The rod's small end.
+    /// Small end of the rod.
     pub small_end: V,
-    /// The slider's pin.
+    /// Pin of the slider.
     pub pin: V,
 }
 
-/// One vector (a position, velocity or acceleration) for every joint centre.
+/// A vector (position, velocity or acceleration) for every joint centre.
 pub type JointVectors<R = f64> = JointPoints<Vec2<R>>;
 
-/// Arms that turn with the bodies.
+/// Arms of the bodies in inertial axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Arms<V> {
     /// From the crank's main journal to its pin.
     pub throw: V,
     /// From the rod's big end to its small end.
     pub reach: V,
-    /// The crank's part of the way from its chain's centre of mass to the chain's first joint; zero where it does not float.
+    /// The crank's part of the vector from its chain's centre of mass to the chain's first joint; zero unless the chain
+    /// floats.
     pub crank: V,
-    /// The rod's.
+    /// The rod's part of that vector.
     pub rod: V,
-    /// The slider's.
+    /// The slider's part of that vector.
     pub slider: V,
 }
 
-/// Angles, rates and rotations of crank, rod and slider.
+/// Angles, angular velocities and rotations of crank, rod and slider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyRotations<R = f64> {
-    /// [rad]
+    /// [rad] Angles.
     pub angle: [R; 3],
-    /// [rad/s]
+    /// [rad/s] Angular velocities.
     pub speed: [R; 3],
     /// Rotations by the angles.
     pub rotation: [Rotation<R>; 3],
 }
 
-/// A point's place and velocity, which are summed together.
+/// Place and velocity of a point, which are summed together.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PointMotion<R> {
-    /// [m]
+    /// [m] Place.
     pub place: Vec2<R>,
-    /// [m/s]
+    /// [m/s] Velocity.
     pub velocity: Vec2<R>,
 }
 
@@ -87,7 +88,7 @@ impl<R: Real> Sub for PointMotion<R> {
 }
 
 impl<R: Copy> JointPoints<PointMotion<R>> {
-    /// Places.
+    /// Places of the joint centres.
     #[inline(always)]
     pub fn places(&self) -> JointVectors<R> {
         JointPoints {
@@ -99,7 +100,7 @@ impl<R: Copy> JointPoints<PointMotion<R>> {
         }
     }
 
-    /// Velocities.
+    /// Velocities of the joint centres.
     #[inline(always)]
     pub fn velocities(&self) -> JointVectors<R> {
         JointPoints {
@@ -113,8 +114,8 @@ impl<R: Copy> JointPoints<PointMotion<R>> {
 }
 
 impl<V: Copy + Default + Add<Output = V> + Sub<Output = V>> JointPoints<V> {
-    /// Sums arms from the roots outwards. A pin on a rail comes with its root, and one that a closed loop guides is left to
-    /// its rod.
+    /// Sums arms from the roots outwards. The place of a pin on a rail is that of its root. In a closed loop the pin
+    /// and the small end of the rod are left to the caller.
     #[inline(always)]
     pub fn outwards(of: &Structure, roots: &Roots<V>, arms: &Arms<V>) -> Self {
         let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
@@ -164,8 +165,8 @@ impl<V: Copy + Default + Add<Output = V> + Sub<Output = V>> JointPoints<V> {
 }
 
 impl<V: Copy + Add<Output = V> + Sub<Output = V>> Roots<V> {
-    /// The roots of a mechanism whose joint centres are known: the way back from [`JointPoints::outwards`]. Those that it does
-    /// not have mean nothing.
+    /// The roots of a mechanism with given joint centres: the inverse of [`JointPoints::outwards`]. Roots that the
+    /// mechanism does not have are meaningless.
     pub fn of(of: &Structure, centres: &JointPoints<V>, arms: &Arms<V>) -> Self {
         let (b, c) = (!of.play.crank_pin, !of.play.slider_pin);
         let mut roots =
@@ -187,7 +188,7 @@ impl<V: Copy + Add<Output = V> + Sub<Output = V>> Roots<V> {
 }
 
 impl<R: Real> Arms<Vec2<R>> {
-    /// As the bodies stand, with a crank of length `throw` [m] and a rod, or the chord of one, of length `reach` [m].
+    /// The arms at these rotations, with a crank of length `throw` [m] and a rod or chord of length `reach` [m].
     #[inline(always)]
     pub fn at<L: Copy>(
         of: &Structure,
@@ -213,7 +214,7 @@ impl<R: Real> Arms<Vec2<R>> {
         arms
     }
 
-    /// With what they contribute to velocities.
+    /// The arms and their contributions to velocities, at the angular velocities [rad/s] of crank, rod and slider.
     #[inline(always)]
     pub fn moving(self, [crank, rod, slider]: [R; 3]) -> Arms<PointMotion<R>> {
         Arms {
@@ -225,7 +226,7 @@ impl<R: Real> Arms<Vec2<R>> {
         }
     }
 
-    /// What they contribute to accelerations.
+    /// The arms' contributions to accelerations, at angular velocities w [rad/s] and angular accelerations a [rad/s²].
     #[inline(always)]
     pub fn accelerated(self, [w1, w2, w3]: [R; 3], [a1, a2, a3]: [R; 3]) -> Self {
         Self {
@@ -239,7 +240,7 @@ impl<R: Real> Arms<Vec2<R>> {
 }
 
 impl<R: Real> PointMotion<R> {
-    /// An arm that turns at `speed` [rad/s].
+    /// An arm that rotates at `speed` [rad/s].
     #[inline(always)]
     fn rotations(arm: Vec2<R>, speed: R) -> Self {
         Self { place: arm, velocity: perp(arm) * speed }

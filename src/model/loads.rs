@@ -5,33 +5,33 @@ use super::joint_set::Pin;
 use super::plane::Vec2;
 use crate::math::Real;
 
-/// Loads on the bodies but for gravity and the reactions of ideal joints: forces at the joint centres and couples.
+/// Loads on the bodies, without gravity and the reactions of ideal joints: forces at the joint centres, and couples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loads<R = f64> {
-    /// [N] On the crank at its main journal.
+    /// [N] Force on the crank at its main journal.
     pub crank: Vec2<R>,
-    /// [N] On the crank at its pin.
+    /// [N] Force on the crank at its pin.
     pub crank_pin: Vec2<R>,
-    /// [N] On the rod at its big end.
+    /// [N] Force on the rod at its big end.
     pub big_end: Vec2<R>,
-    /// [N] On the rod at its small end.
+    /// [N] Force on the rod at its small end.
     pub small_end: Vec2<R>,
-    /// [N] On the slider at its pin.
+    /// [N] Force on the slider at its pin.
     pub pin: Vec2<R>,
-    /// [N·m] On the crank.
+    /// [N·m] Couple on the crank.
     pub crank_couple: R,
-    /// [N·m] On the rod's sections at its big and small end.
+    /// [N·m] Couples on the rod's sections at its big and small end.
     pub end_couple: [R; 2],
-    /// [N·m] On the slider, about its pin.
+    /// [N·m] Couple on the slider, about its pin.
     pub slider_couple: R,
-    /// The input's part of the force at the slider's pin [N].
+    /// [N] The part of the force on the slider's pin that is an input.
     pub slider_load: R,
-    /// The guide's part: contact, or viscous friction of an ideal guide.
+    /// The guide's part of the load on the slider: contact forces, or viscous friction of an ideal guide.
     pub guide: guide::Load<R>,
 }
 
 impl<R: Real> Loads<R> {
-    /// Adds the contact of a pin in its bearing.
+    /// Adds the contact load of a pin in its bearing.
     #[inline(always)]
     pub fn add_contact(&mut self, pin: Pin, load: &revolute::Load<R>) {
         match pin {
@@ -48,7 +48,7 @@ impl<R: Real> Loads<R> {
         self.add_couples(pin, load.journal_couple, load.bearing_couple);
     }
 
-    /// Adds couples on the journal and the bearing of a pin.
+    /// Adds couples on the journal and on the bearing of a pin.
     #[inline(always)]
     pub fn add_couples(&mut self, pin: Pin, journal: R, bearing: R) {
         match pin {
@@ -64,13 +64,13 @@ impl<R: Real> Loads<R> {
         }
     }
 
-    /// [N·m] On crank, rod and slider.
+    /// [N·m] Couples on crank, rod and slider.
     #[inline(always)]
     pub fn couples(&self) -> [R; 3] {
         [self.crank_couple, self.end_couple[0] + self.end_couple[1], self.slider_couple]
     }
 
-    /// Adds forces and moment of the guide.
+    /// Adds the guide's load on the slider.
     #[inline(always)]
     pub fn add_guide(&mut self, load: &guide::Load<R>) {
         self.pin += load.force;

@@ -1,10 +1,10 @@
-//! A mechanism: its parts, its inputs, and its equations of motion.
+//! A mechanism: its parts and its equations of motion.
 //!
-//! The equations are written once, for every [`Structure`] and every number: [`Mechanism::rates`] with a rigid rod and
-//! `flexible_rates` with a flexible one, which differ in the rod's inertia and in what is solved. They are
-//! compiled once for each kind of number, with the structure as data, and again for some constant structures
-//! ([`compiled`](super::compiled)). What else is asked about an instant is made from the same three steps: the pose,
-//! outwards; the loads; the accelerations, by forces inwards.
+//! The equations are coded once, for any [`Structure`] and any number type: [`Mechanism::rates`] with a rigid rod and
+//! `flexible_rates` with a flexible one, which differ in the rod's inertia and in the solution. They are compiled once
+//! for each number type, with the structure as data, and again for some constant structures
+//! ([`compiled`](super::compiled)). All evaluations of an instant consist of three steps: the pose, outwards; the
+//! loads; the accelerations, with forces accumulated inwards.
 
 use super::bodies::{AugmentedBodies, RodInChain, bodies};
 use super::clearances::Clearances;
@@ -26,18 +26,18 @@ use crate::integrator::EventFunctions;
 use crate::math::{self, unroll};
 use crate::scene::Scene;
 
-/// A mechanism. Nothing in it changes while time runs.
+/// A mechanism. It is immutable while time advances.
 #[derive(Clone, Debug)]
 pub struct Mechanism {
-    /// What hangs on what.
+    /// Topology and coordinates.
     pub structure: Structure,
     pub(super) augmented: AugmentedBodies,
     pub(super) gravity: f64,
-    /// Its lengths, and the height of an ideal guide.
+    /// Lengths, and the height of an ideal guide.
     pub ideal: IdealMechanism,
-    /// The prescribed rotation.
+    /// The prescribed crank rotation.
     pub rotor: Rotor,
-    /// The flexible rod, if it has one.
+    /// The flexible rod; `None` if the rod is rigid.
     pub rod: Option<FlexibleRod>,
     /// The joints with clearance.
     pub clearances: Clearances,
@@ -48,21 +48,21 @@ pub struct Mechanism {
 /// A flexible rod in its mechanism.
 #[derive(Clone, Debug)]
 pub struct FlexibleRod {
-    /// Its modes, as the scene has them.
+    /// Modes of the rod as the scene gives them.
     pub rod: Rod,
-    /// The same as the equations read them.
+    /// The same modes in the arrays that the equations read.
     pub modes: Modes,
-    /// How it hangs in its chain.
+    /// Position of the rod in its chain.
     pub chain: RodInChain,
 }
 
-/// Where the mechanism is at one instant, as its loads and accelerations need it.
+/// The kinematic configuration at one instant, from which loads and accelerations are computed.
 pub(super) struct Configuration<R> {
     /// Angles, places and velocities.
     pub pose: Pose<R>,
-    /// The bodies' arms.
+    /// Arms of the bodies in inertial axes.
     pub arms: Arms<Vec2<R>>,
-    /// How the rod of a closed loop follows its crank; zero where the loop is open.
+    /// Motion of the rod with the crank in a closed loop; zero in an open chain.
     pub closing: IdealMotion<R>,
 }
 
@@ -100,14 +100,14 @@ impl Mechanism {
         }
     }
 
-    /// Writes the rates of the state `y` at `t`, of a mechanism with a rigid rod: velocities, accelerations, and those of
-    /// bristles. `of` is the mechanism's structure, or the same as a constant.
+    /// Writes the rates of the state `y` at `t` for a rigid rod: velocities, accelerations and bristle rates. `of` is
+    /// the mechanism's structure, or an equal constant.
     #[inline(always)]
     pub fn rates<R: Scalar>(&self, of: &Structure, conditions: &Conditions, t: R, y: &[R], rates: &mut [R]) {
         self.motion(of, conditions, t, y, rates);
     }
 
-    /// The same, and the event functions at this instant.
+    /// As [`rates`](Self::rates), and writes the event functions.
     #[inline(always)]
     pub fn rates_and_event_functions(
         &self,
@@ -122,7 +122,7 @@ impl Mechanism {
         self.event_functions_at(of, &conditions.contacts, &configuration.pose, [self.ideal.rod, 0.0], event_functions);
     }
 
-    /// The same, and everything else about this instant.
+    /// As [`rates`](Self::rates), and returns the evaluation of the instant.
     #[inline(always)]
     pub fn rates_and_evaluation<R: Scalar>(
         &self,
@@ -136,7 +136,7 @@ impl Mechanism {
         evaluation(of, configuration, loads, &accelerations)
     }
 
-    /// Writes the rates, and returns what they were made of.
+    /// Writes the rates and returns the configuration, loads and accelerations.
     #[inline(always)]
     fn motion<R: Scalar>(
         &self,
@@ -154,8 +154,8 @@ impl Mechanism {
         (configuration, loads, accelerations)
     }
 
-    /// Writes the rates of the state `y` at `t`, of a mechanism with a flexible rod in arrays of `K` modes and `F`
-    /// functions along the rod, with counts that are known or not; and returns what they were made of.
+    /// Writes the rates of the state `y` at `t` for a flexible rod, in arrays of `K` modes and `F` functions along the
+    /// rod, with counts `C` that may be known at compile time. Returns the motion.
     #[inline(always)]
     pub(super) fn flexible_rates<R: Scalar, C: CompiledCounts, const K: usize, const F: usize>(
         &self,
@@ -196,7 +196,7 @@ impl Mechanism {
         FlexibleMotion { configuration, chord, chord_slope, inertia, loads, accelerations }
     }
 
-    /// Poses, outwards, with a rigid rod.
+    /// The configuration with a rigid rod, computed outwards.
     #[inline(always)]
     pub(super) fn configuration<R: Scalar>(&self, of: &Structure, t: R, y: &[R]) -> Configuration<R> {
         let (positions, rates) = y[..2 * of.positions].split_at(of.positions);
@@ -221,7 +221,7 @@ impl Mechanism {
         Configuration { pose, arms, closing }
     }
 
-    /// The same with a flexible rod, at `positions` and their `rates`.
+    /// The configuration with a flexible rod, at `positions` and their `rates`.
     #[inline(always)]
     fn flexible_configuration<R: Scalar, const K: usize, const F: usize>(
         &self,
@@ -286,7 +286,7 @@ impl Mechanism {
         if !of.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
-        // Contact forces, which are known last, come last.
+        // Contact forces are available last and are added last.
         add_viscous(&self.rotary_dampers, &pose.rotations.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
@@ -295,7 +295,7 @@ impl Mechanism {
         loads
     }
 
-    /// Forces, inwards, and what they accelerate.
+    /// Accelerations from the loads, accumulated inwards.
     #[inline(always)]
     pub(super) fn accelerations<R: Scalar>(
         &self,
@@ -307,7 +307,7 @@ impl Mechanism {
         accelerate(of, &self.augmented, self.gravity, &pose.rotations, arms, closing, loads)
     }
 
-    /// Writes the event functions at this pose, with a rod or a chord of `length` [m] that grows at `rate` [m/s].
+    /// Writes the event functions at a pose, with a rod or chord of `length` [m] that grows at `rate` [m/s].
     #[inline(always)]
     fn event_functions_at(
         &self,
@@ -325,13 +325,13 @@ impl Mechanism {
         }
     }
 
-    /// A closed loop may come to its change point; a flexible rod may shorten until it does.
+    /// Whether a closed loop can reach its change point. A flexible rod may shorten until it does.
     #[inline(always)]
     fn has_change_point(&self, of: &Structure) -> bool {
         of.flexible || self.ideal.has_change_point()
     }
 
-    /// Poses, outwards, with a flexible rod, and its chord.
+    /// The pose with a flexible rod, and its chord.
     #[inline(always)]
     pub(super) fn flexible_pose<const K: usize, const F: usize>(
         &self,
@@ -348,7 +348,7 @@ impl Mechanism {
 }
 
 impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
-    /// Everything about the instant of the motion through `y` whose accelerations are in `rates`.
+    /// The evaluation of the instant of the state `y` whose rates are `rates`.
     pub fn evaluation(&self, mechanism: &Mechanism, rod: &FlexibleRod, y: &[R], rates: &[R]) -> Evaluation<R> {
         let Self { configuration: Configuration { pose, arms, .. }, chord, inertia, loads, accelerations, .. } = self;
         let (of, p) = (&mechanism.structure, mechanism.positions());
@@ -367,7 +367,7 @@ impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
         arms.reach += stretching * axis + chord.rate * 2.0 * speed * perp(axis);
         let acceleration = JointPoints::outwards(of, roots, &arms);
 
-        // What the rod's motion needs of forces and of moments about its big end.
+        // Force, and moment about the big end, that the rod's motion requires.
         let (mass, turn) = (rod.rod.mass(), angle[ROD]);
         let origin = acceleration.big_end + Vec2::new(0.0, mechanism.gravity);
         let first = rotation.apply(inertia.first);
@@ -420,7 +420,7 @@ impl<const K: usize> FlexibleMotion<f64, K> {
     }
 }
 
-/// Writes velocities and accelerations.
+/// Writes velocities and accelerations into `rates`.
 #[inline(always)]
 pub(super) fn write<R: Scalar>(of: &Structure, accelerations: &Accelerations<R>, y: &[R], rates: &mut [R]) {
     let p = of.positions;
@@ -433,7 +433,7 @@ pub(super) fn write<R: Scalar>(of: &Structure, accelerations: &Accelerations<R>,
     of.set_angles(accelerations.angle, forced);
 }
 
-/// Everything about an instant.
+/// The evaluation of an instant with a rigid rod.
 #[inline(always)]
 pub(super) fn evaluation<R: Scalar>(
     of: &Structure,
@@ -453,7 +453,7 @@ pub(super) fn evaluation<R: Scalar>(
 }
 
 impl Mechanism {
-    /// How many event functions there are.
+    /// Number of event functions.
     pub fn event_count(&self) -> usize {
         if self.structure.closed {
             usize::from(self.has_change_point(&self.structure))
@@ -466,7 +466,7 @@ impl Mechanism {
     pub fn event_functions(&self, contacts: &Contacts, t: f64, y: &[f64], event_functions: &mut EventFunctions) {
         let (pose, chord) = match &self.rod {
             Some(rod) => {
-                let (pose, chord) = self.bent_pose(rod, t, y);
+                let (pose, chord) = self.pose_and_chord(rod, t, y);
                 (pose, [chord.length, chord.rate])
             }
             None => (self.place(t, y).pose, [self.ideal.rod, 0.0]),
@@ -474,30 +474,30 @@ impl Mechanism {
         self.event_functions_at(&self.structure, contacts, &pose, chord, event_functions);
     }
 
-    /// Angles, places and velocities.
+    /// The pose at the state `y`: angles, places and velocities.
     pub fn pose(&self, t: f64, y: &[f64]) -> Pose {
         match &self.rod {
-            Some(rod) => self.bent_pose(rod, t, y).0,
+            Some(rod) => self.pose_and_chord(rod, t, y).0,
             None => self.place(t, y).pose,
         }
     }
 
-    /// Elastic energy of the closed contacts, and the powers that they take.
+    /// Elastic energy of the closed contacts and the powers that they absorb.
     pub fn contact_energy<R: Scalar>(&self, contacts: &Contacts, pose: &Pose<R>, y: &[R]) -> ContactEnergy<R> {
         self.clearances.contact_energy(self.structure.play, contacts, pose, &y[2 * self.positions()..])
     }
 
-    /// Number of positions, modal ones among them: that of degrees of freedom.
+    /// Number of positions, including modal coordinates: the number of degrees of freedom.
     pub fn positions(&self) -> usize {
         self.structure.positions + self.rod.as_ref().map_or(0, |rod| rod.modes.counts.modes())
     }
 
-    /// Number of states: positions, their rates, bristles.
+    /// Number of states: positions, their rates and bristle deflections.
     pub fn states(&self) -> usize {
         2 * self.positions() + self.clearances.bristles.len()
     }
 
-    /// Writes the state of a start pose, whose rod and bristles are straight.
+    /// Writes the state of a start pose with undeformed rod and bristles.
     pub fn start(&self, pose: &StartPose, y: &mut [f64]) {
         let of = &self.structure;
         let rotations = rotations(pose.angle, pose.speed, of.slider_angle.is_some());

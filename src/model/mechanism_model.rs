@@ -1,4 +1,4 @@
-//! What a simulation asks of a mechanism besides its rates.
+//! Interface between a simulation and a mechanism, apart from the integrator's interface.
 
 use super::contact::ContactEnergy;
 use super::drive::InputSignal;
@@ -11,40 +11,40 @@ use crate::integrator::{Impulses, Unilateral};
 
 /// A mechanism in minimal coordinates.
 pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
-    /// Writes the state of a start pose in place of zeros.
+    /// Writes the state of a start pose; `y` must be zeros.
     fn write_start(&self, pose: &StartPose, y: &mut [f64]);
 
-    /// The contacts of a state that no motion has led to: those that penetrate are closed.
+    /// The contact states at a start state: contacts with penetration are closed.
     fn start_contacts(&self, t: f64, y: &[f64]) -> Contacts;
 
-    /// Everything about one instant.
+    /// The evaluation of an instant.
     fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64]) -> Evaluation;
 
-    /// The rates of a state and everything about that instant, at the cost of about one of them.
+    /// Writes the rates and returns the evaluation, at about the cost of the rates alone.
     fn rates_and_evaluation(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
         self.rates(conditions, t, y, rates);
         self.evaluation(conditions, t, y)
     }
 
-    /// Everything about one instant of a motion with rigid contacts, whose forces are those of `impulses`.
+    /// The evaluation of an instant with rigid contacts under the contact forces of `impulses`.
     fn evaluation_under(&self, _: &Impulses, inputs: &InputSignal, t: f64, y: &[f64]) -> Evaluation {
         self.evaluation(&Conditions::without_contacts(*inputs), t, y)
     }
 
-    /// The rates of that instant.
+    /// Writes the rates with rigid contacts under the contact forces of `impulses`.
     fn rates_under(&self, _: &Impulses, inputs: &InputSignal, t: f64, y: &[f64], rates: &mut [f64]) {
         self.rates(&Conditions::without_contacts(*inputs), t, y, rates);
     }
 
-    /// [m] Penetration in the joints A, B, C and of the guide's corners at a pose, −∞ in an ideal joint.
+    /// [m] Penetration in joints A, B, C and at the guide's corners; −∞ for an ideal joint.
     fn penetration(&self, pose: &Pose) -> [f64; 3 + CORNERS];
 
-    /// Elastic energy of the closed contacts, and the powers that they take.
+    /// Elastic energy of the closed contacts and the powers that they absorb.
     fn contact_energy(&self, _: &Contacts, _: &Pose, _: &[f64]) -> ContactEnergy {
         ContactEnergy::default()
     }
 
-    /// The rates with derivatives.
+    /// Writes the rates with derivatives.
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);
 
     /// [`MechanismModel::rates_and_evaluation`] and [`MechanismModel::contact_energy`] with derivatives.
@@ -56,7 +56,7 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
         rates: &mut [Tangent],
     ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>);
 
-    /// Energies, works and losses; 0 without an audit.
+    /// Energies, works and losses; all 0 without an audit.
     fn energies(&self, _: &Contacts, _: &Evaluation, _: &[f64]) -> EnergyOutputs {
         EnergyOutputs::default()
     }

@@ -1,10 +1,11 @@
-//! What the asked-for mechanism is.
+//! The model: a mechanism and its equations of motion, assembled from a scene.
 //!
-//! [`scene`](crate::scene) says which joints are ideal and which have clearance; here that becomes a
-//! set of minimal coordinates and a right-hand side that holds the effects called for and no others.
-//! Reading order: `structure` (what hangs on what), `bodies`, `kinematics` (outwards), `dynamics` (inwards, M·q̈ = Q),
-//! `rod`, `modal` and `condensation` (what a flexible rod adds), `mechanism` (all together), `compiled` and `assembled` ([`Model`], as the
-//! integrator asks for it), `joint` and `contact` (forces), `reactions` and `outputs`.
+//! The [`scene`](crate::scene) says which joints are ideal and which have clearance. The model has minimal coordinates
+//! and a right-hand side with the requested effects and no others.
+//!
+//! Reading order: `structure` (topology), `bodies`, `kinematics` (outwards), `dynamics` (inwards, M·q̈ = Q), `rod`,
+//! `modal` and `condensation` (flexible rod), `mechanism` (the whole), `compiled` and `assembled` ([`Model`], with the
+//! integrator's interface), `joint` and `contact` (forces), `reactions` and `outputs`.
 
 mod assembled;
 pub mod audit;

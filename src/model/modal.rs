@@ -1,4 +1,4 @@
-//! M(q)·q̈ = Q of a chain with a flexible rod: what modal coordinates add to the equations of
+//! M(q)·q̈ = Q of a chain with a flexible rod: the terms that modal coordinates add to the equations of
 //! [`dynamics`](super::dynamics).
 //!
 //! ```text
@@ -10,24 +10,26 @@
 //!    (big end)   moment D        hang here   hang here                  on the rail
 //! ```
 //!
-//! The rod's frame has its origin at the big end and its x axis e on the chord (A. A. Shabana, Dynamics of Multibody Systems,
-//! 5.3). A mode η_a moves each point of the rod in that frame by ∂ρ/∂η_a, and the far joint, with all that hangs there, by
-//! far·L_a·e, L_a = ∂L/∂η_a. Places count from the joint by which the rod hangs: ρ' = ρ + big_end·L·e. With κ of
-//! [`RodInChain`], h = D + κ·L·e, and per unit of η_a:
+//! The rod's frame has its origin at the big end and its x axis e along the chord (A. A. Shabana, Dynamics of Multibody
+//! Systems, 5.3). ρ is the position of a point of the rod in that frame, D = ∫ρ dm, and L the length of the chord. A
+//! mode η_a moves each point by ∂ρ/∂η_a and the far joint, with all bodies that hang there, by far·L_a·e, L_a =
+//! ∂L/∂η_a. The origin of places is the joint by which the rod hangs: ρ' = ρ + big_end·L·e. With κ of [`RodInChain`], h
+//! = D + κ·L·e, and per unit of η_a:
 //!
 //! - P_a = ∂D/∂η_a + κ·L_a·e is the momentum of the chain in the frame's axes;
-//! - M_θa = T_a + big_end·(L·∂D_y/∂η_a − D_y·L_a), T_a the rod's own moment of momentum (`with_angle`), with the rod's angle;
-//! - M_ka = far·L_a·e·perp(h_k) with the angle of a body k beyond the far joint, and perp(throw)·P_a with that of a crank
-//!   on which the rod hangs;
-//! - M_ab = m_ab + big_end·(L_b·∂D_x/∂η_a + L_a·∂D_x/∂η_b) + |κ|·L_a·L_b.
+//! - M_θa = T_a + big_end·(L·∂D_y/∂η_a − D_y·L_a) couples η_a with the rod's angle; T_a is the moment of momentum of
+//!   the rod about its big end (`with_angle`);
+//! - M_ka = far·L_a·e·perp(h_k) couples η_a with the angle of a body k beyond the far joint, and perp(throw)·P_a with
+//!   that of a crank on which the rod hangs;
+//! - M_ab = m_ab + big_end·(L_b·∂D_x/∂η_a + L_a·∂D_x/∂η_b) + |κ|·L_a·L_b couples two modes.
 //!
-//! Modes in motion ask for forces besides, at accelerations of zero: the far joint for
-//! far·((L̈ − θ̇²·L)·e + 2·θ̇·L̇·perp(e)), the rod's points for what [`Inertia`] sums up.
+//! Modal velocities require additional forces at zero accelerations: at the far joint for far·((L̈ − θ̇²·L)·e +
+//! 2·θ̇·L̇·perp(e)), and in the rod those of [`Inertia`].
 //!
-//! A root that is no ground shares momentum p_k with each coordinate. It is eliminated: p_k·p_l/m is taken from M_kl, and
-//! p_k·(F − B)/m from Q_k, with the force F on the chain and B what its motion asks for; of a root on a rail in x alone. In a closed
-//! loop the rod's angle follows, θ̈2 = ρ·θ̈1 + λ·Σ L_a·η̈_a + σ: its equation is summed into the others, times ρ and
-//! λ·L_a.
+//! A root other than the ground shares momentum p_k with each coordinate and is eliminated: p_k·p_l/m is subtracted
+//! from M_kl and p_k·(F − B)/m from Q_k, with the force F on the chain and the force B that its motion at zero
+//! accelerations requires; only the x components count for a root on a rail. In a closed loop the rod's angle follows,
+//! θ̈2 = ρ·θ̈1 + λ·Σ L_a·η̈_a + σ: its equation, times ρ and λ·L_a, is added to the others.
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
@@ -42,23 +44,23 @@ use super::rod::{Arrays, CompiledCounts, FEW_MODES, Inertia, Shape};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
 use crate::math::{Real, unroll};
 
-/// A flexible rod at one instant.
+/// A deformed rod at one instant.
 pub(super) struct BentRod<'a, R, const K: usize, const F: usize> {
-    /// Its modes.
+    /// Modes of the rod.
     pub modes: Arrays<'a, K, F>,
-    /// How it hangs in its chain.
+    /// Position of the rod in its chain.
     pub chain: RodInChain,
-    /// How it is deformed.
+    /// Deformation of the rod.
     pub shape: &'a Shape<R, K, F>,
-    /// Its inertia.
+    /// Inertia of the rod.
     pub inertia: &'a Inertia<R, K>,
     /// [m] Modal coordinates.
     pub eta: &'a [R],
-    /// [m/s] Their rates.
+    /// [m/s] Rates of the modal coordinates.
     pub rate: &'a [R],
 }
 
-/// What a chain's root is to the other coordinates.
+/// Kind of the root of the chain with the rod.
 #[derive(Clone, Copy)]
 enum Root {
     Ground,
@@ -67,7 +69,7 @@ enum Root {
 }
 
 impl Root {
-    /// Of the chain with the rod.
+    /// The root in this structure.
     const fn of(of: &Structure) -> Self {
         match (of.rod, of.crank) {
             (Link::After, _) => Self::Rail,
@@ -76,7 +78,7 @@ impl Root {
         }
     }
 
-    /// u·v as far as the root moves.
+    /// u·v in the directions in which the root moves.
     #[inline(always)]
     fn product<R: Real>(self, u: Vec2<R>, v: Vec2<R>) -> R {
         match self {
@@ -86,7 +88,7 @@ impl Root {
         }
     }
 
-    /// What of an acceleration the root makes.
+    /// The part of an acceleration in the directions in which the root moves.
     #[inline(always)]
     fn part<R: Real>(self, free: Vec2<R>) -> Vec2<R> {
         match self {
@@ -98,8 +100,8 @@ impl Root {
 }
 
 impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
-    /// Solves the equations of motion: accelerations of roots and angles, and of the modal coordinates, which are written
-    /// into `modal` [m/s²]. `constant` are the augmented bodies with the rod as it is undeformed.
+    /// Solves the equations of motion: returns the accelerations of roots and angles and writes those of the modal
+    /// coordinates into `modal` [m/s²]. `constant` are the augmented bodies with the undeformed rod.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "inlined")]
     pub fn accelerate<C: CompiledCounts>(
@@ -137,7 +139,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             h3 = r3.apply(bodies.moment[SLIDER]);
         }
 
-        // What the modes' motion asks of the chain.
+        // Forces that the modal velocities require of the chain.
         let stretching = shape.chord.bias;
         let sliding = w2 * shape.chord.rate * 2.0; // Coriolis
         let first = inertia.first;
@@ -166,7 +168,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             asked = h3.multiply_add(-s3, asked);
         }
 
-        // The root's own acceleration, and what it takes off the angles.
+        // Acceleration of the root, and its elimination from the equations of the angles.
         let (root, per_mass) = (Root::of(of), constant.per_mass[ROD]);
         let on_root = match (root, of.rod) {
             (Root::Rail, _) => forces.rail,
@@ -194,7 +196,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             }
         }
 
-        // In a closed loop the rod's angle follows the crank's and the modes.
+        // In a closed loop the rod's angle follows the crank's angle and the modes.
         let turns_crank = with_crank && !of.topology.speed;
         let (rod_inertia, rod_couple) = (m.d2, *q2);
         let following = closing.rod_ratio.multiply_add(m.d2, m.m12);
@@ -204,7 +206,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             (m.m12, m.d2, *q2) = (R::ZERO, R::ONE, R::ZERO);
         }
 
-        let along = (-s2).multiply_add(length, stretching); // of the far joint's acceleration, along the chord
+        let along = (-s2).multiply_add(length, stretching); // acceleration of the far joint along the chord
         let chain = Chain {
             root,
             closed: of.closed,
@@ -282,7 +284,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
         Accelerations { roots, angle }
     }
 
-    /// Writes M_ab of the mode `a` with those before it.
+    /// Writes M_ab of mode `a` and all modes up to it.
     #[inline(always)]
     fn write_pairs(
         &self,
@@ -301,7 +303,8 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
     }
 }
 
-/// What a mode meets in its chain: numbers that are the same for each of them. A mode's `slope` is L_a, its `own` ∂D/∂η_a.
+/// The chain's part of the modal equations: numbers that are the same for all modes. In its methods `slope` is L_a of a
+/// mode and `own` is ∂D/∂η_a.
 struct Chain<R> {
     root: Root,
     closed: bool,
@@ -309,54 +312,54 @@ struct Chain<R> {
     turns_crank: bool,
     with_slider: bool,
     rod: RodInChain,
-    /// [m/s²] Gravity, where the chain does not float.
+    /// [m/s²] Gravity; 0 if the chain floats.
     weight: f64,
-    /// [1/kg]
+    /// [1/kg] Inverse mass of the chain.
     per_mass: f64,
     rotation: Rotation<R>,
-    /// [m] L.
+    /// [m] Length L of the chord.
     length: R,
-    /// [kg·m] D.
+    /// [kg·m] First moment D of the rod about its big end.
     first: Vec2<R>,
     /// [m/s²] L̈ − θ̇²·L at η̈ = 0.
     along: R,
     /// [m/s²] 2·θ̇·L̇.
     sliding: R,
-    /// [m/s²] Acceleration of the joint by which the rod hangs, at accelerations of zero.
+    /// [m/s²] Acceleration of the joint by which the rod hangs, at zero accelerations of the coordinates.
     resting: Vec2<R>,
     /// [m] perp(throw).
     across: Vec2<R>,
-    /// [kg·m] Momentum per unit of the angles of crank, rod and slider.
+    /// [kg·m] Momentum per unit of the angular velocities of crank, rod and slider.
     p1: Vec2<R>,
     p2: Vec2<R>,
     p3: Vec2<R>,
     /// [N] Force along the chord.
     by_length: R,
-    /// [kg·m] Inertia of the crank's angle with the length of a chord on which it hangs,
+    /// [kg·m] Coupling of the crank's angle with the length of the chord, if the crank hangs on the rod.
     crank_by_length: R,
-    /// and of the slider's.
+    /// [kg·m] Coupling of the slider's angle with the length of the chord.
     slider_by_length: R,
     closing: IdealMotion<R>,
-    /// Of a closed loop: [kg·m²] M_22, [N·m] Q_2 and [kg·m²] M_12 + ρ·M_22.
+    /// In a closed loop: [kg·m²] M_22, [N·m] Q_2 and [kg·m²] M_12 + ρ·M_22.
     rod_inertia: R,
     rod_couple: R,
     following: R,
 }
 
 impl<R: Real> Chain<R> {
-    /// [kg] p_a = rot(θ2)·P_a.
+    /// [kg] p_a = rot(θ2)·P_a: momentum per unit of the modal velocity.
     #[inline(always)]
     fn momentum(&self, slope: R, own: Vec2<R>) -> Vec2<R> {
         self.rotation.apply(Vec2::new(slope.multiply_add(self.rod.first, own.x), own.y))
     }
 
-    /// [kg·m] M_θa.
+    /// [kg·m] M_θa: coupling with the rod's angle.
     #[inline(always)]
     fn with_rod(&self, slope: R, own: Vec2<R>, with_angle: R) -> R {
         (self.length * own.y - self.first.y * slope).multiply_add(self.rod.big_end, with_angle)
     }
 
-    /// [kg·m] With the angles of crank, rod and slider, as far as these are coordinates.
+    /// [kg·m] Coupling with those angles of crank, rod and slider that are coordinates.
     #[inline(always)]
     fn with_angles(&self, slope: R, momentum: Vec2<R>, with_rod: R) -> [R; 3] {
         let Self { root, closing, .. } = self;
@@ -381,7 +384,7 @@ impl<R: Real> Chain<R> {
         all
     }
 
-    /// [N] Q_a, of which `elastic` is what the mode alone has.
+    /// [N] Q_a; `elastic` is the force of the mode itself.
     #[inline(always)]
     fn force(&self, slope: R, own: Vec2<R>, momentum: Vec2<R>, with_rod: R, elastic: R) -> R {
         let mut force = slope.multiply_add(self.by_length, elastic);
@@ -395,7 +398,7 @@ impl<R: Real> Chain<R> {
         force
     }
 
-    /// [kg] M_ab of two modes, of which the rod's own is `own_inertia`.
+    /// [kg] M_ab of two modes; `own_inertia` is m_ab of the rod.
     #[inline(always)]
     fn inertia(&self, slope: [R; 2], own: [Vec2<R>; 2], momentum: [Vec2<R>; 2], own_inertia: R) -> R {
         let [a, b] = slope;
@@ -407,7 +410,7 @@ impl<R: Real> Chain<R> {
         }
     }
 
-    /// The same in a loop, if it is closed: the rod's angle follows.
+    /// [kg] M_ab of two modes with the rod's angle eliminated if the loop is closed; `open` is that of the open chain.
     #[inline(always)]
     fn closed_inertia(&self, slope: [R; 2], with_rod: [R; 2], open: R) -> R {
         if !self.closed {

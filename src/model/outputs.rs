@@ -1,4 +1,4 @@
-//! Outputs of one instant.
+//! Outputs of an instant.
 
 use super::bodies::bodies;
 use super::body::Bodies;
@@ -16,7 +16,7 @@ use super::state::{Contacts, Evaluation};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::scene::{Scene, Surface};
 
-/// Makes outputs of instants.
+/// Computes the outputs of instants.
 #[derive(Clone, Copy, Debug)]
 pub struct Observer {
     topology: Topology,
@@ -27,7 +27,7 @@ pub struct Observer {
 }
 
 impl Observer {
-    /// Of a scene.
+    /// An observer of a scene's mechanism.
     pub fn new(scene: &Scene) -> Self {
         Self {
             topology: Topology::of(scene),
@@ -38,7 +38,7 @@ impl Observer {
         }
     }
 
-    /// All outputs but the integrator's counters.
+    /// All outputs except the integrator's counters. `torque_input` [N·m] is the input of the crank torque.
     pub fn outputs(
         &self,
         evaluation: &Evaluation,
@@ -86,7 +86,7 @@ impl Observer {
         }
     }
 
-    /// Sets those time derivatives of outputs that an instant knows without differences.
+    /// Sets the time derivatives of those outputs whose derivatives the evaluation contains.
     pub fn set_known_rates(&self, evaluation: &Evaluation, rates: &mut Outputs) {
         let Evaluation { pose, acceleration, angle_acceleration, .. } = evaluation;
         let speed = &pose.rotations.speed;
@@ -123,13 +123,13 @@ impl Observer {
         }
     }
 
-    /// The slider against the ideal mechanism at the same crank angle, speed and acceleration; zero
-    /// where the ideal mechanism cannot be.
+    /// The slider's deviation from the ideal mechanism at the same crank angle, speed and acceleration; zero where the
+    /// ideal mechanism cannot be assembled.
     fn accuracy(&self, evaluation: &Evaluation) -> AccuracyOutputs {
         let rotations = &evaluation.pose.rotations;
         let speed = rotations.speed[CRANK];
         let ideal = self.ideal.motion(rotations.rotation[CRANK], speed);
-        let exists = ideal.rod.cos > 0.0; // not so where it is not a number
+        let exists = ideal.rod.cos > 0.0; // false for NaN, too
         if !exists {
             return AccuracyOutputs::default();
         }

@@ -5,7 +5,7 @@ use std::ops::Mul;
 
 pub use crate::math::Vec2;
 
-/// (−v_y, v_x).
+/// (−v_y, v_x): the vector `v` turned by 90°.
 #[inline(always)]
 pub fn perp<R: Real>(v: Vec2<R>) -> Vec2<R> {
     Vec2::new(-v.y, v.x)
@@ -17,7 +17,7 @@ pub fn cross<R: Real>(a: Vec2<R>, b: Vec2<R>) -> R {
     a.x.multiply_add(b.y, -(a.y * b.x))
 }
 
-/// rot(θ), as its cosine and sine.
+/// Rotation rot(θ), stored as cosine and sine.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rotation<R = f64> {
     /// cos θ
@@ -27,23 +27,23 @@ pub struct Rotation<R = f64> {
 }
 
 impl<R: Real> Rotation<R> {
-    /// No rotation.
+    /// The identity.
     pub const NONE: Self = Self { cos: R::ONE, sin: R::ZERO };
 
-    /// By `angle` [rad].
+    /// The rotation by `angle` [rad].
     #[inline(always)]
     pub fn new(angle: R) -> Self {
         let [own] = Self::all([angle]);
         own
     }
 
-    /// By each of `angles` [rad].
+    /// The rotations by each of `angles` [rad].
     #[inline(always)]
     pub fn all<const K: usize>(angles: [R; K]) -> [Self; K] {
         R::sin_cos(angles).map(|(sin, cos)| Self { cos, sin })
     }
 
-    /// A vector of body axes in inertial axes.
+    /// The vector `v`, given in body axes, in inertial axes.
     #[inline(always)]
     pub fn apply<S: Copy>(self, v: Vec2<S>) -> Vec2<R>
     where
@@ -52,7 +52,7 @@ impl<R: Real> Rotation<R> {
         Vec2::new(self.cos.multiply_add(v.x, -(self.sin * v.y)), self.sin.multiply_add(v.x, self.cos * v.y))
     }
 
-    /// `length` along the body's x axis, in inertial axes.
+    /// The vector of `length` along the body's x axis, in inertial axes.
     #[inline(always)]
     pub fn axis<S: Copy>(self, length: S) -> Vec2<R>
     where

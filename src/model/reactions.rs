@@ -1,8 +1,8 @@
-//! Joint forces of one instant: contact forces where there is clearance, and where a joint is ideal
-//! what Newton's and Euler's equations of the bodies leave for it.
+//! Joint forces of an instant: contact forces in joints with clearance, and in ideal joints the forces that the
+//! Newton–Euler equations of the bodies require.
 //!
-//! An open chain is walked from the cut, where the contact force is known, body by body. Only the
-//! closed loop needs an equation with two unknowns: the moments on the rod about its big end.
+//! In an open chain the bodies are visited one by one from the joint with clearance, whose contact force is known. Only
+//! the closed loop needs an equation with two unknowns: the moments on the rod about its big end.
 
 use super::body::Bodies;
 use super::inertial_load::InertialLoad;
@@ -11,21 +11,21 @@ use super::state::Evaluation;
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::math::Real;
 
-/// Forces of the joints, each on the body that interface and model name first: ground on crank, crank
-/// on rod, rod on slider, guide on slider.
+/// Forces of the joints, each on the second body of its pair: ground on crank, crank on rod, rod on slider, guide on
+/// slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reactions<R = f64> {
-    /// [N] Main bearing on crank.
+    /// [N] Force of the main bearing on the crank.
     pub a: Vec2<R>,
-    /// [N] Crank on rod.
+    /// [N] Force of the crank on the rod.
     pub b: Vec2<R>,
-    /// [N] Rod on slider.
+    /// [N] Force of the rod on the slider.
     pub c: Vec2<R>,
-    /// [N] Guide on slider.
+    /// [N] Force of the guide on the slider.
     pub t: Vec2<R>,
-    /// [N·m] Guide on slider, about the pin.
+    /// [N·m] Couple of the guide on the slider, about the pin.
     pub moment: R,
-    /// [N·m] What a speed drive adds to the couples on the crank.
+    /// [N·m] Torque of a speed drive on the crank.
     pub torque: R,
 }
 
@@ -50,7 +50,7 @@ pub fn reactions<R: Real>(
     let Topology { a, b, c, t, .. } = topology;
     let load = Vec2::new(loads.slider_load, R::ZERO);
     let guide = loads.guide;
-    // Zero where a joint is ideal, until it is its turn.
+    // Forces of ideal joints are zero until they are computed below.
     let mut r = Reactions {
         a: loads.crank,
         b: loads.big_end,
@@ -95,7 +95,7 @@ pub fn reactions<R: Real>(
         }
         let rest = of_slider.force - r.c - load;
         r.t = Vec2::new(guide.force.x, rest.y);
-        // About the pin, where all other forces act.
+        // Moment about the pin, through which all other forces on the slider pass.
         r.moment = of_slider.moment - loads.slider_couple;
     }
     let to_pin = pose.place.crank_pin - pose.place.crank;
@@ -103,9 +103,9 @@ pub fn reactions<R: Real>(
     r
 }
 
-/// [N] Rod on slider where all joints are ideal, from its component `x` along the guide.
+/// [N] Force of the rod on the slider if all joints are ideal, given its component `x` along the guide.
 fn closed_loop_pin_force<R: Real>(rod: &InertialLoad<R>, couple: R, x: R, arm: Vec2<R>) -> Vec2<R> {
-    // About the big end: what is needed = couple − arm × F_C.
+    // Moments about the big end: required moment = couple − arm × F_C.
     let moment = couple - rod.moment;
     Vec2::new(x, (moment + arm.y * x) / arm.x)
 }

@@ -1,9 +1,9 @@
-//! What size of error is just noticeable: the absolute weights of the error norm.
+//! Scales of the error norm: sizes of just tolerable errors.
 //!
-//! With clearance, micrometre penetrations decide the forces. Hertz's penetration at equal force grows
-//! with c^(1/3), so the length that the tolerance is relative to is 1 µm at c = 0.5 mm and follows
-//! that power. Rates are weighted with the frequency of the contact at that penetration, angles with the
-//! length that turns them into displacements. Without clearance the crank's angle counts.
+//! With clearance, micrometre penetrations determine the forces. Hertz's penetration at equal force grows with c^(1/3),
+//! so the scale of lengths is 1 µm at c = 0.5 mm and is proportional to c^(1/3). Rates are scaled with the frequency of
+//! the contact at that penetration, and angles with the length that converts them into displacements. Without clearance
+//! the scale is that of the crank's angle.
 
 use super::bodies::bodies;
 use super::joint::guide::Guide;
@@ -11,39 +11,39 @@ use super::joint::revolute::Revolute;
 use crate::math;
 use crate::scene::{JointModel, Scene};
 
-/// [m] At [`CLEARANCE`].
+/// [m] Scale of lengths at the clearance [`CLEARANCE`].
 const LENGTH: f64 = 1e-6;
-/// [m]
+/// [m] Reference clearance.
 const CLEARANCE: f64 = 0.5e-3;
-/// [rad] Of a mechanism without clearance.
+/// [rad] Scale of angles in a mechanism without clearance.
 const ANGLE: f64 = 0.01;
-/// [1/s] Slowest motion that is still weighted as motion.
-const SLOWEST: f64 = 1.0;
-/// [rad] Most that a prescribed or started crank turns within a step, so that no touch is missed.
-const TURN: f64 = 0.1;
-/// [rad] The same without clearance, where only the dead ends of a short rod may be met; an hour of free running then loses a
-/// millionth of its energy at the default tolerance.
-const TURN_WITHOUT_PLAY: f64 = 0.15;
-/// [s] Longest step of all.
-const LONGEST: f64 = 0.02;
+/// [rad/s] Smallest crank speed that enters the scales.
+const MIN_CRANK_SPEED: f64 = 1.0;
+/// [rad] Maximum rotation of a crank within a step at its start speed, so that no contact is missed.
+const MAX_ROTATION: f64 = 0.1;
+/// [rad] Maximum rotation without clearance, where the only event is the change point of a short rod. In an hour of
+/// free running the energy then drifts by a millionth at the default tolerance.
+const MAX_ROTATION_WITHOUT_CLEARANCE: f64 = 0.15;
+/// [s] Upper bound of any step.
+const MAX_STEP: f64 = 0.02;
 
-/// Weights of one scene.
+/// Scales of one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
-    /// [m] Of positions.
+    /// [m] Scale of positions.
     pub length: f64,
-    /// [rad] Of the angles of crank, rod and slider.
+    /// [rad] Scales of the angles of crank, rod and slider.
     pub angle: [f64; 3],
-    /// [m] Of the modes of a flexible rod.
+    /// [m] Scale of the modal coordinates of a flexible rod.
     pub deflection: f64,
-    /// [1/s] Rates over positions.
+    /// [1/s] Scale of rates over that of positions.
     pub frequency: f64,
-    /// [s] No step is longer.
+    /// [s] Upper bound of a step.
     pub longest_step: f64,
 }
 
 impl Scale {
-    /// Of a scene.
+    /// The scales of a scene.
     pub fn of(scene: &Scene) -> Self {
         let joint = &scene.joint;
         let mass = bodies(scene).map(|body| body.mass);
@@ -60,12 +60,12 @@ impl Scale {
                 clearance = clearance.min(gap);
             }
         }
-        let turning = scene.crank.speed_start.abs().max(SLOWEST);
-        let within = |turn: f64| (turn / turning).min(LONGEST);
+        let crank_speed = scene.crank.speed_start.abs().max(MIN_CRANK_SPEED);
+        let within = |rotation: f64| (rotation / crank_speed).min(MAX_STEP);
         if clearance == f64::INFINITY {
             let swing = (scene.gravity.abs() / scene.crank.length).sqrt();
-            let frequency = turning.max(swing);
-            let longest_step = within(TURN_WITHOUT_PLAY);
+            let frequency = crank_speed.max(swing);
+            let longest_step = within(MAX_ROTATION_WITHOUT_CLEARANCE);
             return Self { length: ANGLE, angle: [ANGLE; 3], deflection: LENGTH, frequency, longest_step };
         }
         let length = LENGTH * math::powf(clearance / CLEARANCE, 1.0 / 3.0);
@@ -80,10 +80,10 @@ impl Scale {
             let contact = Guide::new(scene).contact;
             frequency = frequency.min(contact.frequency(lighter[3], length));
         }
-        // A soft contact does not make the crank's own motion more precious.
-        let frequency = frequency.max(10.0 * turning);
+        // A soft contact must not make the tolerance of the crank's own motion stricter.
+        let frequency = frequency.max(10.0 * crank_speed);
         let reach = [scene.crank.length, scene.rod.length, 0.5 * scene.slider.length];
-        let longest_step = within(TURN);
+        let longest_step = within(MAX_ROTATION);
         Self { length, angle: reach.map(|reach| length / reach), deflection: length, frequency, longest_step }
     }
 }

@@ -1,4 +1,4 @@
-//! What goes into the mechanism and what comes out of it, as the FMU's face names it.
+//! Inputs and outputs of the mechanism, as named in the FMU's interface.
 
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
@@ -15,154 +15,154 @@ pub struct Inputs<R = f64> {
 /// Outputs at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outputs {
-    /// Pin centre and tilt of the slider.
+    /// Motion of the slider.
     pub slider: SliderOutputs,
-    /// Rotation of the crank.
+    /// Motion of the crank.
     pub crank: CrankOutputs,
-    /// Rotation of the rod.
+    /// Motion of the rod.
     pub rod: RodOutputs,
-    /// Main bearing: ground on crank.
+    /// Main bearing: force of the ground on the crank.
     pub joint_a: RevoluteOutputs,
-    /// Crank pin: crank on rod.
+    /// Crank pin: force of the crank on the rod.
     pub joint_b: RevoluteOutputs,
-    /// Slider pin: rod on slider.
+    /// Slider pin: force of the rod on the slider.
     pub joint_c: RevoluteOutputs,
-    /// Guide on slider.
+    /// Guide: force on the slider.
     pub joint_t: GuideOutputs,
-    /// [N·m] Torque on the crank: the input, or what the speed drive needs.
+    /// [N·m] Torque on the crank: the input, or that of the speed drive.
     pub drive_torque: f64,
-    /// Slider against the ideal rigid mechanism at the same crank motion.
+    /// Deviation of the slider from the ideal rigid mechanism at the same crank motion.
     pub accuracy: AccuracyOutputs,
-    /// Energies, works and losses, with an audit; 0 otherwise.
+    /// Energies, works and losses with an audit; all 0 without one.
     pub energy: EnergyOutputs,
-    /// Work of the integrator since the start.
+    /// Counters of the integrator since the start.
     pub solver: SolverOutputs,
 }
 
 /// Motion of the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SliderOutputs {
-    /// [m] Pin centre along the guide.
+    /// [m] Position of the pin's centre along the guide.
     pub x: f64,
-    /// [m/s]
+    /// [m/s] Velocity of the pin along the guide.
     pub v: f64,
-    /// [m/s²]
+    /// [m/s²] Acceleration of the pin along the guide.
     pub a: f64,
-    /// [m] Pin centre across the guide.
+    /// [m] Position of the pin's centre across the guide.
     pub y: f64,
-    /// [rad] Tilt.
+    /// [rad] Tilt of the slider.
     pub angle: f64,
 }
 
 /// Motion of the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CrankOutputs {
-    /// [rad] Unwrapped.
+    /// [rad] Angle, not wrapped to one turn.
     pub angle: f64,
-    /// [rad/s]
+    /// [rad/s] Angular velocity.
     pub speed: f64,
-    /// [rad/s²]
+    /// [rad/s²] Angular acceleration.
     pub acceleration: f64,
 }
 
 /// Motion of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RodOutputs {
-    /// [rad]
+    /// [rad] Angle.
     pub angle: f64,
-    /// [rad/s]
+    /// [rad/s] Angular velocity.
     pub speed: f64,
-    /// [m] Deflection at mid-span; 0 of a rigid rod.
+    /// [m] Deflection at mid-span; 0 for a rigid rod.
     pub deflection: f64,
-    /// [m] Stretch from end to end; 0 of a rigid rod.
+    /// [m] Change of the distance between its ends; 0 for a rigid rod.
     pub stretch: f64,
 }
 
 /// State and force of a revolute joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RevoluteOutputs {
-    /// [N] x and y.
+    /// [N] x and y components of the joint force.
     pub force: [f64; 2],
-    /// [m] Journal centre minus bearing centre.
+    /// [m] Eccentricity: journal centre minus bearing centre.
     pub eccentricity: [f64; 2],
-    /// [m] Negative when open; 0 for an ideal joint.
+    /// [m] Penetration; negative if open, 0 for an ideal joint.
     pub penetration: f64,
-    /// In contact.
+    /// Whether the contact is closed.
     pub contact: bool,
 }
 
 /// State and force of the guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuideOutputs {
-    /// [N] x and y.
+    /// [N] x and y components of the force on the slider.
     pub force: [f64; 2],
-    /// [N·m] About the slider pin.
+    /// [N·m] Couple about the slider's pin.
     pub moment: f64,
-    /// [m] The deepest corner's; negative when open; 0 for an ideal guide.
+    /// [m] Penetration of the deepest corner; negative if open, 0 for an ideal guide.
     pub penetration: f64,
     /// Number of corners in contact.
     pub contacts: i32,
 }
 
-/// Slider minus the ideal rigid mechanism.
+/// Motion of the slider less that of the ideal rigid mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AccuracyOutputs {
-    /// [m]
+    /// [m] Difference of positions.
     pub position: f64,
-    /// [m/s]
+    /// [m/s] Difference of velocities.
     pub velocity: f64,
-    /// [m/s²]
+    /// [m/s²] Difference of accelerations.
     pub acceleration: f64,
 }
 
-/// Energies, works since the start and losses since the start [J].
+/// [J] Energies, and works and losses since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyOutputs {
-    /// Kinetic.
+    /// Kinetic energy.
     pub kinetic: f64,
-    /// Gravity (heights from y = 0), elastic rod and contacts.
+    /// Potential energy: gravity (heights from y = 0), elastic rod and contacts.
     pub potential: f64,
-    /// Work of torque and load.
+    /// Work of torque and slider load.
     pub input: f64,
-    /// Lost in contacts, friction, viscous and modal damping.
+    /// Loss in contacts, friction, viscous and modal damping.
     pub dissipated: f64,
-    /// Change of (kinetic + potential) − input + dissipated.
+    /// Residual of the energy balance: change of (kinetic + potential) − input + dissipated.
     pub residual: f64,
-    /// Gravity's part of `potential`.
+    /// Part of `potential` from gravity.
     pub gravity: f64,
-    /// The rod's part of `potential`.
+    /// Part of `potential` in the elastic rod.
     pub elastic: f64,
-    /// The contacts' part of `potential`.
+    /// Part of `potential` in the contacts.
     pub contact: f64,
-    /// The torque's part of `input`.
+    /// Part of `input` from the torque.
     pub torque_work: f64,
-    /// The slider load's part of `input`.
+    /// Part of `input` from the slider load.
     pub load_work: f64,
-    /// The contacts' hysteresis in `dissipated`.
+    /// Part of `dissipated` from hysteresis of the contacts.
     pub contact_loss: f64,
-    /// Friction in `dissipated`.
+    /// Part of `dissipated` from friction of the contacts.
     pub friction_loss: f64,
-    /// Viscous friction in `dissipated`.
+    /// Part of `dissipated` from viscous friction.
     pub viscous_loss: f64,
-    /// Modal damping in `dissipated`.
+    /// Part of `dissipated` from modal damping.
     pub modal_loss: f64,
 }
 
-/// Work of the integrator since the start.
+/// Counters of the integrator since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolverOutputs {
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: i32,
-    /// Rejected steps.
+    /// Number of rejected steps.
     pub rejected: i32,
-    /// Evaluations of the right-hand side.
+    /// Number of evaluations of the right-hand side.
     pub evaluations: i32,
-    /// Openings and closings of contacts.
+    /// Number of openings and closings of contacts.
     pub events: i32,
 }
 
 impl Outputs {
-    /// Every real output is a number.
+    /// Whether all real outputs are finite.
     pub fn is_finite(&self) -> bool {
         let all = Cell::new(true);
         self.combined(self, |value, _| {
@@ -172,7 +172,7 @@ impl Outputs {
         all.get()
     }
 
-    /// `combine` applied to each real output of both; integers and Booleans are left out.
+    /// Applies `combine` to each real output of both; integers and Booleans are 0 and false.
     pub fn combined(&self, other: &Self, combine: impl Fn(f64, f64) -> f64 + Copy) -> Self {
         let pair = |a: [f64; 2], b: [f64; 2]| [combine(a[0], b[0]), combine(a[1], b[1])];
         let revolute = |a: &RevoluteOutputs, b: &RevoluteOutputs| RevoluteOutputs {

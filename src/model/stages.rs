@@ -1,16 +1,16 @@
-//! The loop over a step's stages, compiled for a mechanism whose number of states is known, with its rates inside.
+//! The loop over the stages of a step, compiled with the rates of a mechanism whose number of states is a constant.
 
 use crate::integrator::Tableau;
 use crate::math::{Fused, unroll};
 
-/// Up to so many states, what one stage hands on to the next stays in registers, or in places of its own. In an array it
-/// would be written in other portions than it is read in, and wait to have left the processor's store buffer.
+/// Up to this number of states the sums of a stage stay in registers or in separate places. In an array they would be
+/// written in other portions than they are read in, and wait for the processor's store buffer.
 const IN_REGISTERS: usize = 14;
 
-/// [`Ode::stages`](crate::integrator::Ode::stages) of a mechanism of `N` states with these `rates`, in registers or not;
-/// `false` for one that may have fewer states than that.
+/// [`Ode::stages`](crate::integrator::Ode::stages) of a mechanism with `N` states and these `rates`. Returns `false` if
+/// the mechanism has fewer than `N` states.
 #[inline(always)]
-pub fn of_so_many<const N: usize>(
+pub fn run_stages<const N: usize>(
     tableau: &Tableau,
     t: f64,
     y: &[f64],
@@ -45,7 +45,7 @@ pub fn of_so_many<const N: usize>(
     true
 }
 
-/// The same of a mechanism of at most [`IN_REGISTERS`] states; `false` for others.
+/// As [`run_stages`] for at most [`IN_REGISTERS`] states; returns `false` for more.
 #[inline(always)]
 fn in_registers<const N: usize>(
     tableau: &Tableau,
@@ -56,7 +56,7 @@ fn in_registers<const N: usize>(
     rates: impl Fn(f64, &[f64; N], &mut [f64; N]),
 ) -> bool {
     if const { N > IN_REGISTERS || N == 0 } {
-        return false; // nothing is compiled
+        return false; // produces no code
     }
     let (Some(y), (k, _)) = (y.first_chunk::<N>(), k.as_chunks_mut::<N>()) else {
         return false;
@@ -70,7 +70,7 @@ fn in_registers<const N: usize>(
                 slope[m] = weight.multiply_add(k[m], slope[m]);
             });
         }
-        // The last rates are added last: what they wait for is theirs alone.
+        // The rates of the last stage are added last: only they have to be waited for.
         let weight_of_last = h * weights[i - 1];
         let mut at = *y;
         unroll!(true, m < N => {

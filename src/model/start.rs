@@ -1,5 +1,5 @@
-//! The start: the crank at θ0, ω0; every clearance joint at its given eccentricity, with rate 0; rod and
-//! slider from closing the loop with those eccentricities in it, the slider on the +x side.
+//! The start pose: the crank at θ0 and ω0; every joint with clearance at its given eccentricity with rate 0; rod and
+//! slider from the closed loop with those eccentricities, the slider on the +x side.
 
 use super::kinematics::JointVectors;
 use super::plane::{Rotation, Vec2, perp};
@@ -7,31 +7,31 @@ use crate::math;
 use crate::scene::closure::rod_sine;
 use crate::scene::{Point, Revolute, Scene};
 
-/// Angles and joint centres of the start.
+/// Angles and joint centres at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartPose {
-    /// [rad]
+    /// [rad] Angles of crank, rod and slider.
     pub angle: [f64; 3],
-    /// [rad/s]
+    /// [rad/s] Angular velocities of crank, rod and slider.
     pub speed: [f64; 3],
-    /// [m]
+    /// [m] Places of the joint centres.
     pub place: JointVectors,
-    /// [m/s]
+    /// [m/s] Velocities of the joint centres.
     pub velocity: JointVectors,
 }
 
-/// [m] Of the journal at the start.
+/// [m] Eccentricity of the journal at the start.
 fn eccentricity(joint: &Revolute) -> Vec2 {
     let Point { x, y } = joint.eccentricity_at_start();
     Vec2::new(x, y)
 }
 
 impl StartPose {
-    /// Of a scene; `None` if the loop does not close.
+    /// The start pose of a scene; `None` if the loop does not close.
     pub fn of(scene: &Scene) -> Option<Self> {
         let sine = rod_sine(scene);
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
-        let closes = cosine > 0.0; // not so where it is not a number
+        let closes = cosine > 0.0; // false for NaN, too
         if !closes {
             return None;
         }

@@ -1,4 +1,4 @@
-//! A mechanism at one instant, the same for every topology: what outputs are made from.
+//! A mechanism at one instant, in a form that is the same for every topology.
 
 use super::contact::ContactState;
 use super::drive::{InputSignal, Rotor};
@@ -13,48 +13,49 @@ use super::rod::Elastic;
 use super::structure::{CRANK, ROD, SLIDER, Structure};
 use crate::math::Real;
 
-/// Contacts of the joints A, B, C and of the guide: its four corners, or its two faces and two idle ones.
+/// Number of contacts: joints A, B, C and the guide, which has its four corners, or its two faces and two unused
+/// contacts.
 pub const CONTACTS: usize = 3 + CORNERS;
 
-/// The state of every contact.
+/// The discrete state of every contact.
 pub type Contacts = [ContactState; CONTACTS];
 
-/// What is constant within a step of the integrator: the state of every contact, and the course of the inputs.
+/// Conditions that are constant within a step of the integrator: contact states, and inputs as functions of time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Conditions {
-    /// The discrete state.
+    /// Discrete states of the contacts.
     pub contacts: Contacts,
     /// Inputs as a function of time.
     pub inputs: InputSignal,
 }
 
 impl Conditions {
-    /// These contacts, and inputs that are 0 throughout.
+    /// These contact states, with inputs that are always 0.
     pub fn without_inputs(contacts: Contacts) -> Self {
         Self { contacts, inputs: InputSignal::default() }
     }
 
-    /// These inputs, and open contacts.
+    /// These inputs, with all contacts open.
     pub fn without_contacts(inputs: InputSignal) -> Self {
         Self { contacts: Contacts::default(), inputs }
     }
 }
 
-/// Angles, positions and velocities of an open mechanism.
+/// Angles, positions and velocities of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<R = f64> {
-    /// Angles and angular speeds.
+    /// Angles and angular velocities.
     pub rotations: BodyRotations<R>,
-    /// [m]
+    /// [m] Places of the joint centres.
     pub place: JointVectors<R>,
-    /// [m/s]
+    /// [m/s] Velocities of the joint centres.
     pub velocity: JointVectors<R>,
-    /// [rad/s] Of the rod's sections at its big and small end.
+    /// [rad/s] Angular velocities of the rod's sections at its big and small end.
     pub section_speed: [R; 2],
 }
 
 impl<R: Real> Pose<R> {
-    /// The journal of a pin in its bearing.
+    /// The motion of a pin's journal in its bearing.
     #[inline(always)]
     pub fn journal(&self, pin: Pin) -> JournalMotion<R> {
         let (p, v, speed, section) = (&self.place, &self.velocity, &self.rotations.speed, &self.section_speed);
@@ -80,7 +81,7 @@ impl<R: Real> Pose<R> {
         }
     }
 
-    /// The slider in its guide.
+    /// The motion of the slider in its guide.
     #[inline(always)]
     pub fn slider(&self) -> SliderPose<R> {
         SliderPose {
@@ -92,36 +93,36 @@ impl<R: Real> Pose<R> {
     }
 }
 
-/// Everything about one instant.
+/// The evaluation of an instant: all quantities from which outputs are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation<R = f64> {
     /// Angles, positions and velocities.
     pub pose: Pose<R>,
-    /// [m/s²] Of the joint centres.
+    /// [m/s²] Accelerations of the joint centres.
     pub acceleration: JointVectors<R>,
-    /// [rad/s²] Of crank, rod and slider.
+    /// [rad/s²] Angular accelerations of crank, rod and slider.
     pub angle_acceleration: [R; 3],
-    /// Loads, with the contact forces in them.
+    /// Loads, including contact forces.
     pub loads: Loads<R>,
-    /// Of a flexible rod.
+    /// Quantities of a flexible rod; `None` if the rod is rigid.
     pub flexible: Option<FlexibleEvaluation<R>>,
 }
 
-/// What only a flexible rod has.
+/// Quantities of a flexible rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlexibleEvaluation<R = f64> {
-    /// What the rod's motion needs of forces and moments.
+    /// Force and moment that the rod's motion requires.
     pub demand: InertialLoad<R>,
-    /// Its elasticity.
+    /// Deflection, stretch, elastic energy and modal loss.
     pub elastic: Elastic<R>,
-    /// [J] Its kinetic energy.
+    /// [J] Kinetic energy.
     pub kinetic: R,
     /// [kg·m] ∫y dm.
     pub mass_height: R,
 }
 
-/// Rotations from `positions` and their `rates` at `t`; a crank whose angle is no coordinate follows `rotor`. The rod of a
-/// closed loop counts as lying along the guide: it has no coordinate.
+/// Rotations from `positions` and their `rates` at `t`. A crank whose angle is not a coordinate follows `rotor`. The
+/// rod of a closed loop has no coordinate; its angle is set to 0.
 #[inline(always)]
 pub fn rotations_at<R: Real>(
     structure: &Structure,
@@ -144,7 +145,7 @@ pub fn rotations_at<R: Real>(
     rotations(angle, speed, structure.slider_angle.is_some())
 }
 
-/// Rotations from angles and rates; the slider on an ideal guide does not turn.
+/// Rotations from angles and rates; the slider on an ideal guide does not rotate.
 #[inline(always)]
 pub fn rotations<R: Real>(angle: [R; 3], speed: [R; 3], slider_turns: bool) -> BodyRotations<R> {
     let [crank, rod] = Rotation::all([angle[CRANK], angle[ROD]]);

@@ -1,7 +1,7 @@
-//! What hangs on what, and where the coordinates stand.
+//! Topology of the mechanism and layout of its coordinates.
 //!
-//! Any clearance cuts the loop. Bodies that ideal joints still connect form open chains, and each body hangs on what
-//! comes before it on the way from its chain's root:
+//! Any clearance opens the loop. The bodies that ideal joints still connect form open chains, and each body hangs on
+//! its predecessor on the path from the root of its chain:
 //!
 //! ```text
 //!             crank          rod            slider
@@ -16,46 +16,47 @@
 //! | `Rail` | the ideal guide, on which its pin has one coordinate |
 //! | `Free` | nothing: two coordinates hold the centre of mass of the chain that it begins |
 //!
-//! So with a worn slider pin the crank hangs on the ground, the rod on the crank and the slider on its rail; with a worn
-//! main bearing the slider hangs on its rail, the rod on the slider and the crank on the rod.
+//! For example, with clearance in the slider pin the crank hangs on the ground, the rod on the crank and the slider on
+//! its rail. With clearance in the main bearing the slider hangs on its rail, the rod on the slider and the crank on
+//! the rod.
 //!
-//! Minimal coordinates are the roots' in the order crank (x, y), rod (x, y), slider (x on its rail, otherwise x, y), and
-//! then the angles of crank (unless the drive prescribes it), rod and slider (unless its guide is ideal). Their rates
-//! follow in the same order. Where all joints are ideal the loop is closed: the chain hangs on the ground, the guide makes
-//! the rod's angle a function of the crank's, and that is the only coordinate.
+//! The minimal coordinates are those of the roots in the order crank (x, y), rod (x, y), slider (x on its rail,
+//! otherwise x, y), followed by the angles of crank (unless the drive prescribes it), rod and slider (unless its guide
+//! is ideal). Their rates follow in the same order. If all joints are ideal the loop is closed: the chain hangs on the
+//! ground, the guide makes the rod's angle a function of the crank's angle, and the latter is the only coordinate.
 //!
-//! A flexible rod has modal coordinates besides, after all of these. The centre of mass of a chain with such a rod moves in
-//! the bodies as the rod bends; where that chain floats, its root is its first joint.
+//! The modal coordinates of a flexible rod follow all other coordinates. The centre of mass of a chain with such a rod
+//! moves relative to the bodies as the rod deforms; the root of such a floating chain is its first joint.
 
 use super::joint_set::JointSet;
 use super::plane::Vec2;
 use crate::math::Real;
 use crate::scene::{DriveMode, JointModel, Scene};
 
-/// Index of the crank, the rod and the slider in lists of bodies.
+/// Index of the crank in lists of bodies.
 pub const CRANK: usize = 0;
-/// The rod.
+/// Index of the rod in lists of bodies.
 pub const ROD: usize = 1;
-/// The slider.
+/// Index of the slider in lists of bodies.
 pub const SLIDER: usize = 2;
 
-/// Which joints are ideal and whether the crank's angle is prescribed.
+/// Which joints are ideal, and whether the crank angle is prescribed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Topology {
-    /// Main bearing is ideal.
+    /// Whether the main bearing is ideal.
     pub a: bool,
-    /// Crank pin is ideal.
+    /// Whether the crank pin is ideal.
     pub b: bool,
-    /// Slider pin is ideal.
+    /// Whether the slider pin is ideal.
     pub c: bool,
-    /// Guide is ideal.
+    /// Whether the guide is ideal.
     pub t: bool,
-    /// The crank's angle is prescribed.
+    /// Whether the crank angle is prescribed.
     pub speed: bool,
 }
 
 impl Topology {
-    /// Of a scene.
+    /// The topology of a scene.
     pub fn of(scene: &Scene) -> Self {
         let ideal = |model| model == JointModel::Ideal;
         Self {
@@ -67,36 +68,36 @@ impl Topology {
         }
     }
 
-    /// All joints are ideal.
+    /// Whether all joints are ideal.
     pub const fn is_closed(self) -> bool {
         self.a && self.b && self.c && self.t
     }
 
-    /// The chain with the crank floats.
+    /// Whether the chain that contains the crank floats.
     pub const fn crank_floats(self) -> bool {
         let on_rail = self.b && self.c && self.t;
         !(self.a || on_rail)
     }
 
-    /// The rod floats, alone or with the slider.
+    /// Whether the rod floats, alone or with the slider.
     pub const fn rod_floats(self) -> bool {
         let on_rail = self.c && self.t;
         !(self.b || on_rail)
     }
 
-    /// The slider floats alone.
+    /// Whether the slider floats alone.
     pub const fn slider_floats(self) -> bool {
         !self.t && !self.c
     }
 
-    /// Whether its one play is that of a pin: with more contacts, or with those of the slider's corners, steps in blocks
-    /// take as long as others.
-    pub const fn has_one_play_in_a_pin(self) -> bool {
+    /// Whether the only clearance is in a pin. With several contacts, or with those of the slider's corners, steps in
+    /// blocks have no advantage.
+    pub const fn has_one_pin_clearance(self) -> bool {
         self.a as u8 + self.b as u8 + self.c as u8 == 2 && self.t
     }
 }
 
-/// What a body hangs on; see the [module](self).
+/// The predecessor of a body; see the [module](self).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Link {
     /// The ground.
@@ -105,9 +106,9 @@ pub enum Link {
     Before,
     /// The first joint of the body after it.
     After,
-    /// The rail: place of its coordinate.
+    /// The rail: index of the coordinate.
     Rail(usize),
-    /// Nothing: first place of the coordinates of its chain's centre of mass.
+    /// None: index of the first coordinate of the chain's centre of mass.
     Free(usize),
 }
 
@@ -131,62 +132,63 @@ impl Link {
     }
 }
 
-/// What the roots of the chains contribute: positions, velocities or accelerations of floating centres of mass and of the
+/// Contributions of the chains' roots: positions, velocities or accelerations of floating centres of mass and of the
 /// pin on an ideal guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Roots<V> {
-    /// Of the chain with the crank, where it floats.
+    /// Root of the chain that contains the crank, if it floats.
     pub crank: V,
-    /// Of the chain that begins with the rod, where it floats.
+    /// Root of the chain that begins with the rod, if it floats.
     pub rod: V,
-    /// Of the slider: its pin on an ideal guide, its centre of mass where it floats alone.
+    /// Root of the slider: its pin on an ideal guide, or its centre of mass if it floats alone.
     pub slider: V,
 }
 
-/// A mechanism's bodies, joints and coordinates, as a plain value.
+/// Topology and layout of the coordinates of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Structure {
     /// Ideal joints and drive.
     pub topology: Topology,
     /// The joints with clearance.
     pub play: JointSet,
-    /// All joints are ideal.
+    /// Whether all joints are ideal.
     pub closed: bool,
-    /// The rod is flexible.
+    /// Whether the rod is flexible.
     pub flexible: bool,
-    /// What the crank hangs on.
+    /// Predecessor of the crank.
     pub crank: Link,
-    /// What the rod hangs on.
+    /// Predecessor of the rod.
     pub rod: Link,
-    /// What the slider hangs on.
+    /// Predecessor of the slider.
     pub slider: Link,
-    /// Place of the crank's angle, unless it is prescribed.
+    /// Index of the crank's angle; `None` if it is prescribed.
     pub crank_angle: Option<usize>,
-    /// Place of the rod's angle, unless the loop is closed.
+    /// Index of the rod's angle; `None` if the loop is closed.
     pub rod_angle: Option<usize>,
-    /// Place of the slider's angle, where it may tilt.
+    /// Index of the slider's angle; `None` if the slider does not tilt.
     pub slider_angle: Option<usize>,
-    /// Number of positions but for modal ones.
+    /// Number of positions without modal coordinates.
     pub positions: usize,
-    /// The bodies, crank, rod and slider, whose chain floats and has its centre of mass as its root.
+    /// For crank, rod and slider, whether the body's chain floats and has its centre of mass as its root.
     pub floats: [bool; 3],
-    /// The bodies whose angle moves centres of mass against their chain's root, and does not float.
+    /// For crank, rod and slider, whether the body's angle moves centres of mass relative to a root that does not
+    /// float.
     pub weighs: [bool; 3],
-    /// The pairs of bodies, crank and rod, rod and slider, crank and slider, whose angles share inertia.
+    /// For the pairs crank–rod, rod–slider and crank–slider, whether the angles are coupled in the mass matrix.
     pub coupled: [bool; 3],
 }
 
 impl Structure {
-    /// Of a topology, with a rigid rod.
+    /// The structure of a topology with a rigid rod.
     pub const fn new(topology: Topology) -> Self {
         Self::with_rod(topology, false)
     }
 
-    /// Of a topology, with a flexible rod or a rigid one.
+    /// The structure of a topology with a flexible or rigid rod.
     pub const fn with_rod(topology: Topology, flexible: bool) -> Self {
         let Topology { a, b, c, t, speed } = topology;
         let closed = topology.is_closed();
-        // In a closed loop the guide holds no body up: it takes a coordinate away.
+        // In a closed loop the guide does not carry a root: it removes a coordinate.
         let t = t && !closed;
         let (rail_rod, rail_crank) = (c && t, b && c && t);
         let mut next = Places { next: 0 };
@@ -229,7 +231,7 @@ impl Structure {
         }
     }
 
-    /// Place of the angle of body `k`, if it is a coordinate.
+    /// Index of the angle of body `k`; `None` if it is not a coordinate.
     #[inline(always)]
     pub const fn angle(&self, k: usize) -> Option<usize> {
         match k {
@@ -239,13 +241,13 @@ impl Structure {
         }
     }
 
-    /// The roots in a list of positions, or of their rates or accelerations; 0 where there is none.
+    /// The roots in a list of positions, of their rates, or of accelerations; 0 for roots that do not exist.
     #[inline(always)]
     pub fn roots<R: Real>(&self, list: &[R]) -> Roots<Vec2<R>> {
         Roots { crank: self.crank.root(list), rod: self.rod.root(list), slider: self.slider.root(list) }
     }
 
-    /// Writes the roots into such a list.
+    /// Writes the roots into a list of positions, of their rates, or of accelerations.
     #[inline(always)]
     pub fn set_roots<R: Real>(&self, roots: &Roots<Vec2<R>>, list: &mut [R]) {
         self.crank.set_root(roots.crank, list);
@@ -253,7 +255,7 @@ impl Structure {
         self.slider.set_root(roots.slider, list);
     }
 
-    /// Writes the angles of crank, rod and slider, or their rates or accelerations, into such a list.
+    /// Writes the angles of crank, rod and slider, their rates, or their accelerations into such a list.
     #[inline(always)]
     pub fn set_angles<R: Real>(&self, [crank, rod, slider]: [R; 3], list: &mut [R]) {
         if let Some(place) = self.crank_angle {
@@ -268,7 +270,7 @@ impl Structure {
     }
 }
 
-/// Hands out places in a list.
+/// Allocates successive indices of a list.
 struct Places {
     next: usize,
 }

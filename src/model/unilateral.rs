@@ -1,7 +1,8 @@
-//! Joints with clearance whose contacts are rigid: what time stepping needs of an open mechanism.
+//! Rigid contacts of joints with clearance: the interface between time stepping and an open mechanism.
 //!
-//! Contacts are those of the joints A, B and C and of the guide's four corners. Velocities are those of the pose, and
-//! the response to an impulse is the acceleration under that force alone, at rest and without weight.
+//! The contacts are those of the joints A, B and C and of the guide's four corners. Relative velocities follow from the
+//! pose. The response to an impulse is the acceleration under that force alone, with zero velocities and without
+//! gravity.
 
 use super::clearances::Clearances;
 use super::drive::InputSignal;
@@ -20,7 +21,7 @@ use crate::integrator::complementarity::{MAX_CONTACTS, Pairs};
 const _: () = assert!(CONTACTS == MAX_CONTACTS);
 
 impl Clearances {
-    /// [m/s] Rate of the gap and sliding speed of every contact; 0 in a joint without clearance.
+    /// [m/s] Rate of the gap and sliding velocity of every contact; 0 in a joint without clearance.
     fn contact_velocities(&self, play: JointSet, pose: &Pose) -> Pairs {
         let mut velocities = Pairs::default();
         for pin in play.pins() {
@@ -35,7 +36,7 @@ impl Clearances {
         velocities
     }
 
-    /// Adds the forces [N] of one contact.
+    /// Adds the normal and tangential force [N] of one contact.
     fn add_rigid(&self, contact: usize, pose: &Pose, forces: [f64; 2], loads: &mut Loads) {
         match Pin::ALL.get(contact) {
             Some(&pin) => loads.add_contact(pin, &self.revolute[contact].rigid_load(&pose.journal(pin), forces)),
@@ -44,20 +45,20 @@ impl Clearances {
     }
 }
 
-/// What the contacts do in a step: the forces [N] of those that act, at the pose in its middle.
+/// The contact forces of a step, at the pose in its middle.
 pub struct StepForces<'a> {
-    /// [s] Middle of the step.
+    /// [s] Midpoint of the step.
     pub t: f64,
-    /// State there.
+    /// State at the midpoint.
     pub y: &'a [f64],
-    /// [N]
+    /// [N] Normal and tangential forces of all contacts.
     pub forces: &'a Pairs,
-    /// Which contacts act.
+    /// For each contact, whether it exerts a force.
     pub acts: [bool; CONTACTS],
 }
 
 impl Mechanism {
-    /// Gaps and relative velocities of the contacts.
+    /// Gaps and relative velocities of all contacts.
     pub fn contacts(&self, t: f64, y: &[f64]) -> Relative {
         let (pose, play) = (self.pose(t, y), self.structure.play);
         Relative {
@@ -66,7 +67,8 @@ impl Mechanism {
         }
     }
 
-    /// Writes what a unit impulse in one `part` of one contact changes the velocities by, among the rates of all states.
+    /// Writes the changes of velocities by a unit impulse in one `part` (direction) of one contact, at the places of
+    /// accelerations.
     pub fn response(&self, t: f64, y: &[f64], contact: usize, part: usize, rates: &mut [f64]) {
         let configuration = self.place(t, y);
         let mut loads = Loads::default();
@@ -88,7 +90,7 @@ impl Mechanism {
         self.structure.set_angles(angle, &mut rates[p..2 * p]);
     }
 
-    /// Everything about an instant of a motion with rigid contacts, and its rates.
+    /// The evaluation of an instant with rigid contacts; writes the rates.
     pub fn evaluation_under(
         &self,
         acting: &StepForces<'_>,

@@ -1,4 +1,4 @@
-//! What a scene's parameters must be to each other.
+//! Consistency checks between the parameters of a scene.
 
 use super::closure::{rise, rod_sine};
 use super::data::{Contact, Point, Scene};
@@ -7,18 +7,21 @@ use super::error::{SceneError, rule};
 use super::parameter::{PARAMETERS, Parameter};
 use crate::model_description::number::number;
 
-/// Least restitution of a damping law whose factor grows without bound towards 0.
+/// Smallest restitution for a damping law whose factor is unbounded as the restitution tends to 0.
 pub const LEAST_RESTITUTION: f64 = 0.02;
 
 impl Scene {
-    /// Whether the parameters go together; the first that does not, otherwise. What an ideal joint
-    /// does not use is held to its own range only.
+    /// Checks every parameter's range and the consistency of all parameters. Parameters that an ideal joint does not
+    /// use are only checked for their range.
+    ///
+    /// # Errors
+    /// The first parameter that is not allowed.
     pub fn check(&self) -> Result<(), SceneError> {
         let in_range = |parameter: &Parameter| parameter.admit(parameter.value(self)).map_err(SceneError::Range);
         PARAMETERS.iter().try_for_each(in_range)?;
         self.check_method()?;
         let joints = &self.joint;
-        // Rigid contacts use nothing of a compliant contact's parameters.
+        // Rigid contacts do not use the parameters of compliant contacts.
         let compliant = self.solver.method != Method::Moreau;
         for (letter, joint) in [("A", &joints.a), ("B", &joints.b), ("C", &joints.c)] {
             if joint.model == JointModel::Ideal {
@@ -54,7 +57,7 @@ impl Scene {
         self.check_closure()
     }
 
-    /// A modal table must be one, and hold the modes that are asked for.
+    /// Checks the modal table and that it has the requested modes.
     fn check_modes(&self) -> Result<(), SceneError> {
         let flexible = &self.rod.flexible;
         let Some(table) = &flexible.table else {
@@ -74,7 +77,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The rod must reach the slider's height at the start.
+    /// Checks that the rod reaches the slider's height in the start pose.
     fn check_closure(&self) -> Result<(), SceneError> {
         if rod_sine(self).abs() < 1.0 {
             return Ok(());
@@ -94,7 +97,7 @@ fn check_contact(letter: &str, contact: &Contact) -> Result<(), SceneError> {
     rule(rises, letter, "friction.v0", friction.v0, || {
         format!("below joint.{letter}.friction.v1 = {} m/s for law {name}", number(friction.v1))
     })?;
-    // A law of bristles divides by its steady coefficient, which lies between these two.
+    // A bristle law divides by its steady-state coefficient, which lies between the kinetic and the static one.
     let bristles = law.has("bristles");
     let (kinetic, still) = (friction.coefficient, friction.static_coefficient);
     rule(!bristles || kinetic > 0.0, letter, "friction.coefficient", kinetic, || format!("above 0 for law {name}"))?;

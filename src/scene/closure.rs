@@ -1,16 +1,16 @@
-//! The loop at the start: A → crank pin → rod → slider pin, closed with every eccentricity in its place.
+//! Loop closure in the start pose: main bearing, crank pin, rod and slider pin with their eccentricities.
 
 use super::data::{Guide, Point, Revolute, Scene};
 use super::enumerations::JointModel;
 use crate::math;
 
-/// sin of the rod's angle at the start: l·sin θ2 = height of the small end − height of the big end.
-/// The loop closes if it lies within (−1, 1); at ±1 the rod's speed has no bound.
+/// Sine of the rod angle in the start pose: l·sin θ2 = height of the small end − height of the big end. The loop closes
+/// if the sine is within (−1, 1); at ±1 the rod's speed is unbounded.
 pub fn rod_sine(scene: &Scene) -> f64 {
     rise(scene) / scene.rod.length
 }
 
-/// [m] Small end above big end at the start.
+/// [m] Height of the small end above the big end in the start pose.
 pub(super) fn rise(scene: &Scene) -> f64 {
     let joints = &scene.joint;
     let (sin, _) = math::sin_cos(scene.crank.angle_start);
@@ -21,7 +21,7 @@ pub(super) fn rise(scene: &Scene) -> f64 {
 }
 
 impl Revolute {
-    /// [m] Journal centre minus bearing centre; an ideal joint's is zero whatever is given.
+    /// [m] Journal centre minus bearing centre in the start pose; zero for an ideal joint.
     pub fn eccentricity_at_start(&self) -> Point {
         match self.model {
             JointModel::Ideal => Point::default(),
@@ -31,7 +31,7 @@ impl Revolute {
 }
 
 impl Guide {
-    /// [m] Rectangle's centre above the middle line; an ideal guide's is zero whatever is given.
+    /// [m] Height of the rectangle's centre above the middle line in the start pose; zero for an ideal guide.
     pub fn offset_at_start(&self) -> f64 {
         match self.model {
             JointModel::Ideal => 0.0,

@@ -1,52 +1,52 @@
-//! What a scene holds.
+//! The data of a scene.
 
 use super::enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method, Surface};
 use super::modal::ModalTable;
 use serde::{Deserialize, Serialize};
 
-/// Everything that is fixed before time runs. The only ground state: the model is made from it.
-/// Its `Default` has the declared start values; those of its parts are blank.
+/// The parameters that are fixed before time advances; the model is assembled from them. The `Default` of a scene has
+/// the declared start values; the `Default` of its parts has zeros.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
-    /// How the crank is driven.
+    /// Drive of the crank.
     pub drive: Drive,
     /// [m/s²] Gravity, along −y.
     pub gravity: f64,
-    /// Body 1.
+    /// Body 1: crank.
     pub crank: Crank,
-    /// Body 2.
+    /// Body 2: rod.
     pub rod: Rod,
-    /// Body 3.
+    /// Body 3: slider.
     pub slider: Slider,
-    /// The two lines that the slider runs between.
+    /// The two lines of the guide.
     pub guide: GuideLines,
     /// The four joints.
     pub joint: Joints,
-    /// What is reckoned up beside the motion.
+    /// Energy accounts.
     pub energy: Energy,
-    /// How time is integrated.
+    /// Time integration.
     pub solver: Solver,
 }
 
-/// How the crank is driven.
+/// Drive of the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Drive {
-    /// Torque given or angle given.
+    /// Whether the torque or the angle is prescribed.
     pub mode: DriveMode,
 }
 
 /// Crank: main journal at its reference point, crank pin at distance `length` along its x axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Crank {
-    /// [rad] θ0.
+    /// [rad] θ0: angle at the start.
     pub angle_start: f64,
-    /// [rad/s] ω0, also the speed drive's speed.
+    /// [rad/s] ω0: speed at the start, and constant speed of a speed drive.
     pub speed_start: f64,
-    /// [m] Main journal centre to crank-pin centre.
+    /// [m] Distance from the main journal's centre to the crank pin's centre.
     pub length: f64,
-    /// [kg]
+    /// [kg] Mass.
     pub mass: f64,
-    /// [kg·m²] About the centre of mass.
+    /// [kg·m²] Moment of inertia about the centre of mass.
     pub inertia: f64,
     /// [m] Centre of mass in body axes.
     pub com: Point,
@@ -55,19 +55,19 @@ pub struct Crank {
 /// Connecting rod: big end at its reference point, small end at distance `length` along its x axis.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rod {
-    /// [m] Big-end centre to small-end centre.
+    /// [m] Distance from the big end's centre to the small end's centre.
     pub length: f64,
-    /// [kg]
+    /// [kg] Mass.
     pub mass: f64,
-    /// [kg·m²] About the centre of mass.
+    /// [kg·m²] Moment of inertia about the centre of mass.
     pub inertia: f64,
     /// [m] Centre of mass in body axes.
     pub com: Point,
-    /// Bending and stretching. With modes, `mass`, `inertia` and `com` are the beam's.
+    /// Flexibility. With modes, the mass properties of the beam replace `mass`, `inertia` and `com`.
     pub flexible: Flexible,
 }
 
-/// Elastic modes of the rod: a uniform beam. No modes: rigid.
+/// Elastic modes of the rod: those of a uniform beam, unless a table is given. A rod without modes is rigid.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Flexible {
     /// Number of bending modes.
@@ -76,26 +76,26 @@ pub struct Flexible {
     pub axial_modes: i32,
     /// [Pa] Young's modulus.
     pub young: f64,
-    /// [kg/m³]
+    /// [kg/m³] Density.
     pub density: f64,
     /// [m²] Area of the cross-section.
     pub area: f64,
-    /// [m⁴] Second moment of the cross-section.
+    /// [m⁴] Second moment of area of the cross-section.
     pub second_moment: f64,
     /// Damping ratio of every mode.
     pub damping_ratio: f64,
-    /// Foreshortening of the bent rod.
+    /// Whether bending foreshortens the rod.
     pub geometric_stiffness: bool,
-    /// Modes that stand in for the beam's: the first `bending_modes` and `axial_modes` of them.
+    /// Modal table that replaces the uniform beam; its first `bending_modes` and `axial_modes` modes are used.
     pub table: Option<ModalTable>,
 }
 
-/// Slider: pin journal at its reference point; a rectangle runs in the guide.
+/// Slider: its pin journal is at the reference point; a rectangle runs in the guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
-    /// [kg]
+    /// [kg] Mass.
     pub mass: f64,
-    /// [kg·m²] About the centre of mass.
+    /// [kg·m²] Moment of inertia about the centre of mass.
     pub inertia: f64,
     /// [m] Centre of mass in body axes.
     pub com: Point,
@@ -110,16 +110,16 @@ pub struct Slider {
 /// The guide's middle line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GuideLines {
-    /// [m] Height of the middle line above the main bearing, h.
+    /// [m] Height h of the middle line above the main bearing.
     pub offset: f64,
 }
 
 /// A point or vector in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// [m]
+    /// [m] x coordinate.
     pub x: f64,
-    /// [m]
+    /// [m] y coordinate.
     pub y: f64,
 }
 
@@ -136,41 +136,41 @@ pub struct Joints {
     pub t: Guide,
 }
 
-/// A revolute joint. Of an ideal one only `damping` counts.
+/// A revolute joint. An ideal joint uses only `damping`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Revolute {
-    /// Ideal or with clearance.
+    /// Whether the joint is ideal or has clearance.
     pub model: JointModel,
-    /// [N·m·s/rad] Viscous friction in the relative rotation.
+    /// [N·m·s/rad] Viscous friction of the relative rotation.
     pub damping: f64,
     /// [m] Bearing radius R_b.
     pub radius: f64,
     /// [m] Radial clearance c = R_b − R_j.
     pub clearance: f64,
-    /// [m] Journal centre minus bearing centre at the start.
+    /// [m] Eccentricity at the start: journal centre minus bearing centre.
     pub eccentricity_start: Point,
-    /// Elastic force as a function of penetration.
+    /// Elastic law.
     pub elasticity: Elasticity,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
 }
 
-/// The guide as a joint. Of an ideal one only `damping` counts.
+/// The guide as a joint. An ideal guide uses only `damping`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Guide {
-    /// Ideal or with clearance.
+    /// Whether the guide is ideal or has clearance.
     pub model: JointModel,
     /// [N·s/m] Viscous friction along the guide.
     pub damping: f64,
-    /// [m] Clearance on each side, c_T.
+    /// [m] Clearance c_T on each side.
     pub clearance: f64,
     /// [m] Corner radius R_c.
     pub corner_radius: f64,
-    /// [m] Rectangle's centre above the middle line at the start.
+    /// [m] Height of the rectangle's centre above the middle line at the start.
     pub offset_start: f64,
-    /// Corners or faces.
+    /// Whether corners or faces are in contact.
     pub surface: Surface,
-    /// [N/m²] Stiffness of the faces per length; 0: of the elastic half-space.
+    /// [N/m²] Stiffness of the faces per length; 0 selects that of the elastic half-space.
     pub foundation_stiffness: f64,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
@@ -184,41 +184,41 @@ pub struct Contact {
     pub young: Pair,
     /// Poisson's ratios.
     pub poisson: Pair,
-    /// [N/m^p] Above 0: in place of Hertz's stiffness.
+    /// [N/m^p] Contact stiffness; 0 selects Hertz's stiffness.
     pub stiffness: f64,
     /// Exponent p of the elastic force.
     pub exponent: f64,
     /// [m] Axial length of the bearing or guide.
     pub width: f64,
-    /// Hysteresis damping.
+    /// Law of hysteresis damping.
     pub law: DampingLaw,
-    /// Limit of the damping ratio, s_max; at or below 0: none.
+    /// Limit s_max of the damping ratio; there is no limit at or below 0.
     pub ratio_limit: f64,
-    /// Restitution c_r.
+    /// Coefficient of restitution c_r.
     pub restitution: f64,
-    /// [m/s] Least approach speed, v_floor.
+    /// [m/s] Lower limit v_floor of the approach speed.
     pub speed_floor: f64,
     /// Friction.
     pub friction: Friction,
 }
 
-/// A property of the outer and of the inner body.
+/// A property of the outer and of the inner body of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
-    /// Of the bearing, or of the guide.
+    /// Property of the bearing or the guide.
     pub bearing: f64,
-    /// Of the journal, or of the slider.
+    /// Property of the journal or the slider.
     pub journal: f64,
 }
 
 /// Friction of a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Friction {
-    /// Which law.
+    /// Friction law.
     pub law: FrictionLaw,
-    /// μ, the kinetic one where the law knows two.
+    /// μ: coefficient, or kinetic coefficient of a law that has two.
     pub coefficient: f64,
-    /// μ_s.
+    /// μ_s: static coefficient.
     pub static_coefficient: f64,
     /// [m/s] v0 of Ambrosio's ramp.
     pub v0: f64,
@@ -234,22 +234,23 @@ pub struct Friction {
     pub sigma2: f64,
 }
 
-/// What is reckoned up beside the motion.
+/// Energy accounts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Energies, works and losses.
+    /// Whether energies, works and losses are computed.
     pub audit: bool,
 }
 
-/// How time is integrated.
+/// Time integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Solver {
-    /// Which method.
+    /// Integration method.
     pub method: Method,
     /// Relative tolerance.
     pub tolerance: f64,
-    /// [s] Step of the fixed-step methods.
+    /// [s] Step of fixed-step methods.
     pub step: f64,
-    /// Most evaluations of the equations of motion in one communication step; 0 leaves it to the simulation.
+    /// Maximum number of evaluations of the equations of motion in one communication step; 0 selects the simulation's
+    /// default.
     pub max_evaluations: i32,
 }

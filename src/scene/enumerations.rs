@@ -1,8 +1,8 @@
-//! The scene's enumerations, made from `modelDescription/variables.toml`.
+//! The scene's enumerations, generated from `modelDescription/variables.toml`.
 
 use serde::{Deserialize, Serialize};
 
-/// Declares an enumeration by its items' values, their names on the FMU's face, and their properties.
+/// Declares an enumeration by its items' values, their names in the FMU's interface, and their properties.
 macro_rules! enumeration {
     ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $value:literal = $text:literal [$($property:literal),*]),+ $(,)? }) => {
         $(#[$doc])*
@@ -19,7 +19,7 @@ macro_rules! enumeration {
             /// All items.
             pub const ALL: &[Self] = &[$(Self::$item),+];
 
-            /// The item of this value, if there is one.
+            /// The item with this value; `None` if there is none.
             pub fn from_value(value: i32) -> Option<Self> {
                 match value {
                     $($value => Some(Self::$item),)+
@@ -27,19 +27,19 @@ macro_rules! enumeration {
                 }
             }
 
-            /// The value on the FMU's face.
+            /// The value in the FMU's interface.
             pub fn value(self) -> i32 {
                 self as i32
             }
 
-            /// The name on the FMU's face.
+            /// The name in the FMU's interface.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$item => $text,)+
                 }
             }
 
-            /// Whether the declaration gives it this property.
+            /// Whether the item has this property in the declaration.
             pub fn has(self, property: &str) -> bool {
                 let properties: &[&str] = match self {
                     $(Self::$item => &[$($property),*],)+

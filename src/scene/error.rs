@@ -1,25 +1,25 @@
-//! What is wrong with a scene.
+//! Errors of a scene.
 
 use super::modal_check::TableError;
 use super::parameter::Refusal;
 use crate::model_description::number::number;
 use std::fmt;
 
-/// A parameter that does not go with the others.
+/// A parameter that is not allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneError {
-    /// A value outside its own range.
+    /// A value is outside its own range.
     Range(Refusal),
-    /// A value that another parameter rules out.
+    /// A value is inconsistent with another parameter.
     Conflict {
         /// Name of the parameter.
         name: String,
-        /// Its value, in SI units.
+        /// Value of the parameter, in SI units.
         value: f64,
-        /// What it must be, in words and numbers.
+        /// The allowed values, in words and numbers.
         allowed: String,
     },
-    /// The rod's modal table cannot be a rod's.
+    /// The modal table of the rod is invalid.
     Table(TableError),
 }
 
@@ -48,6 +48,7 @@ impl SceneError {
     }
 }
 
+/// The error of parameter `joint.letter.what` with `value` unless `holds`.
 pub(super) fn rule(
     holds: bool,
     letter: &str,

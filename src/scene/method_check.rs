@@ -1,5 +1,5 @@
-//! What a scene may ask of its integration method: rigid contacts are none of an elastic body, of bristles or of a
-//! bed of springs, and their energy is not audited.
+//! Checks whether an integration method supports a scene. Rigid contacts do not support flexible rods, bristles,
+//! elastic foundations and energy audits.
 
 use super::data::{Point, Scene};
 use super::enumerations::{FrictionLaw, JointModel, Method, Surface};
@@ -7,7 +7,10 @@ use super::error::{SceneError, rule};
 use crate::model_description::number::number;
 
 impl Scene {
-    /// Whether the method can do what the scene asks for; the first parameter that rules it out, otherwise.
+    /// Checks that the method supports the scene.
+    ///
+    /// # Errors
+    /// The first parameter that the method does not support.
     pub(crate) fn check_method(&self) -> Result<(), SceneError> {
         if self.solver.method != Method::Moreau {
             return Ok(());
@@ -60,7 +63,7 @@ mod tests {
     use super::super::DampingLaw;
     use super::*;
 
-    /// Play everywhere.
+    /// Clearance in all joints.
     fn worn() -> Scene {
         let mut scene = Scene::default();
         scene.solver.method = Method::Moreau;

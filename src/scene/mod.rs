@@ -1,4 +1,4 @@
-//! What was asked for: a mechanism, its drive and its solver, as plain SI data.
+//! A scene: a mechanism, its drive and its solver, as plain data in SI units.
 
 pub mod check;
 pub mod closure;

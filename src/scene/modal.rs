@@ -1,8 +1,8 @@
-//! Elastic modes of a rod as a finite-element code exports them, in place of the uniform beam's.
+//! Modal table: elastic modes of a rod as exported from a finite-element code, in place of those of the uniform beam.
 //!
-//! In a scene the table is `[rod.flexible.table]`, or `rod.flexible.table = "beam.toml"` names a file
-//! beside the scene's with the same keys. Numbers are in SI units and carry none. The first mode of a
-//! uniform rod of 0.12 m and 0.21 kg, φ = sin(πx/l), at 1 kHz:
+//! In a scene the table is `[rod.flexible.table]`, or `rod.flexible.table = "beam.toml"` names a file next to the scene
+//! file with the same keys. Numbers are in SI units without a unit. Example: the first mode of a uniform rod of 0.12 m
+//! and 0.21 kg, φ = sin(πx/l), at 1 kHz:
 //!
 //! ```
 //! let text = r#"
@@ -28,23 +28,23 @@ use serde::{Deserialize, Serialize};
 
 /// Modes of a rod and the integrals of their shapes over its mass, in SI units.
 ///
-/// The rod lies along x from 0, the big end, to l, the small end, and y to the left of that way; the
-/// shapes hold its ends on the x axis: φ_i(0) = φ_i(l) = 0. Bending mode i deflects it by φ_i(x) across, axial mode j
-/// stretches it by ψ_j(x) along, ψ_j(0) = 0. The foreshortening of two bending modes i ≤ j is
-/// Γ_ij(x) = ½∫₀ˣ φ_i'·φ_j' ds. Displacements along x are sums of the functions
-/// B = (x, ψ_1, ψ_2, …, Γ_11, Γ_12, …, Γ_1n, Γ_22, …, Γ_nn), in this order.
+/// The rod lies along x from 0 (big end) to l (small end); y points to the left of that direction. The shapes keep the
+/// ends on the x axis: φ_i(0) = φ_i(l) = 0. Bending mode i deflects the rod by φ_i(x) along y, axial mode j displaces
+/// it by ψ_j(x) along x, ψ_j(0) = 0. The foreshortening of two bending modes i ≤ j is Γ_ij(x) = ½∫₀ˣ φ_i'·φ_j' ds.
+/// Displacements along x are sums of the functions B = (x, ψ_1, ψ_2, …, Γ_11, Γ_12, …, Γ_1n, Γ_22, …, Γ_nn), in this
+/// order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModalTable {
-    /// [kg] ∫dm.
+    /// [kg] ∫dm: mass.
     pub mass: f64,
-    /// Bending modes, by frequency; orthogonal.
+    /// Bending modes, in ascending order of frequency; orthogonal.
     #[serde(default)]
     pub bending: Vec<BendingMode>,
-    /// Axial modes, by frequency; orthogonal.
+    /// Axial modes, in ascending order of frequency; orthogonal.
     #[serde(default)]
     pub axial: Vec<AxialMode>,
-    /// Γ_ij(l), in the order of B.
+    /// Γ_ij(l) for i ≤ j, in the order of B.
     #[serde(default)]
     pub shortening: Vec<f64>,
     /// ∫B dm.
@@ -59,7 +59,7 @@ pub struct ModalTable {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BendingMode {
-    /// [rad/s]
+    /// [rad/s] Natural angular frequency.
     pub frequency: f64,
     /// ∫φ² dm.
     pub mass: f64,
@@ -77,7 +77,7 @@ pub struct BendingMode {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AxialMode {
-    /// [rad/s]
+    /// [rad/s] Natural angular frequency.
     pub frequency: f64,
     /// ∫ψ² dm.
     pub mass: f64,
@@ -85,8 +85,8 @@ pub struct AxialMode {
     pub end: f64,
 }
 
-/// Most bending modes, and most axial modes.
-pub const MOST_MODES: usize = 8;
+/// Maximum number of bending modes, and of axial modes.
+pub const MAX_MODES: usize = 8;
 
 /// Number of pairs i ≤ j of `n` bending modes.
 pub const fn pairs(n: usize) -> usize {
@@ -98,10 +98,10 @@ pub const fn functions(bending: usize, axial: usize) -> usize {
     1 + axial + pairs(bending)
 }
 
-/// Most numbers of a table.
-pub const MOST_NUMBERS: usize = numbers(MOST_MODES, MOST_MODES);
+/// Maximum number of numbers of a table.
+pub const MAX_NUMBERS: usize = numbers(MAX_MODES, MAX_MODES);
 
-/// Length of [`ModalTable::numbers`] of so many modes.
+/// Length of [`ModalTable::numbers`] with these numbers of modes.
 const fn numbers(bending: usize, axial: usize) -> usize {
     let functions = functions(bending, axial);
     3 + 6 * bending + 3 * axial + pairs(bending) + functions * (1 + functions + bending)
@@ -113,7 +113,7 @@ impl ModalTable {
         [self.bending.len(), self.axial.len()]
     }
 
-    /// Every number in the order of declaration, after the numbers of bending and of axial modes.
+    /// All numbers of the table in the order of declaration, after the numbers of bending and of axial modes.
     pub fn numbers(&self) -> Vec<f64> {
         let mut out = vec![self.bending.len() as f64, self.axial.len() as f64, self.mass];
         for BendingMode { frequency, mass, moment, middle, slope_start, slope_end } in &self.bending {
@@ -127,11 +127,11 @@ impl ModalTable {
         out
     }
 
-    /// The table of these [`numbers`](Self::numbers); `None` if they are too few or too many.
+    /// The table of these [`numbers`](Self::numbers); `None` if the length of the list does not fit.
     pub fn from_numbers(list: &[f64]) -> Option<Self> {
-        // A cast of what is no count saturates, or falls short of the list's length.
+        // A number that is not a count saturates in the cast, or does not fit the length of the list.
         let (bending, axial) = (*list.first()? as usize, *list.get(1)? as usize);
-        if bending > MOST_MODES || axial > MOST_MODES || list.len() != numbers(bending, axial) {
+        if bending > MAX_MODES || axial > MAX_MODES || list.len() != numbers(bending, axial) {
             return None;
         }
         let mut rest = list[2..].iter().copied();

@@ -1,40 +1,40 @@
-//! What the numbers of a modal table must be to each other.
+//! Consistency checks of a modal table.
 
-use super::modal::{MOST_MODES, ModalTable, functions, pairs};
+use super::modal::{MAX_MODES, ModalTable, functions, pairs};
 use crate::model_description::number::number;
 use std::fmt;
 
-/// Relative difference by which an export's rounding may spoil what must be equal.
+/// Relative tolerance for numbers that must be equal, for the rounding of an export.
 const ROUNDING: f64 = 1e-3;
-/// The same for a matrix and its transpose, which are one number each in any code.
+/// Relative tolerance for the symmetry of a matrix, whose two elements come from one number.
 const SYMMETRY: f64 = 1e-9;
 
-/// A table that is of no rod.
+/// Errors of a modal table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TableError {
-    /// More modes than there is room for.
+    /// There are more modes than supported.
     Modes {
         /// `bending` or `axial`.
         list: &'static str,
-        /// So many.
+        /// Number of modes.
         found: usize,
     },
-    /// A list or a row of another length than the modes ask for.
+    /// A list or a row has another length than the numbers of modes require.
     Length {
-        /// Which.
+        /// Name of the list or row.
         list: String,
-        /// As found.
+        /// Length found.
         found: usize,
-        /// As it should be.
+        /// Length required.
         wanted: usize,
     },
-    /// A number that cannot be.
+    /// A number is not possible.
     Value {
-        /// Which.
+        /// Name of the number.
         name: String,
-        /// As found.
+        /// Value found.
         found: f64,
-        /// What it must be, in words.
+        /// The allowed values, in words.
         allowed: String,
     },
 }
@@ -43,7 +43,7 @@ impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("rod.flexible.table: ")?;
         match self {
-            Self::Modes { list, found } => write!(f, "{found} modes in {list}, more than {MOST_MODES}"),
+            Self::Modes { list, found } => write!(f, "{found} modes in {list}, more than {MAX_MODES}"),
             Self::Length { list, found, wanted } => write!(f, "{found} numbers in {list}, not {wanted}"),
             Self::Value { name, found, allowed } => {
                 write!(f, "{name} = {} is not allowed: {allowed}", number(*found))
@@ -55,7 +55,10 @@ impl fmt::Display for TableError {
 impl std::error::Error for TableError {}
 
 impl ModalTable {
-    /// Whether the table can be a rod's; the first thing that speaks against it, otherwise.
+    /// Checks that the table can be that of a rod.
+    ///
+    /// # Errors
+    /// The first inconsistency.
     pub fn check(&self) -> Result<(), TableError> {
         self.check_lengths()?;
         above_zero("mass", self.mass)?;
@@ -65,7 +68,7 @@ impl ModalTable {
 
     fn check_lengths(&self) -> Result<(), TableError> {
         for (list, found) in [("bending", self.bending.len()), ("axial", self.axial.len())] {
-            if found > MOST_MODES {
+            if found > MAX_MODES {
                 return Err(TableError::Modes { list, found });
             }
         }
@@ -103,14 +106,14 @@ impl ModalTable {
         })
     }
 
-    /// The integrals are inner products over the rod's mass: of 1, of the functions B and of the φ.
-    /// None is larger than the squares of its two functions allow, which a wrong unit would be.
+    /// Checks that the integrals are inner products over the rod's mass, of 1, the functions B and the shapes φ. By the
+    /// Schwarz inequality their magnitude is bounded by the squares of both functions; a wrong unit violates the bound.
     fn check_integrals(&self) -> Result<(), TableError> {
         let square = |row: usize| self.second[row][row];
         for row in 0..self.second.len() {
             above_zero(&place("second", row, row), square(row))?;
         }
-        // First row: of x itself, the rod's length.
+        // The first row belongs to x, whose value at the end is the rod's length.
         let (about_end, first) = (square(0), self.first[0]);
         let least = first * first / self.mass;
         let allowed = || format!("above {}, what the mass would have at its centre", number(least));
@@ -159,7 +162,7 @@ fn above_zero(name: &str, found: f64) -> Result<(), TableError> {
     value(found > 0.0 && found.is_finite(), || name.to_owned(), found, || "above 0".to_owned())
 }
 
-/// The inequality of Schwarz: (∫f·g dm)² ≤ ∫f² dm · ∫g² dm.
+/// Schwarz inequality: (∫f·g dm)² ≤ ∫f² dm · ∫g² dm.
 fn within(name: impl FnOnce() -> String, product: f64, squares: f64) -> Result<(), TableError> {
     let most = squares.sqrt() * (1.0 + ROUNDING);
     value(product.abs() <= most, name, product, || format!("{} to {}", number(-most), number(most)))
@@ -179,7 +182,7 @@ mod tests {
     use super::super::modal::{AxialMode, BendingMode};
     use super::*;
 
-    /// Two orthonormal shapes and Γ11 of a rod of mass 1: integrals that keep to the inequality.
+    /// Two orthonormal shapes and Γ11 of a rod of mass 1: integrals that satisfy the Schwarz inequality.
     fn table() -> ModalTable {
         let shape =
             BendingMode { frequency: 6e3, mass: 1.0, moment: 0.9, middle: 1.0, slope_start: 3.0, slope_end: -3.0 };

@@ -1,4 +1,4 @@
-//! A scene's parameters by name: what `modelDescription/variables.toml` declares of them.
+//! The parameters of a scene by name, as declared in `modelDescription/variables.toml`.
 
 use super::data::{Crank, Drive, Energy, GuideLines, Joints, Rod, Scene, Slider, Solver};
 use super::enumerations::*;
@@ -7,64 +7,64 @@ use std::fmt;
 
 include!(concat!(env!("OUT_DIR"), "/parameters.rs"));
 
-/// One parameter: its name, its legal range and where the scene holds it.
+/// A parameter: its name, its range and its place in the scene.
 pub struct Parameter {
-    /// As on the FMU's face, such as `joint.C.clearance`.
+    /// Name in the FMU's interface, such as `joint.C.clearance`.
     pub name: &'static str,
-    /// One line of explanation.
+    /// Description in one line.
     pub description: &'static str,
-    /// Type, range and place.
+    /// Type, range, and access to the scene.
     pub kind: Kind,
 }
 
-/// Type, range and place of a parameter.
+/// Type of a parameter, with range and access to the scene.
 pub enum Kind {
     /// A real number in SI units.
     Real {
-        /// SI unit, as on the FMU's face, such as `rad/s`.
+        /// SI unit in the FMU's interface, such as `rad/s`.
         unit: &'static str,
-        /// Value of an untouched scene.
+        /// Start value.
         start: f64,
-        /// Least legal value.
+        /// Smallest allowed value.
         min: f64,
-        /// Greatest legal value.
+        /// Largest allowed value.
         max: f64,
-        /// Reads the scene.
+        /// Reads the value from a scene.
         get: fn(&Scene) -> f64,
-        /// Writes the scene.
+        /// Writes the value into a scene.
         set: fn(&mut Scene, f64),
     },
-    /// A number to count with.
+    /// An integer.
     Integer {
-        /// Value of an untouched scene.
+        /// Start value.
         start: i32,
-        /// Least legal value.
+        /// Smallest allowed value.
         min: i32,
-        /// Greatest legal value.
+        /// Largest allowed value.
         max: i32,
-        /// Reads the scene.
+        /// Reads the value from a scene.
         get: fn(&Scene) -> i32,
-        /// Writes the scene.
+        /// Writes the value into a scene.
         set: fn(&mut Scene, i32),
     },
-    /// True or false.
+    /// A Boolean.
     Boolean {
-        /// Value of an untouched scene.
+        /// Start value.
         start: bool,
-        /// Reads the scene.
+        /// Reads the value from a scene.
         get: fn(&Scene) -> bool,
-        /// Writes the scene.
+        /// Writes the value into a scene.
         set: fn(&mut Scene, bool),
     },
-    /// One of a list of named values.
+    /// An item of an enumeration.
     Enumeration {
-        /// Value of an untouched scene.
+        /// Start value.
         start: i32,
-        /// Names and values.
+        /// Names and values of the items.
         items: &'static [(&'static str, i32)],
-        /// Reads the scene.
+        /// Reads the value from a scene.
         get: fn(&Scene) -> i32,
-        /// Writes the scene; `None` for a value that is not in the list.
+        /// Writes the value into a scene; `None` for a value that is not in the list.
         set: fn(&mut Scene, i32) -> Option<()>,
     },
 }
@@ -83,21 +83,21 @@ impl Default for Scene {
             solver: Solver::default(),
         };
         for parameter in PARAMETERS {
-            // A start value outside its own range does not pass build.rs.
+            // build.rs rejects a start value outside its range.
             let _ = parameter.write(&mut scene, parameter.start());
         }
         scene
     }
 }
 
-/// A value that a parameter cannot take.
+/// A value that is not allowed for a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
-    /// Of the parameter.
+    /// Name of the parameter.
     pub name: &'static str,
-    /// What was asked for, as [`Parameter::value`] tells it.
+    /// The value, as defined in [`Parameter::value`].
     pub found: f64,
-    /// What is legal, in words.
+    /// The allowed values, in words.
     pub allowed: String,
 }
 
@@ -110,12 +110,12 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 impl Parameter {
-    /// The parameter of this name.
+    /// The parameter with this name; `None` if there is none.
     pub fn named(name: &str) -> Option<&'static Self> {
         PARAMETERS.iter().find(|parameter| parameter.name == name)
     }
 
-    /// Value in a scene: in SI units, an enumeration's by its item's value, a Boolean's as 0 or 1.
+    /// Value in a scene: in SI units; of an enumeration the value of its item, of a Boolean 0 or 1.
     pub fn value(&self, scene: &Scene) -> f64 {
         match self.kind {
             Kind::Real { get, .. } => get(scene),
@@ -124,7 +124,7 @@ impl Parameter {
         }
     }
 
-    /// Value of an untouched scene.
+    /// Start value.
     pub fn start(&self) -> f64 {
         match self.kind {
             Kind::Real { start, .. } => start,
@@ -133,7 +133,10 @@ impl Parameter {
         }
     }
 
-    /// Refuses a value outside the range or list.
+    /// Checks that a value is within the range or list.
+    ///
+    /// # Errors
+    /// The refusal of a value that is not allowed.
     pub fn admit(&self, value: f64) -> Result<(), Refusal> {
         let legal = match self.kind {
             Kind::Real { min, max, .. } => (min..=max).contains(&value),
@@ -146,7 +149,10 @@ impl Parameter {
         if legal { Ok(()) } else { Err(Refusal { name: self.name, found: value, allowed: self.allowed() }) }
     }
 
-    /// Writes a legal value into a scene, and leaves the scene alone otherwise.
+    /// Writes a value into a scene.
+    ///
+    /// # Errors
+    /// The refusal of a value that is not allowed; the scene is then unchanged.
     pub fn write(&self, scene: &mut Scene, value: f64) -> Result<(), Refusal> {
         self.admit(value)?;
         match self.kind {
@@ -158,7 +164,7 @@ impl Parameter {
         Ok(())
     }
 
-    /// The legal values in words: `1e-9 to 0.1 m`, `1 (ideal), 2 (clearance)`, `true or false`.
+    /// The allowed values in words: `1e-9 to 0.1 m`, `1 (ideal), 2 (clearance)`, `true or false`.
     pub fn allowed(&self) -> String {
         match self.kind {
             Kind::Real { unit, min, max, .. } => {

@@ -1,96 +1,96 @@
-//! What can be wrong with a scene file, told with file, line and column.
+//! Problems of a scene file, with file, line and column.
 
 use super::error::SceneError;
 use super::units::UnitError;
 use std::fmt;
 
-/// A scene file that cannot be used: everything that is wrong with it, in the file's order.
+/// A scene file with errors: all problems, in the order of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadError {
-    /// The file's name.
+    /// Name of the file.
     pub file: String,
-    /// At least one.
+    /// The problems; at least one.
     pub problems: Vec<Problem>,
 }
 
-/// One thing that is wrong.
+/// A problem of a scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// From 1.
+    /// Line, from 1.
     pub line: usize,
-    /// In characters, from 1.
+    /// Column in characters, from 1.
     pub column: usize,
-    /// What.
+    /// What is wrong there.
     pub fault: Fault,
 }
 
-/// What is wrong.
+/// What is wrong in a scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
-    /// The file is not TOML.
+    /// The file is not valid TOML.
     Syntax(String),
-    /// A key that means nothing.
+    /// A key is unknown.
     UnknownKey {
-        /// As found.
+        /// Path of the key.
         key: String,
-        /// A key that it may be a slip of.
+        /// A similar key that may have been meant.
         nearest: Option<String>,
-        /// Keys that may stand in this place.
+        /// Keys that are allowed in this place.
         known: Vec<String>,
     },
-    /// The same thing said twice.
+    /// The same quantity is given twice.
     Twice {
-        /// As found.
+        /// Path of the key.
         key: String,
     },
-    /// A value of the wrong type.
+    /// A value has the wrong type.
     Type {
-        /// Whose value.
+        /// Path of the key.
         key: String,
-        /// As found.
+        /// Value found.
         found: String,
-        /// What may stand there.
+        /// Type required.
         wanted: String,
     },
-    /// A text that is no quantity of the right kind.
+    /// A text is not a quantity in a suitable unit.
     Unit {
-        /// Whose value.
+        /// Path of the key.
         key: String,
-        /// As found.
+        /// Text found.
         found: String,
-        /// Why not.
+        /// Cause.
         why: UnitError,
-        /// Units that would do.
+        /// Suitable units.
         units: String,
     },
-    /// A value outside its range or list.
+    /// A value is outside its range or list.
     Value {
-        /// Whose value.
+        /// Path of the key.
         key: String,
-        /// As found.
+        /// Value found.
         found: String,
         /// The range or list.
         allowed: String,
     },
-    /// Values that do not go together.
+    /// Values are inconsistent.
     Conflict(SceneError),
-    /// A table without its form.
+    /// A table does not have the required form.
     Form {
-        /// Whose value.
+        /// Path of the key.
         key: String,
-        /// What the form asks for.
+        /// The form required.
         why: String,
     },
-    /// A file that cannot be read.
+    /// A file cannot be read.
     File {
-        /// Whose value names it.
+        /// Path of the key whose value names the file.
         key: String,
-        /// As named.
+        /// Name of the file.
         file: String,
-        /// Why not.
+        /// Cause.
         why: String,
     },
-    /// A fault in a file that the scene names.
+    /// Problems of a file that the scene names.
     Inside(Box<ReadError>),
 }
 
@@ -132,7 +132,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// The path that another may be a slip of: at most a third of the letters of its last part wrong.
+/// The candidate that is most similar to `path`; `None` unless at most a third of the letters of its last part differ.
 pub(super) fn nearest<'a>(path: &str, candidates: &'a [String]) -> Option<&'a String> {
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_lowercase();
     let key = last(path);
@@ -141,7 +141,7 @@ pub(super) fn nearest<'a>(path: &str, candidates: &'a [String]) -> Option<&'a St
     (distance(best) <= key.chars().count() / 3).then_some(best)
 }
 
-/// Line and column of a byte offset.
+/// Line and column (from 1) of a byte offset.
 pub(super) fn position(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);

@@ -1,43 +1,43 @@
-//! Inputs as a scene tells them: constant, or straight lines between points over time or over the
-//! crank's turn. The FMU does not know them; a harness evaluates them and sets the inputs.
+//! Inputs of a scene: constant, or piecewise linear over time or over the crank angle. The FMU does not contain them; a
+//! harness evaluates them and sets the FMU's inputs.
 
 use std::f64::consts::TAU;
 
 /// The inputs of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profiles {
-    /// [N·m] Of `crank.torque`.
+    /// [N·m] Profile of `crank.torque`.
     pub crank_torque: Profile,
-    /// [N] Of `slider.load`.
+    /// [N] Profile of `slider.load`.
     pub slider_load: Profile,
 }
 
-/// One input.
+/// One input as a function of time or crank angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Profile {
-    /// Always the same.
+    /// A constant.
     Constant(f64),
-    /// Straight lines between points.
+    /// Piecewise linear between points.
     Points {
-        /// What the points are over.
+        /// The argument of the points.
         against: ProfileArgument,
-        /// Abscissa ([s], or [rad] in 0 ..= 2π) and value; abscissae rise. Over time, the first
-        /// and the last value hold outside; over the crank angle, the turn repeats.
+        /// Argument ([s], or [rad] in 0 ..= 2π) and value, in ascending order of the argument. Over time, the first and
+        /// last values hold outside the points; over the crank angle, the profile is periodic.
         points: Vec<[f64; 2]>,
     },
 }
 
-/// What a profile is over.
+/// The argument of a profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProfileArgument {
     /// Time.
     Time,
-    /// Crank angle, the same every turn.
+    /// Crank angle, with the period of one turn.
     CrankAngle,
 }
 
 impl ProfileArgument {
-    /// Names in scene files.
+    /// Names in scene files, with the arguments.
     pub const ITEMS: [(&str, Self); 2] = [("time", Self::Time), ("crank.angle", Self::CrankAngle)];
 
     /// The name in scene files.
@@ -48,7 +48,7 @@ impl ProfileArgument {
         }
     }
 
-    /// SI unit of the abscissa.
+    /// SI unit of the argument.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Time => "s",
@@ -64,7 +64,7 @@ impl Default for Profile {
 }
 
 impl Profile {
-    /// Value at a time [s] and crank angle [rad].
+    /// Value at a time [s] and a crank angle [rad].
     pub fn value(&self, time: f64, crank_angle: f64) -> f64 {
         match self {
             Self::Constant(value) => *value,
@@ -75,8 +75,8 @@ impl Profile {
         }
     }
 
-    /// Time derivative at a time [s], crank angle [rad] and crank speed [rad/s]; at a point, that
-    /// of the line after it.
+    /// Time derivative at a time [s], a crank angle [rad] and a crank speed [rad/s]; at a point, the derivative of the
+    /// segment behind it.
     pub fn rate(&self, time: f64, crank_angle: f64, crank_speed: f64) -> f64 {
         let abscissa_rate = match self {
             Self::Constant(_) => return 0.0,
@@ -87,7 +87,7 @@ impl Profile {
         slope(from, to) * abscissa_rate
     }
 
-    /// The abscissa and the ends of the line around it; a line that holds a value has equal ends.
+    /// The argument, and the ends of the segment that contains it; a segment of constant value has equal ends.
     fn segment(&self, time: f64, crank_angle: f64) -> (f64, [[f64; 2]; 2]) {
         let Self::Points { against, points } = self else {
             return (0.0, [[0.0; 2]; 2]);

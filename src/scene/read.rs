@@ -1,4 +1,4 @@
-//! Scene file (TOML) → scene. Keys are the FMU's names; a number is SI, a text carries its unit.
+//! Reads a scene file (TOML). Keys are the FMU's variable names; a number is in SI units, a text has a unit.
 //!
 //! ```toml
 //! name = "wornpin"
@@ -30,23 +30,23 @@ use std::fs;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// What a scene file says.
+/// Contents of a scene file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneFile {
     /// Short name.
     pub name: String,
-    /// What it shows.
+    /// Description.
     pub description: String,
     /// The mechanism and its solver.
     pub scene: Scene,
-    /// How long and how finely.
+    /// Duration and output step.
     pub run: Run,
     /// The inputs.
     pub inputs: Profiles,
 }
 
-/// Keys beside the parameters: name and SI unit, none for a text.
-const OTHERS: [(&str, Option<&str>); 8] = [
+/// Keys other than parameters: name and SI unit; `None` for a text.
+const OTHER_KEYS: [(&str, Option<&str>); 8] = [
     ("name", None),
     ("description", None),
     (TABLE, None),
@@ -57,18 +57,25 @@ const OTHERS: [(&str, Option<&str>); 8] = [
     ("slider.load", Some("N")),
 ];
 
-/// The rod's modes: a table, or the name of a file that holds one.
+/// Key of the rod's modes: a table, or the name of a file that contains one.
 const TABLE: &str = "rod.flexible.table";
 
-/// Most turns, and most seconds, of a run.
-const LONGEST: f64 = 1e6;
+/// Maximum number of turns, and maximum duration in seconds, of a run.
+const MAX_DURATION: f64 = 1e6;
 
-/// Reads a scene file's text; `file` is its name for messages and tells where files that it names are.
+/// Reads the text of a scene file. `file` is its name: it appears in messages, and files that the scene names are
+/// searched next to it.
+///
+/// # Errors
+/// All problems of the file.
 pub fn read(text: &str, file: &str) -> Result<SceneFile, ReadError> {
     read_with(text, file, &|name| fs::read_to_string(Path::new(file).with_file_name(name)))
 }
 
-/// Reads a scene file's text; `files` finds the files that it names.
+/// Reads the text of a scene file; `files` returns the text of files that it names.
+///
+/// # Errors
+/// All problems of the file.
 pub fn read_with(text: &str, file: &str, files: Files) -> Result<SceneFile, ReadError> {
     let mut reader = Reader { text, files, found: SceneFile::default(), places: HashMap::new(), faults: vec![] };
     match DeTable::parse(text) {
@@ -97,14 +104,14 @@ struct Reader<'i> {
     text: &'i str,
     files: Files<'i>,
     found: SceneFile,
-    /// Byte offsets of what was set.
+    /// Byte offset of every key that was set.
     places: HashMap<String, usize>,
-    /// With byte offsets.
+    /// Problems and their byte offsets.
     faults: Vec<(usize, Fault)>,
 }
 
 impl<'i> Reader<'i> {
-    /// Reads every entry of a table.
+    /// Reads all entries of a table.
     fn table(&mut self, prefix: &str, table: &DeTable<'i>) {
         for (key, value) in table {
             let path = match prefix {
@@ -124,7 +131,7 @@ impl<'i> Reader<'i> {
 
     fn entry(&mut self, path: &str, offset: usize, value: &Value<'i>) -> Result<(), Fault> {
         let parameter = Parameter::named(path);
-        let other = OTHERS.iter().find(|(name, _)| *name == path);
+        let other = OTHER_KEYS.iter().find(|(name, _)| *name == path);
         if parameter.is_none() && other.is_none() {
             return self.inner_table(path, value);
         }
@@ -136,11 +143,11 @@ impl<'i> Reader<'i> {
         }
         let limited = |reader: &Self, unit: &str| {
             let number = number(reader.text, path, value, unit)?;
-            let legal = number > 0.0 && number <= LONGEST;
+            let legal = number > 0.0 && number <= MAX_DURATION;
             legal.then_some(number).ok_or_else(|| Fault::Value {
                 key: path.to_owned(),
                 found: source(reader.text, value),
-                allowed: format!("above 0, at most {} {unit}", shown(LONGEST)),
+                allowed: format!("above 0, at most {} {unit}", shown(MAX_DURATION)),
             })
         };
         match path {
@@ -239,7 +246,7 @@ impl<'i> Reader<'i> {
         }
     }
 
-    /// What the keys must be to each other.
+    /// Checks the consistency of the keys.
     fn check(&mut self) {
         let place = |name: &str| self.places.get(name).copied();
         let end = place("run.turns").or(place("run.stop")).unwrap_or(0);
@@ -260,10 +267,10 @@ impl<'i> Reader<'i> {
     }
 }
 
-/// Keys that may stand in a table, as paths.
+/// Paths of the keys that are allowed in a table.
 fn children(prefix: &str) -> Vec<String> {
     let names = PARAMETERS.iter().map(|parameter| parameter.name);
-    let names = OTHERS.iter().map(|(name, _)| *name).chain(names);
+    let names = OTHER_KEYS.iter().map(|(name, _)| *name).chain(names);
     let inside = |name: &'static str| match prefix {
         "" => Some(name),
         _ => name.strip_prefix(prefix)?.strip_prefix('.'),

@@ -6,10 +6,10 @@ use super::read_value::{Value, number, source};
 use std::f64::consts::TAU;
 use toml::de::DeTable;
 
-/// A fault and its byte offset.
+/// A problem and its byte offset.
 type Located = (usize, Fault);
 
-/// `{ against = ..., points = [[abscissa, value], ...] }`; `start` is the table's byte offset.
+/// Reads `{ against = ..., points = [[argument, value], ...] }`; `start` is the byte offset of the table.
 pub(super) fn points(text: &str, key: &str, table: &DeTable, start: usize, unit: &str) -> Result<Profile, Located> {
     let known = ["against", "points"].map(|name| format!("{key}.{name}")).to_vec();
     for name in table.keys() {

@@ -1,4 +1,4 @@
-//! The modal table of a scene: in the scene file itself, or in a file that it names.
+//! The modal table of a scene: in the scene file, or in a file that it names.
 
 use super::modal::ModalTable;
 use super::problem::{Fault, Problem, ReadError, position};
@@ -7,10 +7,10 @@ use serde::Deserialize;
 use std::io;
 use toml::de::{DeValue, Deserializer, Error, ValueDeserializer};
 
-/// Finds the text of a file by the name that a scene gives it.
+/// Returns the text of a file, given the name in a scene.
 pub type Files<'a> = &'a dyn Fn(&str) -> io::Result<String>;
 
-/// The table that a value holds or names; a fault with its byte offset in the scene otherwise.
+/// The table that a value contains or names; otherwise a problem and its byte offset in the scene.
 pub(super) fn table(text: &str, key: &str, value: &Value, files: Files) -> Result<ModalTable, (usize, Fault)> {
     let start = value.span().start;
     match value.get_ref() {
@@ -26,7 +26,7 @@ pub(super) fn table(text: &str, key: &str, value: &Value, files: Files) -> Resul
     }
 }
 
-/// The table in a file of this name.
+/// The table in the file of this name.
 fn file(key: &str, name: &str, files: Files) -> Result<ModalTable, Fault> {
     let text = files(name).map_err(|error| Fault::File {
         key: key.to_owned(),

@@ -8,7 +8,7 @@ use toml::de::DeValue;
 /// A value with its place in the file.
 pub(super) type Value<'i> = Spanned<DeValue<'i>>;
 
-/// A number in SI units, from a number or from a text with a unit.
+/// A number in SI units, given as a number or as a text with a unit.
 pub(super) fn number(text: &str, key: &str, value: &Value, unit: &str) -> Result<f64, Fault> {
     let wrong = || Fault::Type {
         key: key.to_owned(),
@@ -32,7 +32,7 @@ pub(super) fn number(text: &str, key: &str, value: &Value, unit: &str) -> Result
     number.is_finite().then_some(number).ok_or_else(wrong)
 }
 
-/// An integer, and nothing that only looks like one. Those beyond 2^53 round, far outside any range.
+/// The value of a TOML integer; `None` for other types. Integers beyond 2^53 are rounded, far outside any range.
 pub(super) fn integer(value: &Value) -> Option<f64> {
     let DeValue::Integer(integer) = value.get_ref() else {
         return None;
@@ -40,7 +40,7 @@ pub(super) fn integer(value: &Value) -> Option<f64> {
     i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|integer| integer as f64)
 }
 
-/// A value as it stands in the file, cut at its first line.
+/// The first line of a value as written in the file.
 pub(super) fn source(text: &str, value: &Value) -> String {
     let whole = text.get(value.span()).unwrap_or_default();
     let mut lines = whole.lines();

@@ -1,24 +1,24 @@
-//! How long a scene runs and how often it is looked at: what a harness does with it.
+//! Duration and output step of a run, for a harness.
 
 use super::data::Scene;
 use super::parameter::{DEFAULT_STEP, DEFAULT_STOP};
 use std::f64::consts::TAU;
 
-/// Length and output step of a run.
+/// Duration and output step of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// When it is over.
+    /// End of the run.
     pub end: End,
     /// [s] Communication and output step.
     pub step: f64,
 }
 
-/// When a run is over.
+/// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// After as many turns of a crank that keeps its start speed.
+    /// After this number of turns of the crank at its start speed.
     Turns(f64),
-    /// [s] At a time.
+    /// [s] At this time.
     Time(f64),
 }
 
@@ -29,7 +29,7 @@ impl Default for Run {
 }
 
 impl Run {
-    /// [s] When it is over. Turns of a crank at rest never end: `read` refuses them.
+    /// [s] Time of the end. `read` rejects turns of a crank that starts at rest.
     pub fn stop(&self, scene: &Scene) -> f64 {
         match self.end {
             End::Turns(turns) => turns * TAU / scene.crank.speed_start.abs(),

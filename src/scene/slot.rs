@@ -1,28 +1,28 @@
-//! The scene inside the library's own bytes, so that a packaged FMU needs no resource file.
+//! The scene embedded in the library, so that a packaged FMU needs no resource file.
 //!
-//! A block of the library's data holds, little endian: a magic, the block's version, the payload's
-//! length, its CRC-32, and the payload: the guid, every parameter's value in the order of the
-//! declaration, and the numbers of the rod's modal table if there is one; zeros fill the rest. A
-//! library as the compiler leaves it has length 0: the declared start values. The packager finds the
-//! magic in the library's file and writes a scene's values behind it.
+//! A block in the library's data contains, little endian: a magic, the version of the block, the length of the payload,
+//! its CRC-32, and the payload: the guid, the values of all parameters in the order of the declaration, and the numbers
+//! of the rod's modal table if there is one. The rest is zeros. In a library as compiled the length is 0, which stands
+//! for the declared start values. The packager searches the library file for the magic and writes a scene's values
+//! behind it.
 
 use super::data::Scene;
-use super::modal::{MOST_NUMBERS, ModalTable};
+use super::modal::{MAX_NUMBERS, ModalTable};
 use super::modal_check::TableError;
 use super::parameter::{DECLARATION, DEFAULT_GUID, PARAMETER_COUNT, PARAMETERS, Refusal};
 use crate::model_description::guid as digest;
 use std::fmt;
 use std::hint::black_box;
 
-/// The magic, last byte first: the block is the one place in a library where it stands forward.
+/// The magic in reverse order: the block is the only place in a library where it stands forward.
 const MAGIC_REVERSED: [u8; 24] = *b"\x01tols-enecs-knarcredils\xF5";
 const VERSION: u32 = 2;
 const GUID: usize = 36;
 const MAGIC: usize = MAGIC_REVERSED.len();
 const HEADER: usize = MAGIC + 12;
-/// Payload without a table.
+/// Length of the payload without a modal table [bytes].
 const PAYLOAD: usize = GUID + 8 * PARAMETER_COUNT;
-const BLOCK: usize = HEADER + PAYLOAD + 8 * MOST_NUMBERS;
+const BLOCK: usize = HEADER + PAYLOAD + 8 * MAX_NUMBERS;
 
 static SLOT: [u8; BLOCK] = blank();
 
@@ -37,22 +37,22 @@ const fn blank() -> [u8; BLOCK] {
     block
 }
 
-/// Why a library's scene cannot be read or written.
+/// Errors of the embedded scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SlotError {
-    /// The bytes hold no block.
+    /// The library contains no block.
     Missing,
-    /// The bytes hold several blocks.
+    /// The library contains several blocks.
     Repeated(usize),
-    /// The block is cut off or of another version.
+    /// The block is truncated or has another version.
     Version(u32),
-    /// The payload is of a length that none of this version has.
+    /// The length of the payload does not fit this version.
     Length(u32),
-    /// The payload is damaged.
+    /// The checksum of the payload is wrong.
     Checksum,
-    /// A value is not legal.
+    /// The value of a parameter is not allowed.
     Value(Refusal),
-    /// The modal table is none.
+    /// The modal table is invalid.
     Table(TableError),
 }
 
@@ -78,18 +78,18 @@ impl fmt::Display for SlotError {
 
 impl std::error::Error for SlotError {}
 
-/// The guid of a package of this scene: digest of the declaration and the scene's values.
+/// The guid of a package of this scene: a digest of the declaration and of the scene's values.
 pub fn guid(scene: &Scene) -> String {
     digest::guid(&DECLARATION, numbers(scene))
 }
 
-/// The scene that this library was packaged with, and its guid.
+/// The scene with which this library was packaged, and its guid.
 pub fn read() -> Result<(Scene, String), SlotError> {
-    // Through `black_box`, or the compiler would answer for the bytes as it knows them.
+    // Without `black_box` the compiler would use the bytes that it knows at compile time.
     parse(black_box(&SLOT))
 }
 
-/// Writes a scene and its guid into the bytes of a built library.
+/// Writes a scene and its guid into the bytes of a compiled library.
 pub fn write(library: &mut [u8], scene: &Scene) -> Result<(), SlotError> {
     let start = locate(library)?;
     let block = library.get_mut(start..start + BLOCK).ok_or(SlotError::Missing)?;
@@ -110,7 +110,7 @@ pub fn write(library: &mut [u8], scene: &Scene) -> Result<(), SlotError> {
     Ok(())
 }
 
-/// Offset of the one block in a library's bytes.
+/// Byte offset of the only block in a library.
 fn locate(library: &[u8]) -> Result<usize, SlotError> {
     let mut magic = black_box(MAGIC_REVERSED);
     magic.reverse();
@@ -123,7 +123,7 @@ fn locate(library: &[u8]) -> Result<usize, SlotError> {
     }
 }
 
-/// What a block says.
+/// The scene and guid in a block.
 fn parse(block: &[u8; BLOCK]) -> Result<(Scene, String), SlotError> {
     let (version, length, checksum) = (word(block, MAGIC), word(block, MAGIC + 4), word(block, MAGIC + 8));
     if version != VERSION {
@@ -154,14 +154,14 @@ fn parse(block: &[u8; BLOCK]) -> Result<(Scene, String), SlotError> {
     Ok((scene, guid.to_owned()))
 }
 
-/// Everything of a scene that a package can differ in.
+/// All values of a scene that the payload contains.
 fn numbers(scene: &Scene) -> Vec<f64> {
     let mut numbers: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
     numbers.extend(scene.rod.flexible.table.iter().flat_map(ModalTable::numbers));
     numbers
 }
 
-/// The little-endian word at an offset inside a block.
+/// The little-endian word at a byte offset of a block.
 fn word(block: &[u8], offset: usize) -> u32 {
     let bytes = [0, 1, 2, 3].map(|i| block[offset + i]);
     u32::from_le_bytes(bytes)
@@ -227,7 +227,7 @@ mod tests {
         let mut torn = patched.clone();
         torn[777 + HEADER + PAYLOAD + 40] ^= 1;
         assert_eq!(reread(&torn), Err(SlotError::Checksum));
-        // A length that no table has, and one beyond the block, are told before any number is believed.
+        // A length that no table has, or beyond the block, is rejected before any number is read.
         for length in [PAYLOAD - 8, PAYLOAD + 12, PAYLOAD + 80, BLOCK, usize::MAX >> 32] {
             let mut foreign = patched.clone();
             let end = (777 + HEADER + length).min(777 + BLOCK);
@@ -236,7 +236,7 @@ mod tests {
             foreign[777 + MAGIC + 8..777 + HEADER].copy_from_slice(&checksum.to_le_bytes());
             assert_eq!(reread(&foreign), Err(SlotError::Length(length as u32)));
         }
-        // What a table leaves behind is gone.
+        // The numbers of a former table are erased.
         scene.rod.flexible.table = None;
         write(&mut patched, &scene).expect("room for the scene");
         let mut fresh = library();

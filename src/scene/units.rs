@@ -1,4 +1,4 @@
-//! The only place where millimetres, revolutions per minute and degrees exist: text → SI.
+//! Units: the only place with millimetres, revolutions per minute and degrees; converts text to SI.
 //!
 //! A quantity is a number and a unit, `"50 mm"`. A unit is symbols with exponents, joined by `.`
 //! (or `·`, `*`) and `/`, which divides by the next symbol only: `kg.mm2`, `N.m.s/rad`, `N/m1.5`.
@@ -6,7 +6,8 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 
-/// Twice the exponents of kg, m, s and rad: the stiffness of a Hertzian contact has a half one.
+/// Twice the exponents of kg, m, s and rad; twice, because the stiffness of a Hertzian contact has a half-integer
+/// exponent.
 type Dimension = [i32; 4];
 
 const NONE: Dimension = [0, 0, 0, 0];
@@ -18,10 +19,10 @@ const SPEED: Dimension = [0, 0, -2, 2];
 const FORCE: Dimension = [2, 2, -4, 0];
 const TORQUE: Dimension = [2, 4, -4, 0];
 const PRESSURE: Dimension = [2, -2, -4, 0];
-/// Torque times angle, so that no torque is told in joules.
+/// Torque times angle, so that a torque in joules is rejected.
 const ENERGY: Dimension = [2, 4, -4, 2];
 
-/// Symbol, dimension, and the ratio to SI as a quotient, so that 50 mm is 50/1000 m to the bit.
+/// Symbol, dimension, and the factor to SI as a quotient, so that 50 mm is 50/1000 m to the bit.
 const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
     ("1", NONE, 1.0, 1.0),
     ("%", NONE, 1.0, 1e2),
@@ -48,7 +49,7 @@ const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
     ("°", ANGLE, PI, 180.0),
     ("rev", ANGLE, TAU, 1.0),
     ("rpm", SPEED, TAU, 60.0),
-    ("spm", SPEED, TAU, 60.0), // A press makes one stroke a turn.
+    ("spm", SPEED, TAU, 60.0), // a press makes one stroke per turn
     ("N", FORCE, 1.0, 1.0),
     ("kN", FORCE, 1e3, 1.0),
     ("MN", FORCE, 1e6, 1.0),
@@ -65,19 +66,19 @@ const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
     ("bar", PRESSURE, 1e5, 1.0),
 ];
 
-/// Compounds that messages propose; others mean as much.
+/// Compound units that messages suggest; other compound units are accepted, too.
 const COMPOUNDS: &[&str] = &["mm2", "cm2", "mm4", "cm4", "g/cm3", "N/mm2", "1/mm", "s/mm"];
 
-/// A text that is no quantity of the wanted kind.
+/// A text is not a quantity of the required dimension.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UnitError {
-    /// It does not begin with a number.
+    /// The text does not begin with a number.
     NoNumber,
-    /// It ends with its number.
+    /// The text has no unit.
     NoUnit,
-    /// A symbol that nobody here knows.
+    /// The unit contains an unknown symbol.
     Unknown(String),
-    /// A unit of another dimension.
+    /// The unit has another dimension.
     Dimension(String),
 }
 
@@ -94,7 +95,7 @@ impl fmt::Display for UnitError {
 
 impl std::error::Error for UnitError {}
 
-/// The number in SI units that a text such as `50 mm` means, where `wanted` is the SI unit.
+/// The number in SI units of a text such as `50 mm`; `wanted` is the SI unit.
 pub fn quantity(text: &str, wanted: &str) -> Result<f64, UnitError> {
     let (number, unit) = split(text).ok_or(UnitError::NoNumber)?;
     if unit.is_empty() {
@@ -108,7 +109,7 @@ pub fn quantity(text: &str, wanted: &str) -> Result<f64, UnitError> {
     Ok(number * times / over)
 }
 
-/// Units that a quantity of this SI unit may be told in, the SI unit first.
+/// Units in which a quantity with this SI unit may be given, the SI unit first.
 pub fn alternatives(unit: &str) -> Vec<&str> {
     let dimension = parse(unit).map_or(NONE, |(dimension, ..)| dimension);
     let others = SYMBOLS
@@ -119,7 +120,7 @@ pub fn alternatives(unit: &str) -> Vec<&str> {
     std::iter::once(unit).chain(others).chain(COMPOUNDS.iter().copied().filter(fits)).collect()
 }
 
-/// The longest finite number that a text begins with, and the rest.
+/// The longest finite number at the beginning of a text, and the rest of the text.
 fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
@@ -127,7 +128,7 @@ fn split(text: &str) -> Option<(f64, &str)> {
         .find(|(number, _): &(f64, _)| number.is_finite())
 }
 
-/// Dimension and ratio to SI of a unit.
+/// Dimension and factor to SI of a unit.
 fn parse(unit: &str) -> Result<(Dimension, f64, f64), UnitError> {
     let (mut dimension, mut times, mut over) = (NONE, 1.0, 1.0);
     let mut sign = 1;
@@ -162,7 +163,7 @@ fn in_symbol(c: char) -> bool {
     c.is_alphabetic() || c == '%' || c == '°'
 }
 
-/// Twice the exponent at the beginning of a text (1 if there is none), and the rest.
+/// Twice the exponent at the beginning of a text (1 without an exponent), and the rest of the text.
 fn exponent(text: &str) -> (i32, &str) {
     for (digits, doubled) in [("1.5", 3), ("2", 4), ("²", 4), ("3", 6), ("³", 6), ("4", 8), ("⁴", 8)] {
         if let Some(rest) = text.strip_prefix(digits) {
@@ -172,7 +173,7 @@ fn exponent(text: &str) -> (i32, &str) {
     (2, text)
 }
 
-/// factor^(doubled/2), exact where the exponent is whole.
+/// factor^(doubled/2), exact for integer exponents.
 fn power(factor: f64, doubled: i32) -> f64 {
     match doubled % 2 {
         0 => factor.powi(doubled / 2),

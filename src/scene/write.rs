@@ -1,4 +1,4 @@
-//! Scene → scene file, complete and in SI units: for keeping a scene that a program made.
+//! Writes a scene as a scene file, complete and in SI units.
 
 use super::modal::ModalTable;
 use super::parameter::{Kind, PARAMETERS};
@@ -7,7 +7,7 @@ use super::read::SceneFile;
 use super::run::End;
 use std::fmt::Write;
 
-/// The text that `read` turns back into the same scene, to the bit.
+/// The text of a scene file that `read` converts back to the same scene, to the bit.
 pub fn write(file: &SceneFile) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let mut out = String::new();
@@ -32,7 +32,7 @@ pub fn write(file: &SceneFile) -> String {
         };
         line(&mut out, parameter.name, &value);
     }
-    // Numbers and lists of them have a form in TOML always, here and below.
+    // Numbers and lists of numbers can always be represented in TOML.
     if let Some(Ok(table)) = file.scene.rod.flexible.table.as_ref().map(toml::Value::try_from) {
         line(&mut out, "rod.flexible.table", &table.to_string());
     }

@@ -1,4 +1,4 @@
-//! Chooses the compiled mechanism and method that a scene calls for.
+//! Selects the mechanism and the method of a scene.
 
 use super::motion::Motion;
 use super::run::Run;
@@ -10,9 +10,10 @@ use crate::model::mechanism_model::MechanismModel;
 use crate::model::start::StartPose;
 use crate::scene::{Method, Scene};
 
-/// Starts the mechanism of `scene` from `pose` at time 0 under `inputs`, and reckons the energy up where the scene asks for it.
-/// Integrators are compiled once and call the mechanism through a table of functions. Only the loop over a step's stages
-/// is compiled for some small mechanisms on its own; see [`Ode::stages`](crate::integrator::Ode::stages).
+/// Starts the mechanism of `scene` from `pose` at time 0 under `inputs`, with an energy audit if the scene requests it.
+///
+/// Integrators are compiled once and call the mechanism through a table of functions. Only the loop over the stages of
+/// a step is compiled together with some mechanisms; see [`Ode::stages`](crate::integrator::Ode::stages).
 pub fn start(scene: &Scene, pose: &StartPose, inputs: InputSignal) -> Box<dyn Motion> {
     let mut model: Box<dyn MechanismModel> = Box::new(Model::assemble(scene));
     if scene.energy.audit {

@@ -1,18 +1,19 @@
-//! Derivatives of outputs: in time, and with respect to the inputs.
+//! Derivatives of outputs with respect to time and to inputs.
 
 use crate::integrator::MAX_STATES;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::{Inputs, Outputs};
 
-/// [s] Half the longest interval over which an output's derivative is taken.
-const DIFFERENCE: f64 = 1e-8;
-/// [s] Half the shortest.
-const LEAST_DIFFERENCE: f64 = 1e-20;
-/// How often such an interval is shortened until there is an output at both of its ends.
-const SHORTENINGS: usize = 12;
+/// [s] Half the longest interval of a difference quotient.
+const MAX_HALF_INTERVAL: f64 = 1e-8;
+/// [s] Half the shortest interval of a difference quotient.
+const MIN_HALF_INTERVAL: f64 = 1e-20;
+/// Maximum number of times that the interval is shortened until the outputs at both ends are finite.
+const MAX_SHORTENINGS: usize = 12;
 
-/// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state moves by
-/// more than is noticeable, and time by at least a few of its roundings; near the end of a mechanism's reach, by less.
+/// Time derivatives of outputs along the motion through the state `y` at `t`, by a central difference. No state changes
+/// by more than its scale, and time changes by at least a few roundings. Near a singular configuration the interval is
+/// shortened.
 pub fn slopes(
     model: &dyn MechanismModel,
     t: f64,
@@ -34,22 +35,22 @@ pub fn slopes(
     };
     let weighted = rates.iter().zip(model.scales()).take(model.layout().weighted);
     let fastest = weighted.map(|(rate, scale)| (rate / scale).abs()).fold(0.0, f64::max);
-    let least = LEAST_DIFFERENCE.max(4.0 * f64::EPSILON * t.abs());
-    let mut half = (1.0 / fastest).min(DIFFERENCE).max(least);
+    let shortest = MIN_HALF_INTERVAL.max(4.0 * f64::EPSILON * t.abs());
+    let mut half = (1.0 / fastest).min(MAX_HALF_INTERVAL).max(shortest);
     let mut slopes = over(half);
-    for _ in 0..SHORTENINGS {
-        if half == least || slopes.is_finite() {
+    for _ in 0..MAX_SHORTENINGS {
+        if half == shortest || slopes.is_finite() {
             break;
         }
-        half = (0.1 * half).max(least);
+        half = (0.1 * half).max(shortest);
         slopes = over(half);
     }
     slopes
 }
 
-/// Derivative of outputs with respect to the inputs, along `seed`.
+/// Derivative of outputs with respect to the inputs, in the direction `seed`.
 pub fn sensitivity(seed: Inputs, mut observe_under: impl FnMut(Inputs) -> Outputs) -> Outputs {
-    // Outputs are affine in the inputs: any difference is the derivative.
+    // Outputs are affine in the inputs, so that any difference quotient is exact.
     let one = observe_under(seed);
     let other = observe_under(Inputs { crank_torque: -seed.crank_torque, slider_load: -seed.slider_load });
     one.combined(&other, |one, other| 0.5 * (one - other))

@@ -1,4 +1,4 @@
-//! A mechanism's equations of motion without an integrator.
+//! The equations of motion of a mechanism, for an external integrator.
 
 use super::observation::observe;
 use crate::integrator::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, StateLayout, Triggered};
@@ -7,18 +7,18 @@ use crate::model::outputs::Observer;
 use crate::model::signals::Outputs;
 use crate::model::state::Conditions;
 
-/// How large the equations of motion are.
+/// Size of the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Size {
-    /// Degrees of freedom; a prescribed crank angle is none.
+    /// Number of degrees of freedom; a prescribed crank angle is not one.
     pub degrees_of_freedom: usize,
-    /// States: positions, their rates, and what else is integrated.
+    /// Number of states: positions, their rates and first-order states.
     pub states: usize,
-    /// Event functions: one of each joint A, B, C with clearance, and four of the guide.
+    /// Number of event functions: one for each joint A, B, C with clearance, and four for a guide with clearance.
     pub event_functions: usize,
 }
 
-/// A [`System`](super::System), whatever its size.
+/// Implementation of a [`System`](super::System).
 pub trait Equations: Send {
     /// See [`System::size`](super::System::size).
     fn size(&self) -> Size;
@@ -40,7 +40,7 @@ pub trait Equations: Send {
     fn outputs(&self, t: f64, y: &[f64]) -> Outputs;
 }
 
-/// A mechanism without an integrator.
+/// The equations of motion of a mechanism, with its present contact states.
 pub struct EquationSystem {
     model: Box<dyn MechanismModel>,
     observer: Observer,
@@ -49,7 +49,7 @@ pub struct EquationSystem {
 }
 
 impl EquationSystem {
-    /// From a mechanism and where it starts.
+    /// The equations of a mechanism that starts at the state `y` under `conditions`.
     pub fn new(model: Box<dyn MechanismModel>, observer: Observer, y: Vec<f64>, conditions: Conditions) -> Self {
         Self { model, observer, start: (y, conditions), conditions }
     }
@@ -66,7 +66,7 @@ impl EquationSystem {
     }
 }
 
-/// A state in an array with room: those that are missing count as 0.
+/// The state `list` in an array padded with zeros.
 #[inline(always)]
 fn filled(list: &[f64]) -> [f64; MAX_STATES] {
     let mut all = [0.0; MAX_STATES];
@@ -74,7 +74,7 @@ fn filled(list: &[f64]) -> [f64; MAX_STATES] {
     all
 }
 
-/// As many of `values` as `list` has room for.
+/// Copies `values` into `list`, up to the shorter length.
 #[inline(always)]
 pub fn write(values: &[f64], list: &mut [f64]) {
     for (place, value) in list.iter_mut().zip(values) {

@@ -1,25 +1,25 @@
-//! Why a simulation cannot start or go on.
+//! Errors of a simulation.
 
 use std::fmt;
 
-/// Why a simulation cannot start or go on.
+/// Errors of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SimulationError {
-    /// The scene contradicts itself; the text names the parameter and what is allowed.
+    /// The scene is inconsistent; the text names the parameter and the allowed values.
     Scene(String),
-    /// The integrator gave up at `time`; the state is that of `time`, still usable.
+    /// The integrator stopped at `time`; the state at that time is valid and can be used.
     Integration {
-        /// [s] Last time reached, counted from the start.
+        /// [s] Last time reached, relative to the start.
         time: f64,
-        /// One line: component and cause.
+        /// The cause, in one line.
         cause: String,
     },
-    /// A snapshot does not fit this scene.
+    /// A snapshot does not fit the scene.
     Snapshot(String),
 }
 
 impl SimulationError {
-    /// The same error in times of an importer whose run started at `start` [s].
+    /// The same error with times of an importer whose run started at `start` [s].
     pub fn counted_from(self, start: f64) -> Self {
         match self {
             Self::Integration { time, cause } => Self::Integration { time: start + time, cause },

@@ -5,16 +5,16 @@ use crate::integrator::{Jacobian, StateLayout};
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::state::Conditions;
 
-/// ẏ ≈ rates + by_state·Δy + by_time·Δt near one state and instant.
+/// Linearization at one state and time: ẏ ≈ rates + by_state·Δy + by_time·Δt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linearization {
-    /// [s]
+    /// [s] Time.
     pub time: f64,
-    /// Positions, their rates, first-order states.
+    /// States: positions, their rates, first-order states.
     pub states: Vec<f64>,
     /// Number of positions.
     pub positions: usize,
-    /// ẏ.
+    /// Rates ẏ.
     pub rates: Vec<f64>,
     /// ∂ẏ_i/∂y_j in row i, column j.
     pub by_state: Vec<Vec<f64>>,
@@ -22,7 +22,7 @@ pub struct Linearization {
     pub by_time: Vec<f64>,
 }
 
-/// Rates of the `states` at `time` [s].
+/// Rates of the `states` at `time` [s]; missing states count as 0.
 pub fn rates_at(model: &dyn MechanismModel, conditions: &Conditions, time: f64, states: &[f64]) -> Vec<f64> {
     let n = model.layout().states;
     let mut rates = vec![0.0; n];
@@ -30,7 +30,7 @@ pub fn rates_at(model: &dyn MechanismModel, conditions: &Conditions, time: f64, 
     rates
 }
 
-/// The equations of motion of `model` near `states` and `time` [s].
+/// The linearization of the equations of motion of `model` at `states` and `time` [s]; missing states count as 0.
 pub fn linearization(model: &dyn MechanismModel, conditions: &Conditions, time: f64, states: &[f64]) -> Linearization {
     let StateLayout { positions, states: n, .. } = model.layout();
     let states = filled(states, n);
@@ -41,7 +41,7 @@ pub fn linearization(model: &dyn MechanismModel, conditions: &Conditions, time: 
     Linearization { time, states, positions, rates, by_state, by_time: jacobian.time }
 }
 
-/// A state in a list of so many: those that are missing count as 0.
+/// The state `list` as a list of `states` numbers, padded with zeros.
 pub fn filled(list: &[f64], states: usize) -> Vec<f64> {
     let mut all = vec![0.0; states];
     write(list, &mut all);

@@ -1,4 +1,4 @@
-//! Model, state and integrator: a mechanism that moves through time.
+//! A simulation: model, state and integrator of a mechanism in motion.
 
 mod assemble;
 mod derivatives;
@@ -28,45 +28,46 @@ use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use motion::Motion;
 
-/// A mechanism at one communication point, ready to go on.
+/// A mechanism at a communication point.
 ///
-/// - Nothing is allocated after [`Simulation::start`] but by `snapshot` and `restore`.
-/// - While inputs stay the same (to the bit), any split of an interval gives the same bits.
-/// - Inputs are taken as they are: the caller keeps them finite.
+/// - No call allocates after [`Simulation::start`], except `snapshot` and `restore`.
+/// - While the inputs keep the same bits, any split of an interval gives the same bits.
+/// - Inputs are not checked: the caller must keep them finite.
 pub struct Simulation {
     motion: Box<dyn Motion>,
     time: f64,
 }
 
-/// The only end that a mechanism's equations of motion have.
-const DEAD_END: &str = "the rod stands across the guide, where ideal joints leave open which way the slider goes on";
+/// Message for the only dead end of a mechanism's equations of motion.
+const DEAD_END: &str =
+    "the rod stands across the guide, where the slider may continue to either side of the change point";
 
 impl Simulation {
-    /// Assembles the scene's mechanism and puts it in its start position. Time is counted from here.
+    /// Assembles the mechanism of a scene and sets it to its start pose. The time is 0 there.
     ///
     /// # Errors
-    /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
+    /// `Scene` if the loop does not close in the start pose, or if the method does not support the scene.
     pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
         Ok(Self { motion: start::start(scene, inputs)?, time: 0.0 })
     }
 
-    /// [s] The communication point reached, counted from the start.
+    /// [s] The communication point reached, relative to the start.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// Sets inputs and their first time derivatives from the communication point on:
-    /// u(t) = `inputs` + `rates`·(t − time). The same bits as those in force change nothing.
+    /// Sets the inputs and their first time derivatives from the communication point on: u(t) = `inputs` + `rates`·(t −
+    /// time). Inputs with the same bits as the present ones change nothing.
     pub fn set_inputs(&mut self, inputs: Inputs, rates: Inputs) {
         self.motion.set_inputs(InputSignal { at: self.time, value: inputs, rate: rates });
     }
 
-    /// Moves to `time` (≥ the time reached).
+    /// Advances to `time` [s], which must not be less than the time reached.
     ///
     /// # Errors
-    /// `Integration`; the simulation is then at the last time that it reached and can still be asked,
-    /// saved and restored.
+    /// `Integration`; the simulation is then at the last time reached, and its outputs, `snapshot` and `restore` can
+    /// still be used.
     pub fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
         match self.motion.advance(time) {
             Ok(()) => {
@@ -77,8 +78,8 @@ impl Simulation {
         }
     }
 
-    /// Moves to the next closing or opening of a contact, or to `time` (≥ the time reached), and tells whether there
-    /// was one.
+    /// Advances to the next opening or closing of a contact, or to `time` [s] (not less than the time reached). Returns
+    /// whether there was such an event.
     ///
     /// # Errors
     /// As [`Simulation::advance_to`].
@@ -92,7 +93,7 @@ impl Simulation {
         }
     }
 
-    /// Stays where it could not go on.
+    /// Sets the time to that of the error, and converts the error.
     fn failed(&mut self, error: IntegrationError) -> SimulationError {
         self.time = self.time.max(error.time());
         let cause = match error {
@@ -108,67 +109,69 @@ impl Simulation {
         self.motion.outputs(self.time)
     }
 
-    /// First time derivatives of the real outputs at the communication point; its integers and
-    /// Booleans are without meaning.
+    /// First time derivatives of the real outputs at the communication point; integers and Booleans are meaningless.
     pub fn output_rates(&mut self) -> Outputs {
         self.motion.output_rates(self.time)
     }
 
-    /// Derivative of the real outputs with respect to the inputs along `seed`, state held; its
-    /// integers and Booleans are without meaning.
+    /// Derivative of the real outputs with respect to the inputs in the direction `seed`, at constant states; integers
+    /// and Booleans are meaningless.
     pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.motion.output_sensitivity(self.time, seed)
     }
 
-    /// How large its equations of motion are.
+    /// Size of the equations of motion.
     pub fn size(&self) -> Size {
         self.motion.size()
     }
 
-    /// The point of phase space at the communication point. A step that goes beyond is cut there, so that the point is as
-    /// accurate as the steps are and not as what is interpolated between them; later steps are others than without a look.
+    /// The point of phase space at the communication point. A step that extends beyond the point is repeated so that it
+    /// ends there. The point then has the accuracy of steps, not that of interpolation. Later steps differ from those
+    /// without this call.
     pub fn phase(&mut self) -> Phase {
         self.motion.phase(self.time)
     }
 
-    /// Goes on from `phase`: one of a simulation with the same joints, drive and method, or near one. Inputs stay.
+    /// Continues from `phase`, a point of a simulation with the same joints, drive and method, or near one. The inputs
+    /// are kept.
     pub fn place(&mut self, phase: &Phase) {
         self.motion.place(phase);
         self.time = phase.time;
     }
 
-    /// What size of difference is noticeable.
+    /// Scales of just noticeable differences in a point of phase space.
     pub fn phase_scales(&self) -> PhaseScales {
         self.motion.phase_scales()
     }
 
-    /// [s] Time and states where the next step starts.
+    /// [s] Time and states at the start of the next step.
     pub fn front(&self) -> (f64, Vec<f64>) {
         self.motion.front()
     }
 
-    /// Rates of the `states` at `time` [s] with the contacts closed that are so where the next step
-    /// starts; states that are missing count as 0.
+    /// Rates of the `states` at `time` [s], with the contact states at the start of the next step; missing states count
+    /// as 0.
     pub fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64> {
         self.motion.rates_at(time, states)
     }
 
-    /// The equations of motion near `states` and `time` [s], with the same contacts.
+    /// The linearization of the equations of motion at `states` and `time` [s], with the same contact states.
     pub fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization {
         self.motion.linearization_at(time, states)
     }
 
-    /// Evaluates the equations of motion so many times, for nothing: where the next step starts, to be timed.
+    /// Evaluates the equations of motion `times` times at the start of the next step and discards the results, for
+    /// benchmarks.
     pub fn evaluate(&self, times: usize) {
         self.motion.evaluate(times);
     }
 
-    /// Evaluates their derivatives so many times, likewise.
+    /// Evaluates the Jacobian of the equations of motion `times` times and discards the results, for benchmarks.
     pub fn differentiate(&self, times: usize) {
         self.motion.differentiate(times);
     }
 
-    /// All that is needed to go on from here.
+    /// A snapshot of the simulation, from which it can be restored.
     pub fn snapshot(&self) -> Snapshot {
         let mut snapshot = Snapshot::default();
         snapshot.reals.push(self.time);
@@ -176,10 +179,10 @@ impl Simulation {
         snapshot
     }
 
-    /// A simulation of `scene` that goes on where `snapshot` was taken.
+    /// A simulation of `scene` that continues where `snapshot` was taken.
     ///
     /// # Errors
-    /// `Snapshot` if it is not one of a run of a scene with these joints and this drive; `Scene` as in
+    /// `Snapshot` if it is not from a run of a scene with these joints and this drive; `Scene` as in
     /// [`Simulation::start`].
     pub fn restore(scene: &Scene, snapshot: &Snapshot) -> Result<Self, SimulationError> {
         let mut simulation = Self::start(scene, Inputs::default())?;

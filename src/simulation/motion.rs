@@ -1,4 +1,4 @@
-//! What a simulation asks of a mechanism under a method.
+//! Interface between a simulation and a mechanism with its method.
 
 use super::equations::{Equations, Size};
 use super::linearization::Linearization;
@@ -7,42 +7,43 @@ use crate::integrator::{IntegrationError, Reader, Snapshot};
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 
-/// A mechanism in motion, whatever its size.
+/// A mechanism in motion under a method.
 pub trait Motion: Send {
     /// Steps until `t` lies within the last step.
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError>;
-    /// Steps until `t` lies within the last step, or to an event after `after`, and tells when that was.
+    /// Steps until `t` lies within the last step or an event after `after` has happened. Returns the time [s] of that
+    /// event.
     fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError>;
     /// The point of phase space at `t` in the last step.
     fn phase(&mut self, t: f64) -> Phase;
-    /// Starts anew from such a point.
+    /// Restarts from a point of phase space.
     fn place(&mut self, phase: &Phase);
-    /// What size of difference is noticeable in a point of phase space.
+    /// Scales of just noticeable differences in a point of phase space.
     fn phase_scales(&self) -> PhaseScales;
     /// Sets the inputs from the communication point `inputs.at` on.
     fn set_inputs(&mut self, inputs: InputSignal);
     /// Outputs at `t` in the last step.
     fn outputs(&mut self, t: f64) -> Outputs;
-    /// Their time derivatives.
+    /// Time derivatives of the outputs at `t` in the last step.
     fn output_rates(&mut self, t: f64) -> Outputs;
-    /// Their derivatives with respect to the inputs, along `seed`.
+    /// Derivatives of the outputs at `t` with respect to the inputs, in the direction `seed`.
     fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs;
-    /// How large it is.
+    /// Size of the equations of motion.
     fn size(&self) -> Size;
-    /// Evaluates the right-hand side where the next step starts.
+    /// Evaluates the right-hand side `times` times at the start of the next step.
     fn evaluate(&self, times: usize);
-    /// Its equations, from where the next step starts.
+    /// The equations of motion, starting at the start of the next step.
     fn equations(self: Box<Self>) -> Box<dyn Equations>;
-    /// Evaluates its derivatives there.
+    /// Evaluates the Jacobian of the right-hand side `times` times at the start of the next step.
     fn differentiate(&self, times: usize);
-    /// Time and states there.
+    /// Time [s] and states at the start of the next step.
     fn front(&self) -> (f64, Vec<f64>);
-    /// Rates of the right-hand side that holds there.
+    /// Rates of `states` at `time` [s] under the conditions at the start of the next step.
     fn rates_at(&self, time: f64, states: &[f64]) -> Vec<f64>;
-    /// The same, with derivatives.
+    /// Linearization at `states` and `time` [s] under the conditions at the start of the next step.
     fn linearization_at(&self, time: f64, states: &[f64]) -> Linearization;
-    /// Appends all that it remembers.
+    /// Appends the memory of the run to a snapshot.
     fn save(&self, snapshot: &mut Snapshot);
-    /// Takes back what `save` appended of a run at `time` [s]; `None` if it does not fit.
+    /// Restores what `save` appended of a run at `time` [s]; `None` if it does not fit.
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()>;
 }

@@ -6,7 +6,7 @@ use crate::model::outputs::Observer;
 use crate::model::signals::{Outputs, SolverOutputs};
 use crate::model::state::Conditions;
 
-/// Outputs of the state `y` at `t`.
+/// Outputs of the state `y` at `t`, without the integrator's counters.
 pub fn observe(model: &dyn MechanismModel, observer: &Observer, conditions: &Conditions, t: f64, y: &[f64]) -> Outputs {
     let evaluation = model.evaluation(conditions, t, y);
     let penetration = model.penetration(&evaluation.pose);
@@ -16,7 +16,7 @@ pub fn observe(model: &dyn MechanismModel, observer: &Observer, conditions: &Con
     outputs
 }
 
-/// Counters as outputs.
+/// Counters of the integrator as outputs; larger counts saturate.
 pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
     let Statistics { steps, rejected, evaluations, events } = statistics;
     let count = |n: u64| i32::try_from(n).unwrap_or(i32::MAX);

@@ -1,24 +1,25 @@
-//! Points of phase space: where a motion is, to be compared, perturbed and started from.
+//! Points of phase space, from which motions are compared, perturbed and started.
 
-/// All that decides how a motion goes on under given inputs.
+/// A point of phase space: all quantities that determine how a motion continues under given inputs.
 ///
-/// A contact's approach speed belongs to it: two motions through the same states with other approach speeds part, since
-/// the damping of a lasting contact remembers how it closed. An audit's sums do not.
+/// The approach speed of a closed contact belongs to it: two motions through the same states with different approach
+/// speeds differ later, because the damping of the contact depends on how it closed. The states of an energy audit do
+/// not belong to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Phase {
-    /// [s]
+    /// [s] Time.
     pub time: f64,
-    /// Positions, their rates, bristles.
+    /// States: positions, their rates, bristle deflections.
     pub states: Vec<f64>,
-    /// [m/s] Approach speeds of the closed contacts; `None` of an open one.
+    /// [m/s] Approach speeds of all contacts; `None` for an open contact.
     pub approach: Vec<Option<f64>>,
 }
 
-/// What size of difference is noticeable in a [`Phase`].
+/// Scales of just noticeable differences in a [`Phase`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseScales {
-    /// Of the states.
+    /// Scales of the states, each in the unit of its state.
     pub states: Vec<f64>,
-    /// [m/s] Of approach speeds.
+    /// [m/s] Scale of approach speeds.
     pub approach: f64,
 }

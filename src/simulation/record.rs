@@ -1,4 +1,4 @@
-//! A run's memory in a snapshot.
+//! Conversion between the memory of a run and a snapshot.
 
 use crate::integrator::{Impulses, Reader, Snapshot, SolverState, Statistics, StepPoint};
 use crate::model::contact::ContactState;
@@ -7,11 +7,11 @@ use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::Inputs;
 use crate::model::state::{CONTACTS, Conditions, Contacts};
 
-/// The discrete part of a state.
+/// The discrete part of a state in a snapshot.
 pub trait Discrete: Copy {
-    /// Appends it, beside so many states.
+    /// Appends the discrete state of a system with `states` states.
     fn save(&self, states: usize, snapshot: &mut Snapshot);
-    /// Takes it back; `None` if it does not fit.
+    /// Reads a discrete state; `None` if it does not fit.
     fn load(states: usize, reader: &mut Reader<'_>) -> Option<Self>;
 }
 
@@ -70,7 +70,7 @@ impl Discrete for Impulses {
     }
 }
 
-/// Appends what the integrator remembers.
+/// Appends the memory of the integrator.
 pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
     let SolverState { step, last_error, cuts, crossings, statistics, .. } = state;
     let states = state.front().y.len();
@@ -85,7 +85,7 @@ pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
     snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
 }
 
-/// What [`save`] appended of a run of `model` at `time` [s].
+/// Reads what [`save`] appended in a run of `model` at `time` [s]; `None` if no run can have produced it.
 pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Reader<'_>) -> Option<SolverState<D>> {
     let states = model.layout().states;
     if reader.integer()? != states as u64 {

@@ -1,4 +1,4 @@
-//! One mechanism under one method.
+//! A mechanism under a method other than time stepping.
 
 use super::derivatives::{sensitivity, slopes};
 use super::equations::{EquationSystem, Equations, Size, write};
@@ -21,12 +21,12 @@ use crate::model::state::Conditions;
 use crate::scene::Scene;
 use std::hint::black_box;
 
-/// A mechanism under a method with event location, or without.
+/// A mechanism under an integrator, with or without event location.
 pub struct Run {
     model: Box<dyn MechanismModel>,
     integrator: Integrator<Conditions>,
     observer: Observer,
-    /// [m/s] A noticeable difference of approach speeds.
+    /// [m/s] Scale of approach speeds.
     approach_scale: f64,
 }
 
@@ -44,7 +44,7 @@ impl Run {
         Self { model, integrator, observer: Observer::new(scene), approach_scale: length * frequency }
     }
 
-    /// Outputs under other inputs, the state held.
+    /// Outputs at `t` under other inputs, at constant states.
     fn observe_under(&mut self, t: f64, inputs: Inputs) -> Outputs {
         let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
         let inputs = InputSignal { at: t, value: inputs, rate: Inputs::default() };

@@ -1,18 +1,18 @@
-//! What a scene asks of its integrator.
+//! Settings of the integrator from a scene.
 
 use crate::integrator::{Settings, WorkLimit};
 use crate::scene::{Scene, Solver};
 
-/// Where the scene sets no bound: seconds of computing for a communication step that leads nowhere, and several times
-/// what any shipped scene needs.
-const EFFORT: WorkLimit = WorkLimit { base: 20_000_000, per_second: 50_000_000 };
+/// Work limit if the scene sets none: seconds of computation in a communication step that does not end, and several
+/// times the work of any scene that is shipped.
+const DEFAULT_WORK_LIMIT: WorkLimit = WorkLimit { base: 20_000_000, per_second: 50_000_000 };
 
-/// What a scene asks of its integrator.
+/// Settings of the integrator from a scene.
 pub fn settings(scene: &Scene) -> Settings {
     let Solver { tolerance, step, max_evaluations, .. } = scene.solver;
     let effort = match u64::try_from(max_evaluations) {
         Ok(base @ 1..) => WorkLimit { base, per_second: 0 },
-        _ => EFFORT,
+        _ => DEFAULT_WORK_LIMIT,
     };
     Settings { tolerance, fixed_step: step, effort }
 }

@@ -1,4 +1,4 @@
-//! Puts a scene's mechanism in its start position.
+//! Sets the mechanism of a scene to its start pose.
 
 use super::assemble;
 use super::error::SimulationError;
@@ -8,10 +8,10 @@ use crate::model::signals::Inputs;
 use crate::model::start::StartPose;
 use crate::scene::Scene;
 
-/// The mechanism of `scene` in its start position at time 0, under constant `inputs`.
+/// The mechanism of `scene` in its start pose at time 0, under constant `inputs`.
 ///
 /// # Errors
-/// `Scene` if the start position does not close the loop.
+/// `Scene` if the loop does not close in the start pose.
 pub fn start(scene: &Scene, inputs: Inputs) -> Result<Box<dyn Motion>, SimulationError> {
     let pose = StartPose::of(scene).ok_or_else(|| {
         SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())

@@ -1,4 +1,4 @@
-//! One mechanism with rigid contacts under time stepping.
+//! A mechanism with rigid contacts under time stepping.
 
 use super::derivatives::{sensitivity, slopes};
 use super::equations::{EquationSystem, Equations, Size};
@@ -20,8 +20,8 @@ use crate::model::state::{CONTACTS, Conditions, Contacts};
 use crate::scene::Scene;
 use std::hint::black_box;
 
-/// A mechanism under Moreau's rule. The forces of its contacts are impulses over the length of a step,
-/// from its start to its end; accelerations and reactions are those of the instant under these forces.
+/// A mechanism under Moreau's midpoint rule. Contact forces are the impulses of a step over its length, constant in the
+/// step; accelerations and reactions are those of the instant under these forces.
 pub struct TimeStepping {
     model: Box<dyn MechanismModel>,
     integrator: Moreau<Conditions>,
@@ -39,7 +39,7 @@ impl TimeStepping {
         Self { model, integrator, settings, observer: Observer::new(scene) }
     }
 
-    /// Outputs under other inputs, state and contact forces held.
+    /// Outputs at `t` under other inputs, at constant states and contact forces.
     fn observe_under(&mut self, t: f64, inputs: Inputs) -> Outputs {
         let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
         let inputs = InputSignal { at: t, value: inputs, rate: Inputs::default() };

@@ -2,7 +2,7 @@
 
 use super::refused;
 use slidercrank::model::{self, signals::Inputs};
-use slidercrank::scene::modal::{AxialMode, BendingMode, MOST_MODES, MOST_NUMBERS, ModalTable};
+use slidercrank::scene::modal::{AxialMode, BendingMode, MAX_MODES, MAX_NUMBERS, ModalTable};
 use slidercrank::scene::read::{SceneFile, read, read_with};
 use slidercrank::scene::write::{write, write_table};
 use slidercrank::scene::{DriveMode, JointModel, Scene};
@@ -87,7 +87,7 @@ fn flexible(bending: usize, axial: usize) -> Scene {
 
 #[test]
 fn the_model_s_own_beam_keeps_to_the_format() {
-    for (bending, axial) in [(1, 0), (0, 2), (3, 1), (MOST_MODES, MOST_MODES)] {
+    for (bending, axial) in [(1, 0), (0, 2), (3, 1), (MAX_MODES, MAX_MODES)] {
         let of_model = model::rod::beam::table(&flexible(bending, axial));
         let mut by_hand = beam(bending, axial);
         let frequencies = of_model.bending.iter().map(|mode| mode.frequency);
@@ -129,13 +129,13 @@ fn with_table(table: ModalTable) -> SceneFile {
 
 #[test]
 fn a_uniform_rod_s_table_is_legal_for_every_number_of_modes() {
-    for (bending, axial) in [(0, 0), (1, 0), (0, 1), (3, 1), (1, 8), (MOST_MODES, MOST_MODES)] {
+    for (bending, axial) in [(0, 0), (1, 0), (0, 1), (3, 1), (1, 8), (MAX_MODES, MAX_MODES)] {
         let table = beam(bending, axial);
         assert_eq!(table.check(), Ok(()), "{bending} bending, {axial} axial modes");
         let numbers = table.numbers();
         assert_eq!(ModalTable::from_numbers(&numbers).as_ref(), Some(&table));
         assert_eq!(ModalTable::from_numbers(&numbers[..numbers.len() - 1]), None);
-        assert!(numbers.len() <= MOST_NUMBERS && (bending + axial < 16 || numbers.len() == MOST_NUMBERS));
+        assert!(numbers.len() <= MAX_NUMBERS && (bending + axial < 16 || numbers.len() == MAX_NUMBERS));
     }
 }
 

@@ -1,5 +1,5 @@
-//! `verner7`, and `rodas4` where the motion is stiff; `cong8`, which makes its steps as blocks, where it is not at all, if
-//! the system suits it; see `StiffnessSwitch`.
+//! `automatic`: `verner7` where the motion is not stiff, `rodas4` where it is stiff, and `cong8` in non-stiff motion of
+//! a system that suits blocks. `StiffnessSwitch` selects the kind.
 
 use super::block::Cong8;
 use super::explicit::Explicit;
@@ -12,26 +12,26 @@ use crate::integrator::snapshot::{Reader, Snapshot};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::System;
 
-/// The product of step and rate from which on the explicit method is unstable: in the left half plane, |R(z)| passes 1
-/// between |z| = 4.44 (at 110° from the positive axis) and 4.75.
+/// Product of step and fastest rate above which the explicit method is unstable: in the left half plane, |R(z)| passes
+/// 1 between |z| = 4.44 (at 110° from the positive real axis) and 4.75.
 const BOUND: f64 = 4.4;
 
-/// The order-7 pair that changes to the L-stable order-4 pair in stiff motion, and to steps in blocks where they pay.
+/// The order-7 pair, which switches to the L-stable order-4 pair in stiff motion and to steps in blocks where they pay.
 #[derive(Clone, Debug)]
 pub struct Automatic {
     kind: MethodKind,
     switch: StiffnessSwitch,
     block: Cong8,
-    /// Where the motion is not stiff; its last two stages are at the step's end.
+    /// Method for non-stiff motion; its last two stages are at the step's end.
     explicit: Explicit,
-    /// Where it is.
+    /// Method for stiff motion.
     implicit: Rosenbrock,
-    /// By kind.
+    /// Properties of each kind, in the order of [`MethodKind::ALL`].
     properties: [Properties; 3],
 }
 
 impl Automatic {
-    /// For so many states.
+    /// The method for `states` states.
     pub fn new(states: usize) -> Self {
         let block = Cong8::new(states);
         let (explicit, implicit) = (Explicit::new(&VERNER7, states), Rosenbrock::new(&RODAS4, states));
@@ -44,10 +44,10 @@ impl Automatic {
         let properties = [
             with(Method::<()>::properties(&block), &[MethodKind::Explicit, MethodKind::Implicit]),
             with(explicit.properties(), &[MethodKind::Implicit, MethodKind::Block]),
-            // The errors of steps in stiff motion fade.
+            // In stiff motion the errors of earlier steps decay.
             Properties { error_share: 1.0, ..implicit_properties },
         ];
-        let switch = StiffnessSwitch::LOOSE;
+        let switch = StiffnessSwitch::NON_STIFF;
         Self { kind: switch.kind, switch, block, explicit, implicit, properties }
     }
 }
@@ -58,7 +58,7 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn begin(&mut self, system: &dyn System<Discrete = D>) {
-        self.switch = if system.suits_blocks() { StiffnessSwitch::IN_BLOCKS } else { StiffnessSwitch::LOOSE };
+        self.switch = if system.suits_blocks() { StiffnessSwitch::BLOCKS } else { StiffnessSwitch::NON_STIFF };
         self.kind = self.switch.kind;
         Method::<D>::forget(&mut self.block);
     }
@@ -127,10 +127,10 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let StiffnessSwitch { kind, steps, patience, unpaid, block } = self.switch;
+        let StiffnessSwitch { kind, steps, check_interval, unpaid, block } = self.switch;
         snapshot.reals.push(block);
         snapshot.integers.extend([self.kind as u64, kind as u64]);
-        snapshot.integers.extend([steps, patience, unpaid].map(u64::from));
+        snapshot.integers.extend([steps, check_interval, unpaid].map(u64::from));
         Method::<D>::save(&self.block, snapshot);
     }
 
@@ -140,7 +140,7 @@ impl<D: Copy> Method<D> for Automatic {
         self.switch = StiffnessSwitch {
             kind: read_kind(reader)?,
             steps: reader.integer()?.try_into().ok()?,
-            patience: reader.integer()?.try_into().ok()?,
+            check_interval: reader.integer()?.try_into().ok()?,
             unpaid: reader.integer()?.try_into().ok()?,
             block,
         };

@@ -1,22 +1,22 @@
 //! Bathe's composite method at a fixed step: the trapezoidal rule over half the step, then the three-point backward
-//! difference over all of it (K. J. Bathe, Computers and Structures 85 (2007) 437); of second order, and L-stable, so that
-//! oscillations that are too fast for the step die within a few steps.
+//! difference over all of it (K. J. Bathe, Computers and Structures 85 (2007) 437). The method is of second order and
+//! L-stable: oscillations that are too fast for the step decay within a few steps.
 //!
-//! y₁ = y₀ + h/4·(f₀ + f₁), 3·y₂ = 4·y₁ − y₀ + h·f₂. Both are y = c + g·f(t, y), which Newton's method solves with the
-//! exact Jacobian. Where it does not converge there is no state at the end of the attempt, and a step of a tenth is
-//! attempted, down to one that does not move time.
+//! y₁ = y₀ + h/4·(f₀ + f₁), 3·y₂ = 4·y₁ − y₀ + h·f₂. Both equations have the form y = c + g·f(t, y), which Newton's
+//! method solves with the exact Jacobian. If it does not converge, the attempt fails, and a step of a tenth is
+//! attempted, down to a step that does not move time.
 
 use crate::integrator::linear::Factors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::{Jacobian, System};
 
-/// Newton's method has converged after a correction of this many scales in no state.
-const CONVERGED: f64 = 1e-9;
-/// Or of a few roundings.
+/// Newton's method has converged once the correction of every state is at most this share of the state's scale.
+const CORRECTION_TOLERANCE: f64 = 1e-9;
+/// Share of a state's value that is added to that bound, for rounding.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
-/// Most corrections.
-const MOST_CORRECTIONS: usize = 20;
+/// Maximum number of Newton iterations.
+const MAX_ITERATIONS: usize = 20;
 
 const PROPERTIES: Properties = Properties {
     name: "bathe",
@@ -37,22 +37,22 @@ const PROPERTIES: Properties = Properties {
 pub struct Bathe {
     jacobian: Jacobian,
     factors: Factors,
-    /// c of the equation to be solved.
+    /// c of the equation y = c + g·f(t, y).
     known: Vec<f64>,
-    /// Rates, and then a correction.
+    /// Rates, then the Newton correction.
     correction: Vec<f64>,
 }
 
 impl Bathe {
-    /// For so many states.
+    /// The method for `states` states.
     pub fn new(states: usize) -> Self {
         let zeros = || vec![0.0; states];
         let (jacobian, factors) = (Jacobian::new(states), Factors::with_capacity(states));
         Self { jacobian, factors, known: zeros(), correction: zeros() }
     }
 
-    /// Solves y = c + g·f(`t`, y) from an estimate `y`, which is not a number afterwards if there is no solution near it.
-    /// Returns how many evaluations of the rates it took.
+    /// Solves y = c + g·f(`t`, y) by Newton's method from the estimate `y`. Without convergence `y` is NaN afterwards.
+    /// Returns the number of evaluations of the rates.
     fn solve<D: Copy>(
         &mut self,
         system: &dyn System<Discrete = D>,
@@ -63,7 +63,7 @@ impl Bathe {
     ) -> u64 {
         let Self { jacobian, factors, known, correction, .. } = self;
         let scales = &system.scales()[..system.layout().weighted];
-        for corrections in 1..=MOST_CORRECTIONS {
+        for iterations in 1..=MAX_ITERATIONS {
             system.rates(discrete, t, y, correction);
             system.jacobian(discrete, t, y, jacobian);
             factors.of(y.len(), |i, j| f64::from(u8::from(i == j)) - g * jacobian.row(i)[j]);
@@ -75,15 +75,15 @@ impl Bathe {
                 *y += correction;
             }
             let small = |((correction, scale), y): ((&f64, &f64), &f64)| {
-                correction.abs() <= CONVERGED * scale + ROUNDINGS * y.abs()
+                correction.abs() <= CORRECTION_TOLERANCE * scale + ROUNDINGS * y.abs()
             };
             if correction.iter().zip(scales).zip(&*y).all(small) {
-                // The Jacobian counts as one.
-                return 2 * corrections as u64;
+                // A Jacobian counts as one evaluation.
+                return 2 * iterations as u64;
             }
         }
         y.fill(f64::NAN);
-        2 * MOST_CORRECTIONS as u64
+        2 * MAX_ITERATIONS as u64
     }
 }
 

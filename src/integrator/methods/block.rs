@@ -1,31 +1,59 @@
-//! A step by its accelerations at several instants, which are computed together.
+//! `cong8`: a block predictor-corrector method of Runge–Kutta–Nyström type (N. H. Cong, K. Strehmel, R. Weiner, Adv.
+//! Comput. Math. 10 (1999) 115). A step is a block of eight nodes; the accelerations at all nodes are evaluated
+//! together.
 //!
-//! In a step of `h` from t, positions and velocities follow from the accelerations a_j at the instants t + c_j·h as if those
-//! were on a polynomial:
+//! ```text
+//!   t − h₋    previous block, h₋          t                 block (step), h                   t + h
+//!   |+──+─────+──────+───────+─────+────+─|+────+────────+─────────+──────────+─────────+──────+──|
+//!                                       c₀ c₁   c₂       c₃        c₄         c₅        c₆     c₇ c₈
+//!   a₋₀ … a₋₈                           a₀ a₁   a₂       a₃        a₄         a₅        a₆     a₇ a₈
+//!                                          ^    ^        ^         ^          ^         ^      ^  ^
+//!   a₋(x), polynomial of degree 8 ─────────┴────┴────────┴─────────┴──────────┴─────────┴──────┴──┘  extrapolation
 //!
-//! v(t + c_i·h) = v + h·Σ A_ij·a_j,  q(t + c_i·h) = q + c_i·h·v + h²·Σ B_ij·a_j,
-//! A_ij = ∫ ℓ_j over 0..c_i, B_ij = ∫∫ ℓ_j.
+//!   predictor: a_j from a₋(x)                                   ── integrals of ℓ_j ──> v_i, q_i at all nodes
+//!   corrector: a_j = f(t + c_j·h, q_j, v_j), j = 1 … 8 together  ── A, B ──────────────> v_i, q_i at all nodes
+//!              three rounds of the corrector; five without a previous block
+//!   end:       state q₈, v₈; its rates f(t + h, q₈, v₈) are a₀ of the next block
+//! ```
 //!
-//! The accelerations are first predicted by the polynomial of the last step and then computed at the states that follow, all
-//! at once, which corrects the states. Two more such rounds, and the step is done; the first step of a motion, or after an
-//! event, has nothing to go on from and takes more. A round gains two orders, since positions follow from accelerations
-//! at one go. A step that failed predicts the shorter one after it; of one that is as long as the last the prediction takes
-//! one table. (Block predictor-corrector methods of Runge-Kutta-Nyström type: N. H. Cong, K. Strehmel, R. Weiner, Adv. Comput.
-//! Math. 10 (1999) 115.)
+//! Symbols: q positions, v velocities or first-order states, a their rates, t and h [s] start and length of the step,
+//! c₀ = 0 the start and c₁ … c₈ the nodes of Radau's right quadrature (`NODES`: 0.0225, 0.1147, 0.2658, 0.4528, 0.6474,
+//! 0.8198, 0.9437, 1), ℓ_j the Lagrange polynomials through c₀ … c₈. The accelerations a_j at t + c_j·h define a
+//! polynomial of degree eight, a(t + x·h) = Σ_j ℓ_j(x)·a_j. Its integrals from the start give the states at the nodes:
 //!
-//! A step is stable up to 2.3 over the frequency of an oscillation, and up to 1.2 over the rate of a decay.
+//! ```text
+//! v(t + c_i·h) = v + h·Σ_j A_ij·a_j,               A_ij = ∫ ℓ_j(x) dx,
+//! q(t + c_i·h) = q + c_i·h·v + h²·Σ_j B_ij·a_j,    B_ij = ∫ (c_i − x)·ℓ_j(x) dx,   both from 0 to c_i.
+//! ```
 //!
-//! The rates at eight states together take little more time than at two: a single state leaves the processor waiting
-//! for its own results.
+//! Predictor: with r = h/h₋ the point x of the step is the point 1 + r·x of the previous block, so that a(t + x·h) =
+//! Σ_j ℓ_j(1 + r·x)·a₋_j. For r = 1 the integrals of ℓ_j(1 + x) are constants (`EXTRAPOLATION`). Otherwise the
+//! polynomial is expanded in powers of x about the point 1 (`POWERS`), scaled by powers of r and integrated term by
+//! term (`MONOMIALS`). A failed attempt predicts the shorter attempt that follows, from the same start: its polynomial
+//! is expanded about the point 0. Without history, at the start of a motion or after an event, a = a₀ is predicted.
+//!
+//! Corrector: a round evaluates the rates at the predicted states of all nodes and integrates them. A round gains two
+//! orders, because positions are integrated twice from accelerations. Three rounds suffice after a prediction by a
+//! previous block and five without history. Radau's quadrature makes the velocity at the end exact for accelerations up
+//! to degree 14.
+//!
+//! Error estimate: the change of the end's rates after the last round, which shows how far the corrector has converged,
+//! and the coefficient of degree eight of the accelerations in Legendre polynomials, which is small unless they have a
+//! discontinuity.
+//!
+//! A step is stable up to 2.3 over the angular frequency of an oscillation and up to 1.2 over the rate of a decay.
+//!
+//! Evaluating the rates at eight states together takes little more time than at two: with a single state the processor
+//! waits for its own results.
 
 mod nodes;
 
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::snapshot::{Reader, Snapshot};
-use crate::integrator::state::{StepPoint, is_kept};
+use crate::integrator::state::{StepPoint, is_valid};
 use crate::integrator::system::{StateLayout, System};
 use crate::math::{F64x8, Fused, ROW, Real, unroll};
-use nodes::{AHEAD, INTEGRALS, MONOMIALS, NODES, POWERS, TOP, Tables};
+use nodes::{EXTRAPOLATION, INTEGRALS, MONOMIALS, NODES, POWERS, TOP_DEGREE_WEIGHTS, Tables};
 
 const PROPERTIES: Properties = Properties {
     name: "cong8",
@@ -40,29 +68,30 @@ const PROPERTIES: Properties = Properties {
     error_share: ERROR_SHARE,
     others: &[],
 };
-/// Rounds after the prediction, where there is a step to predict from, and where there is none.
-const ROUNDS: usize = 3;
-const FIRST_ROUNDS: usize = 5;
-/// A step this many times as long as the last is not predicted from it.
-const FARTHEST: f64 = 2.5;
-/// Two steps whose lengths differ by less than this share are as long as each other.
+/// Number of corrector rounds after a prediction from the previous block.
+const CORRECTOR_ROUNDS: usize = 3;
+/// Number of corrector rounds without history.
+const CORRECTOR_ROUNDS_WITHOUT_HISTORY: usize = 5;
+/// A step longer than this many times the previous block is not predicted from it.
+const MAX_LENGTH_RATIO: f64 = 2.5;
+/// Lengths of steps whose ratio differs from 1 by less than this are equal.
 const ROUNDING: f64 = 1e-9;
-/// How much of a step's error follows from what its end's rates moved by after the last round: what was left to correct grows
-/// with a high power of the time in the step, and the rounds' own gain is the rest.
-const LATE: [f64; 2] = [1.0 / 32.0, 1.0 / 288.0];
-/// And from the part of degree eight in the accelerations: small, unless they have a discontinuity.
-const BENT: f64 = 0.02;
+/// Factors of the change of the end's rates after the last round in the error of a velocity and of a position. The
+/// remaining correction grows with a high power of the time in the step, and another round would reduce it further.
+const CORRECTION_FACTORS: [f64; 2] = [1.0 / 32.0, 1.0 / 288.0];
+/// Factor of the accelerations' part of degree eight in the error; the part is small unless they have a discontinuity.
+const TOP_DEGREE_FACTOR: f64 = 0.02;
 
-/// The rates in a step that was made so, or in an attempt that failed: what the next one is predicted from.
+/// History of the predictor: the rates in the previous block, or in an attempt that failed.
 #[derive(Clone, Debug, PartialEq)]
 struct BlockHistory {
-    /// [s] When the step began.
+    /// [s] Start of the block.
     begin: f64,
-    /// [s] When it ended; as `begin` where there is none.
+    /// [s] End of the block; equal to `begin` without history.
     end: f64,
-    /// Rates at its start.
+    /// Rates at the block's start.
     start: Vec<f64>,
-    /// Rates at its nodes.
+    /// Rates at the block's nodes.
     nodes: Vec<F64x8>,
 }
 
@@ -71,15 +100,16 @@ impl BlockHistory {
         Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![F64x8::ZERO; states] }
     }
 
-    /// There is one.
+    /// Whether there is a history.
     fn is_some(&self) -> bool {
         self.end > self.begin
     }
 
-    /// Where in it a step of `h` from `t` begins: at its start (0) or its end (1).
+    /// The point of the previous block at which a step of `h` from `t` starts: its start (0) or its end (1). `None` if
+    /// the step cannot be predicted.
     fn origin(&self, t: f64, h: f64) -> Option<usize> {
         let length = self.end - self.begin;
-        if length <= 0.0 || h > FARTHEST * length {
+        if length <= 0.0 || h > MAX_LENGTH_RATIO * length {
             None
         } else if t == self.end {
             Some(1)
@@ -88,8 +118,9 @@ impl BlockHistory {
         }
     }
 
-    /// Coefficients of the polynomial of rate `i` about the `origin` of a step that is `ratio` times as long, in powers of
-    /// its share: of 1, and of those from the first on.
+    /// Coefficients of the polynomial of rate `i` about `origin`, in powers of the share of the new step: the constant
+    /// term, and those of the powers 1 to 8. `powers` are the powers 1 to 8 of the ratio of the new length to that of
+    /// the block.
     #[inline(always)]
     fn coefficients(&self, origin: usize, powers: F64x8, i: usize) -> (f64, F64x8) {
         let (first, at) = (self.start[i], self.nodes[i].numbers());
@@ -102,25 +133,25 @@ impl BlockHistory {
     }
 }
 
-/// The method of eight nodes at a time.
+/// The block method with eight nodes.
 #[derive(Clone, Debug)]
 pub struct Cong8 {
     history: BlockHistory,
-    /// Rates at the nodes of the last attempt.
+    /// Rates at the nodes in the last attempt.
     nodes: Vec<F64x8>,
-    /// States there.
+    /// States at the nodes.
     y: Vec<F64x8>,
 }
 
 impl Cong8 {
-    /// For so many states.
+    /// The method for `states` states.
     pub fn new(states: usize) -> Self {
         let rows = || vec![F64x8::ZERO; states];
         Self { history: BlockHistory::new(states), nodes: rows(), y: rows() }
     }
 }
 
-/// The states at a step's nodes, as they follow from accelerations.
+/// The states at a step's nodes, integrated from accelerations.
 struct States<'a> {
     start: &'a [f64],
     layout: StateLayout,
@@ -129,14 +160,15 @@ struct States<'a> {
 }
 
 impl States<'_> {
-    /// From weights of columns for every velocity (and first-order state).
+    /// Integrates all velocities and first-order states: `weights(i)` are the coefficients by which the columns of
+    /// `tables` are multiplied for state `i`.
     #[inline(always)]
-    fn follow(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, F64x8)) {
+    fn integrate(&mut self, tables: &Tables, weights: impl Fn(usize) -> (f64, F64x8)) {
         let StateLayout { positions: p, states, .. } = self.layout;
         for i in p..states {
             let (first, others) = weights(i);
             let numbers = others.numbers();
-            // Even and odd columns apart: half as long to wait.
+            // Separate sums of even and odd columns halve the chain of dependent operations.
             let mut sums = [[tables[0][0] * first, F64x8::ZERO], [tables[1][0] * first, F64x8::ZERO]];
             unroll!(true, j < ROW => {
                 let weight = F64x8::constant(numbers[j]);
@@ -144,22 +176,22 @@ impl States<'_> {
                 sums[1][j % 2] = tables[1][1 + j].multiply_add(weight, sums[1][j % 2]);
             });
             let [once, twice] = sums.map(|[even, odd]| even + odd);
-            self.place(i, once, twice);
+            self.set_state(i, once, twice);
         }
     }
 
-    /// From rates that stay as they are at the start.
-    fn go_on(&mut self, rates: &[f64]) {
+    /// Integrates rates that keep their values at the start.
+    fn integrate_constant(&mut self, rates: &[f64]) {
         let StateLayout { positions: p, states, .. } = self.layout;
         let [once, twice] = [MONOMIALS[0][0], MONOMIALS[1][0]];
         for (i, rate) in rates.iter().enumerate().take(states).skip(p) {
-            self.place(i, once * *rate, twice * *rate);
+            self.set_state(i, once * *rate, twice * *rate);
         }
     }
 
-    /// Velocity `i` (or a first-order state) and its position by what the integrals add to them.
+    /// Sets velocity (or first-order state) `i` and its position from the integrals `once` and `twice` of its rate.
     #[inline(always)]
-    fn place(&mut self, i: usize, once: F64x8, twice: F64x8) {
+    fn set_state(&mut self, i: usize, once: F64x8, twice: F64x8) {
         let Self { start, h, y, layout: StateLayout { positions: p, .. }, .. } = self;
         y[i] = once.multiply_add(*h, F64x8::constant(start[i]));
         if i < 2 * *p {
@@ -195,23 +227,23 @@ impl<D: Copy> Method<D> for Cong8 {
         let rounds = if let Some(origin) = history.origin(start.t, h) {
             let ratio = h / (history.end - history.begin);
             if origin == 1 && (ratio - 1.0).abs() < ROUNDING {
-                at_nodes.follow(&AHEAD, |i| (history.start[i], history.nodes[i]));
+                at_nodes.integrate(&EXTRAPOLATION, |i| (history.start[i], history.nodes[i]));
             } else {
                 let mut powers = [ratio; ROW];
                 unroll!(true, n in 1..ROW, ROW => {
                     powers[n] = powers[n - 1] * ratio;
                 });
                 let powers = F64x8::of(powers);
-                at_nodes.follow(&MONOMIALS, |i| history.coefficients(origin, powers, i));
+                at_nodes.integrate(&MONOMIALS, |i| history.coefficients(origin, powers, i));
             }
-            ROUNDS
+            CORRECTOR_ROUNDS
         } else {
-            at_nodes.go_on(&start.rates);
-            FIRST_ROUNDS
+            at_nodes.integrate_constant(&start.rates);
+            CORRECTOR_ROUNDS_WITHOUT_HISTORY
         };
         for _ in 0..rounds {
             system.rates_in_row(&start.discrete, &t, at_nodes.y, nodes);
-            at_nodes.follow(&INTEGRALS, |i| (start.rates[i], nodes[i]));
+            at_nodes.integrate(&INTEGRALS, |i| (start.rates[i], nodes[i]));
         }
         for (y, at_nodes) in end.y.iter_mut().zip(&*at_nodes.y) {
             *y = at_nodes.last();
@@ -220,11 +252,12 @@ impl<D: Copy> Method<D> for Cong8 {
         system.rates_and_event_functions(&start.discrete, start.t + h, y, rates, &mut attempt.events);
         for i in p..states {
             let (first, at) = (start.rates[i], nodes[i]);
-            let late = (rates[i] - at.last()).abs();
-            let top = BENT * TOP.0.multiply_add(first, (TOP.1 * at).sum()).abs();
-            attempt.error[i] = h * (late * LATE[0] + top);
+            let last_correction = (rates[i] - at.last()).abs();
+            let top =
+                TOP_DEGREE_FACTOR * TOP_DEGREE_WEIGHTS.0.multiply_add(first, (TOP_DEGREE_WEIGHTS.1 * at).sum()).abs();
+            attempt.error[i] = h * (last_correction * CORRECTION_FACTORS[0] + top);
             if i < 2 * p {
-                attempt.error[i - p] = h * h * (late * LATE[1] + 0.3 * top);
+                attempt.error[i - p] = h * h * (last_correction * CORRECTION_FACTORS[1] + 0.3 * top);
             }
         }
         attempt.unseen.fill(0.0);
@@ -262,6 +295,6 @@ impl<D: Copy> Method<D> for Cong8 {
                 *row = F64x8::of(reader.reals()?);
             }
         }
-        (*begin <= *end && start.iter().all(|rate| is_kept(*rate))).then_some(())
+        (*begin <= *end && start.iter().all(|rate| is_valid(*rate))).then_some(())
     }
 }

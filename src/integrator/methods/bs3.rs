@@ -1,12 +1,12 @@
-//! Bogacki and Shampine 3(2): P. Bogacki, L. F. Shampine, A 3(2) pair of Runge-Kutta formulas, Appl.
-//! Math. Lett. 2 (1989) 321-325.
+//! Bogacki–Shampine 3(2): P. Bogacki, L. F. Shampine, A 3(2) pair of Runge-Kutta formulas, Appl. Math. Lett. 2 (1989)
+//! 321-325.
 
 use crate::integrator::tableau::Tableau;
 
 const WEIGHTS: [f64; 4] = [2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0, 0.0];
 const EMBEDDED: [f64; 4] = [7.0 / 24.0, 1.0 / 4.0, 1.0 / 3.0, 1.0 / 8.0];
 
-/// The order-3 pair of four stages, the last of which is the next step's first.
+/// The order-3 pair of four stages; the last stage is the first of the next step.
 pub static BS3: Tableau = Tableau {
     name: "bs3",
     stages: 4,

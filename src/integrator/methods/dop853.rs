@@ -1,5 +1,5 @@
-//! Dormand and Prince 8(5,3): E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential
-//! Equations I, 2nd ed., Springer 1993, II.5 and the code DOP853 in its appendix.
+//! Dormand–Prince 8(5,3): E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
+//! Springer 1993, II.5, and the code DOP853 in its appendix.
 
 use crate::integrator::tableau::Tableau;
 

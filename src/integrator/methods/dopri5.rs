@@ -1,5 +1,5 @@
-//! Dormand and Prince 5(4): J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae,
-//! J. Comput. Appl. Math. 6 (1980) 19-26, RK5(4)7M.
+//! Dormand–Prince 5(4): J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae, J. Comput. Appl. Math.
+//! 6 (1980) 19-26, RK5(4)7M.
 
 use crate::integrator::tableau::Tableau;
 
@@ -7,7 +7,7 @@ const WEIGHTS: [f64; 7] = [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -21
 const EMBEDDED: [f64; 7] =
     [5179.0 / 57600.0, 0.0, 7571.0 / 16695.0, 393.0 / 640.0, -92097.0 / 339200.0, 187.0 / 2100.0, 1.0 / 40.0];
 
-/// The order-5 pair of seven stages, the last of which is the next step's first.
+/// The order-5 pair of seven stages; the last stage is the first of the next step.
 pub static DOPRI5: Tableau = Tableau {
     name: "dopri5",
     stages: 7,

@@ -1,6 +1,6 @@
-//! The stages of one step: k_i = f(t + c_i·h, y + h·Σ a_ij·k_j).
+//! Explicit Runge–Kutta methods: the stages k_i = f(t + c_i·h, y + h·Σ a_ij·k_j) of one step.
 //!
-//! One loop serves all tableaux and any number of states: sums are taken over four or eight states together.
+//! One loop serves all tableaux and any number of states. The sums are computed for four or eight states together.
 
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, Properties};
 use crate::integrator::state::StepPoint;
@@ -9,10 +9,11 @@ use crate::integrator::tableau::{MAX_STAGES, Tableau};
 use crate::math::Fused;
 use wide::f64x4;
 
-/// How many states are summed together, at least and at most: less of the loop over stages for each.
+/// Smallest number of states that are summed together.
 const FOUR: usize = 4;
+/// Number of states that are summed together where possible: it halves the overhead of the loop over the stages.
 const EIGHT: usize = 2 * FOUR;
-/// What errors are added to.
+/// Initial value of the error sums.
 static ZEROS: [f64; MAX_STATES] = [0.0; MAX_STATES];
 
 /// An explicit Runge-Kutta method.
@@ -20,18 +21,18 @@ static ZEROS: [f64; MAX_STATES] = [0.0; MAX_STATES];
 pub struct Explicit {
     tableau: &'static Tableau,
     properties: Properties,
-    /// Rates at the stages, one stage after the other, and room to read several at a time.
+    /// Rates at the stages, one stage after the other, and padding for reads of several numbers at a time.
     k: Vec<f64>,
-    /// First stage after the first of all that an error estimate weighs.
+    /// The first stage after stage 0 that an error estimate weighs; 0 without an estimate.
     weighted: usize,
-    /// Nodes of the stages before that one over its node.
+    /// Nodes of the stages over the node of stage `weighted`.
     shares: [f64; MAX_STAGES],
 }
 
 impl Explicit {
-    /// For so many states.
+    /// The method of `tableau` for `states` states.
     pub fn new(tableau: &'static Tableau, states: usize) -> Self {
-        let weighted = tableau.first_weighed_stage();
+        let weighted = tableau.first_weighted_stage();
         let properties = Properties {
             name: tableau.name,
             order: tableau.order,
@@ -54,9 +55,9 @@ impl Explicit {
         &self.properties
     }
 
-    /// The fastest rate that shows in a step made by a method whose last two stages are at the same instant, times the
-    /// step: how far their rates are apart over how far their states are (E. Hairer, G. Wanner, Solving Ordinary
-    /// Differential Equations II, IV.2, on stiffness detection).
+    /// Step times the fastest rate that the last step reveals, for a method whose last two stages are at the same
+    /// instant: the difference of their rates over the difference of their states (E. Hairer, G. Wanner, Solving
+    /// Ordinary Differential Equations II, IV.2, on stiffness detection).
     pub fn stiffness(&self, layout: StateLayout, scales: &[f64]) -> f64 {
         let Self { tableau, k, .. } = self;
         let n = layout.states;
@@ -68,7 +69,7 @@ impl Explicit {
             rates += ((k[last * n + i] - k[before * n + i]) / scale).powi(2);
             states += (state / scale).powi(2);
         }
-        // By h less than the states are apart.
+        // The sums of states lack the factor h.
         (rates / states).sqrt()
     }
 }
@@ -113,7 +114,7 @@ impl<D: Copy> Method<D> for Explicit {
     }
 }
 
-/// Four of a list.
+/// The first four numbers of a list; zeros if the list is shorter.
 #[inline(always)]
 fn four(list: &[f64]) -> f64x4 {
     list.first_chunk().map_or(f64x4::ZERO, |four| f64x4::new(*four))
@@ -125,8 +126,9 @@ fn multiply_add(a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// y + h·Σ weight_j·k_j of every state; a weight of zero costs nothing. The last rates are added last, and one by one as
-/// they were written: what they wait for is theirs alone, and they need not have left the processor's store buffer.
+/// Writes y + h·Σ weight_j·k_j of every state; zero weights are skipped. The rates of the last stage are added last and
+/// one by one, as they were written: only they have to be waited for, and they can be read from the processor's store
+/// buffer.
 #[inline(always)]
 fn write_sums(sums: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[f64]) {
     let (n, last) = (sums.len(), weights.len() - 1);
@@ -145,7 +147,7 @@ fn write_sums(sums: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[f64]) {
     }
 }
 
-/// y + change + weight·rate of each.
+/// Writes y + change + weight·rate of each state.
 #[inline(always)]
 fn add(sums: &mut [f64], y: &[f64], changes: &[f64], weight: f64, rates: &[f64]) {
     let all = sums.iter_mut().zip(y).zip(changes).zip(rates);
@@ -156,7 +158,7 @@ fn add(sums: &mut [f64], y: &[f64], changes: &[f64], weight: f64, rates: &[f64])
     }
 }
 
-/// Σ weight_j·k_j of so many fours of states, whose rates at one stage are `n` places from those at the next.
+/// Σ weight_j·k_j for `FOURS` groups of four states; the rates of successive stages are `n` places apart.
 #[inline(always)]
 fn slopes<const FOURS: usize>(weights: &[f64], k: &[f64], n: usize) -> [f64x4; FOURS] {
     let mut slopes = [f64x4::ZERO; FOURS];
@@ -171,10 +173,10 @@ fn slopes<const FOURS: usize>(weights: &[f64], k: &[f64], n: usize) -> [f64x4; F
     slopes
 }
 
-/// What no error estimate sees. A force that sets in early throws the stages after it out of its reach if the step is
-/// far too long; they see nothing, agree with each other, and the estimate is small for a step that missed
-/// everything. The early stages themselves give it away. The `shares` are those of the stages before the first weighted
-/// one of its node.
+/// Writes the deviation of the early stages, which no error estimate sees (see [`Attempt::unseen`]). If a step is far
+/// too long, a force that sets in early can throw all later stages out of its reach. They agree with each other, and
+/// the estimate is small although the step missed the force. Only the early stages reveal it. `shares` are the nodes of
+/// the stages before the first weighted stage over its node.
 fn write_unseen(unseen: &mut [f64], h: f64, shares: &[f64], k: &[f64]) {
     let weighted = shares.len();
     let n = unseen.len();

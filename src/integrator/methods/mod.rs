@@ -1,4 +1,4 @@
-//! One method a file: coefficients as printed, and where they are printed.
+//! Integration methods, one per file: coefficients as printed in the source, with the citation.
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
 pub mod automatic;
@@ -33,7 +33,7 @@ use rosenbrock::Rosenbrock;
 /// All explicit Runge-Kutta methods.
 pub static EXPLICIT: [&Tableau; 6] = [&BS3, &DOPRI5, &VERNER7, &DOP853, &RK4, &RK4_UNLOCATED];
 
-/// The method of this name in the `solver.method` enumeration, for so many states.
+/// The method of this name in the `solver.method` enumeration, for `states` states; `None` for an unknown name.
 pub fn named<D: Copy + 'static>(name: &str, states: usize) -> Option<Box<dyn Method<D>>> {
     if let Some(tableau) = EXPLICIT.into_iter().find(|tableau| tableau.name == name) {
         return Some(Box::new(Explicit::new(tableau, states)));

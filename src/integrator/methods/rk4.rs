@@ -1,8 +1,8 @@
-//! The classical fourth-order method, Kutta 1901; no error estimate, so its step is fixed.
+//! The classical fourth-order method of Kutta (1901). It has no error estimate, so its step is fixed.
 
 use crate::integrator::tableau::{MAX_STAGES, Tableau};
 
-/// The classical method at a fixed step.
+/// The classical method at a fixed step, with event location.
 pub static RK4: Tableau = Tableau {
     name: "rk4",
     stages: 4,
@@ -17,8 +17,8 @@ pub static RK4: Tableau = Tableau {
     locates: true,
 };
 
-/// The same, blind to events within a step: a contact that closes or opens does so at the step's end.
-/// For comparison with codes that do not locate impacts.
+/// The classical method without event location: a contact closes or opens at the end of a step. It serves to compare
+/// with codes that do not locate impacts.
 pub static RK4_UNLOCATED: Tableau = Tableau { name: "rk4_unlocated", locates: false, ..RK4 };
 
 const _: () = assert!(RK4.is_consistent());

@@ -1,5 +1,5 @@
-//! RODAS: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.7 and
-//! IV.10; order 4(3), stiffly accurate, L-stable; coefficients as in the authors' rodas.f.
+//! RODAS: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.7 and IV.10. Order 4(3),
+//! stiffly accurate, L-stable; coefficients as in the authors' rodas.f.
 
 use super::rosenbrock::Coefficients;
 

@@ -1,17 +1,16 @@
-//! Rosenbrock methods: linearly implicit, one factorisation a step, with the exact Jacobian J.
+//! Rosenbrock methods: linearly implicit, with the exact Jacobian J and one factorisation per step.
 //!
-//! Stage i solves (1/(hγ) − J)·u_i = f(t + α_i·h, y + Σ a_ij·u_j) + Σ (c_ij/h)·u_j + γ_i·h·∂f/∂t, and the
-//! step ends at y + Σ m_j·u_j (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.7, in
-//! the variables of (7.25)). Positions drop out: their rates are velocities, so that u of a position is
-//! hγ times its right side plus u of its velocity, and only velocities and first-order states are
-//! solved for.
+//! Stage i solves (1/(hγ) − J)·u_i = f(t + α_i·h, y + Σ a_ij·u_j) + Σ (c_ij/h)·u_j + γ_i·h·∂f/∂t, and the step ends at
+//! y + Σ m_j·u_j (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.7, in the variables of (7.25)).
+//! The rates of positions are velocities. Hence u of a position is hγ times its right-hand side plus u of its velocity,
+//! and only the equations of velocities and first-order states are factorised.
 
 use crate::integrator::linear::Factors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::{Jacobian, StateLayout, System};
 
-/// Stages of the methods here.
+/// Number of stages.
 pub const STAGES: usize = 6;
 
 /// Coefficients of a Rosenbrock method.
@@ -19,7 +18,7 @@ pub const STAGES: usize = 6;
 pub struct Coefficients {
     /// Name in the `solver.method` enumeration.
     pub name: &'static str,
-    /// Order of the solution that is carried on.
+    /// Order of the solution.
     pub order: u32,
     /// γ.
     pub gamma: f64,
@@ -49,7 +48,7 @@ pub struct Rosenbrock {
 }
 
 impl Rosenbrock {
-    /// For so many states.
+    /// The method for `states` states.
     pub fn new(coefficients: &'static Coefficients, states: usize) -> Self {
         let properties = Properties {
             name: coefficients.name,
@@ -73,7 +72,7 @@ impl Rosenbrock {
         &self.properties
     }
 
-    /// The derivatives of the rates at the start of the last attempt, or what was written since.
+    /// The derivatives of the rates at the start of the last attempt, as workspace for other uses between attempts.
     pub fn jacobian(&mut self) -> &mut Jacobian {
         &mut self.jacobian
     }
@@ -128,12 +127,12 @@ impl<D: Copy> Method<D> for Rosenbrock {
         sum(&mut end.y, |k| start.y[k], &method.weights, u);
         sum(&mut attempt.error, |_| 0.0, &method.error, u);
         attempt.unseen.fill(0.0);
-        // The Jacobian counts as one.
+        // The Jacobian counts as one evaluation.
         STAGES as u64
     }
 }
 
-/// Turns a stage's right side into its u.
+/// Replaces the right-hand side of a stage by its u.
 fn solve(factors: &Factors, jacobian: &Jacobian, g: f64, p: usize, right: &mut [f64]) {
     let states = right.len();
     let (of_positions, rest) = right.split_at_mut(p);
@@ -148,7 +147,7 @@ fn solve(factors: &Factors, jacobian: &Jacobian, g: f64, p: usize, right: &mut [
     }
 }
 
-/// y + Σ weight_j·u_j of every state.
+/// Writes y + Σ weight_j·u_j of every state.
 fn sum(sums: &mut [f64], y: impl Fn(usize) -> f64, weights: &[f64], u: &[f64]) {
     let states = sums.len();
     for (k, sum) in sums.iter_mut().enumerate() {

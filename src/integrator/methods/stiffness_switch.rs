@@ -1,134 +1,145 @@
-//! Which of its methods a changing one uses: one that makes a step as a block, an explicit one, or a linearly implicit one
-//! where the motion is stiff.
+//! Selects the kind of steps of the automatic method: a block, an explicit step, or a linearly implicit step in stiff
+//! motion.
 //!
-//! A contact that closes slowly gets a damping that grows with the approach speed's inverse; pressed on by a load, it
-//! stays closed, creeps, and bounds the steps of an explicit method by their stability long after its own motion is
-//! over. A linearly implicit method is not bound, but its steps are dearer: it is worth it only while its steps are so
-//! much longer.
+//! A contact that closes slowly has a damping that grows with the inverse of the approach speed. Under a load the
+//! contact stays closed and creeps, and its stability bounds the steps of an explicit method long after its transient
+//! has decayed. A linearly implicit method has no such bound, but its steps cost more. It pays only while its steps are
+//! longer by the ratio of the costs.
 //!
-//! Stiffness is suspected where an explicit step comes near its bound of stability, as two stages at the same instant
-//! tell (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection), and then tried. A trial that
-//! does not pay is given up after a few steps, and the next waits longer.
+//! Stiffness is suspected where an explicit step comes near its stability bound, as two stages at the same instant
+//! reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
+//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer.
 //!
-//! A step in a block is the cheapest where its problem suits it, and the least stable: where its own bound is near, the
-//! explicit method is tried in the same way, and kept while its steps are about as long.
+//! A block is the cheapest kind where the system suits it, and has the smallest stability bound. Where that bound is
+//! near, the explicit method is tried in the same way and kept while its steps are about as long as blocks.
 
 use crate::integrator::method::MethodKind;
 use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 
-/// How many accepted steps the next look waits for, after a change that paid, and at most.
-const PATIENCE: u32 = 32;
-const MOST_PATIENCE: u32 = 1024;
-/// Share of the explicit method's bound of stability from which on a step is suspicious.
-const SUSPICIOUS: f64 = 0.6;
-/// A linearly implicit step costs as much as so many explicit ones, and so many more for each position: as measured with
-/// two positions to nine.
-const PRICE: f64 = 1.5;
-const PRICE_OF_POSITION: f64 = 0.4;
-/// Where a step in a block is unstable: its length times the rate of a decay. Oscillations may be twice as fast.
+/// Number of accepted steps between two checks after a change that paid.
+const MIN_CHECK_INTERVAL: u32 = 32;
+/// Maximum number of accepted steps between two checks, after changes that did not pay.
+const MAX_CHECK_INTERVAL: u32 = 1024;
+/// A step is suspected to be stiff above this share of the stability bound.
+const SUSPECTED_SHARE: f64 = 0.6;
+/// Cost of a linearly implicit step in explicit steps, without its part for each position; as measured with two to
+/// nine positions.
+const IMPLICIT_COST: f64 = 1.5;
+/// Cost of a linearly implicit step in explicit steps for each position.
+const IMPLICIT_COST_PER_POSITION: f64 = 0.4;
+/// Stability bound of a block: its length times the rate of a decay. Oscillations may be twice as fast.
 const BLOCK_BOUND: f64 = 1.2;
-/// An explicit step costs so much of what one in a block does: as measured with one play in a pin, rigid and flexible.
-const PRICE_BESIDE_BLOCK: f64 = 0.85;
-/// An explicit stretch in a problem that suits blocks ends after so many steps, to see whether it still pays.
-const STRETCH: u32 = 256;
-/// So many steps in a row that do not pay end a stiff stretch.
-const UNPAID: u32 = 3;
-/// A stiff stretch of fewer steps did not pay.
-const WORTHWHILE: u32 = 10;
+/// Cost of an explicit step in blocks, as measured with one clearance in a pin, rod rigid and flexible.
+const EXPLICIT_COST_IN_BLOCKS: f64 = 0.85;
+/// In a system that suits blocks, a series of explicit steps ends after this many steps, to check whether it still
+/// pays.
+const EXPLICIT_SERIES: u32 = 256;
+/// A series of implicit steps ends after this many successive steps that do not pay.
+const MAX_UNPAID: u32 = 3;
+/// A series of fewer steps did not pay.
+const MIN_PAID_STEPS: u32 = 10;
+/// The golden ratio less 1.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// How the next step is made, and what speaks for a change.
+/// The kind of the next step and the evidence for a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StiffnessSwitch {
-    /// How the next step is made.
+    /// The kind of the next step.
     pub kind: MethodKind,
-    /// Accepted steps since the last look; in a stretch that is on trial, since its beginning.
+    /// Number of accepted steps since the last check, or since a trial began.
     pub steps: u32,
-    /// Steps between two looks.
-    pub patience: u32,
-    /// The last steps of a stretch on trial that did not pay.
+    /// Number of steps between two checks.
+    pub check_interval: u32,
+    /// Number of successive last steps of a trial that did not pay.
     pub unpaid: u32,
-    /// [s] The last step in a block before an explicit stretch; none: 0.
+    /// [s] Length of the last block before a series of explicit steps; 0 if there was none.
     pub block: f64,
 }
 
 impl StiffnessSwitch {
-    /// Not stiff, and nothing known.
-    pub const LOOSE: Self = Self { kind: MethodKind::Explicit, steps: 0, patience: PATIENCE, unpaid: 0, block: 0.0 };
-    /// The same, of a problem that suits blocks.
-    pub const IN_BLOCKS: Self = Self { kind: MethodKind::Block, ..Self::LOOSE };
+    /// Start of a non-stiff motion.
+    pub const NON_STIFF: Self =
+        Self { kind: MethodKind::Explicit, steps: 0, check_interval: MIN_CHECK_INTERVAL, unpaid: 0, block: 0.0 };
+    /// Start of a motion of a system that suits blocks.
+    pub const BLOCKS: Self = Self { kind: MethodKind::Block, ..Self::NON_STIFF };
 
-    /// Whether a run can have come to this.
+    /// Whether a run can have produced this state.
     pub fn is_sound(&self) -> bool {
-        (PATIENCE..=MOST_PATIENCE).contains(&self.patience) && self.unpaid < UNPAID && self.block.is_finite()
+        (MIN_CHECK_INTERVAL..=MAX_CHECK_INTERVAL).contains(&self.check_interval)
+            && self.unpaid < MAX_UNPAID
+            && self.block.is_finite()
     }
 
-    /// After an accepted step of `h` [s] in a block: `fastest` tells the fastest rate [1/s] at its end, and is asked only now
-    /// and then.
+    /// Records an accepted block of length `h` [s]. `fastest` computes the fastest rate [1/s] at its end and is called
+    /// only when a check is due.
     pub fn after_block(&mut self, h: f64, fastest: impl FnOnce() -> f64) {
-        if self.looks(self.patience) && h * fastest() > SUSPICIOUS * BLOCK_BOUND {
+        if self.check_is_due(self.check_interval) && h * fastest() > SUSPECTED_SHARE * BLOCK_BOUND {
             *self = Self { kind: MethodKind::Explicit, block: h, ..*self };
         }
     }
 
-    /// After an accepted explicit step: `stiffness` tells its length times the fastest rate seen in it, and is asked only
-    /// now and then; `bound` is where the method is unstable.
+    /// Records an accepted explicit step. `stiffness` computes its length times the fastest rate and is called only
+    /// when a check is due; `bound` is the stability bound of the method.
     pub fn after_explicit(&mut self, bound: f64, stiffness: impl FnOnce() -> f64) {
-        if self.looks(self.patience) && stiffness() > SUSPICIOUS * bound {
+        if self.check_is_due(self.check_interval) && stiffness() > SUSPECTED_SHARE * bound {
             self.kind = MethodKind::Implicit;
         }
     }
 
-    /// The same of an explicit step of `h` [s] where the problem suits blocks.
+    /// Records an accepted explicit step of length `h` [s] in a system that suits blocks; otherwise as
+    /// [`after_explicit`](Self::after_explicit).
     pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
-        self.unpaid = if h < PRICE_BESIDE_BLOCK * self.block { self.unpaid + 1 } else { 0 };
-        if self.looks(STRETCH) {
-            let kind = if stiffness() > SUSPICIOUS * bound { MethodKind::Implicit } else { MethodKind::Block };
-            *self = Self { kind, ..Self::LOOSE };
-        } else if self.unpaid == UNPAID {
-            self.end_trial(Self::IN_BLOCKS);
+        self.unpaid = if h < EXPLICIT_COST_IN_BLOCKS * self.block { self.unpaid + 1 } else { 0 };
+        if self.check_is_due(EXPLICIT_SERIES) {
+            let kind = if stiffness() > SUSPECTED_SHARE * bound { MethodKind::Implicit } else { MethodKind::Block };
+            *self = Self { kind, ..Self::NON_STIFF };
+        } else if self.unpaid == MAX_UNPAID {
+            self.end_trial(Self::BLOCKS);
         }
     }
 
-    /// Whether it is time for a look, after one more step.
-    fn looks(&mut self, patience: u32) -> bool {
+    /// Counts a step and returns whether a check is due.
+    fn check_is_due(&mut self, check_interval: u32) -> bool {
         self.steps = self.steps.saturating_add(1);
-        let now = self.steps >= patience;
+        let now = self.steps >= check_interval;
         if now {
             self.steps = 0;
         }
         now
     }
 
-    /// After an accepted linearly implicit step of `h` [s] of a motion with so many positions, whose fastest rate
-    /// is `fastest` [1/s]: how long the next explicit step may be [s], where it is to be one.
+    /// Records an accepted linearly implicit step of length `h` [s] of a system with `positions` positions and the
+    /// fastest rate `fastest` [1/s]. Returns the upper bound of the next step [s] if that is to be explicit.
     pub fn after_implicit(&mut self, h: f64, bound: f64, fastest: f64, positions: usize) -> Option<f64> {
         self.steps = self.steps.saturating_add(1);
         let stable = bound / fastest;
-        let price = PRICE + PRICE_OF_POSITION * positions as f64;
-        self.unpaid = if h < price * stable { self.unpaid + 1 } else { 0 };
-        if self.unpaid < UNPAID {
+        let cost = IMPLICIT_COST + IMPLICIT_COST_PER_POSITION * positions as f64;
+        self.unpaid = if h < cost * stable { self.unpaid + 1 } else { 0 };
+        if self.unpaid < MAX_UNPAID {
             return None;
         }
-        self.end_trial(Self::LOOSE);
-        Some(SUSPICIOUS * stable)
+        self.end_trial(Self::NON_STIFF);
+        Some(SUSPECTED_SHARE * stable)
     }
 
-    /// After a step that was made in this `kind`, since it could not be made as it was to be.
+    /// Records a step that was completed in `kind` after the intended kind had failed.
     pub fn hand_over(&mut self, kind: MethodKind) {
         self.steps = 0;
-        self.end_trial(Self { kind, ..Self::LOOSE });
+        self.end_trial(Self { kind, ..Self::NON_STIFF });
     }
 
-    /// Goes on as `next`, and looks again later the shorter the stretch was.
+    /// Ends a trial and continues as `next`. After a trial that did not pay, the next check comes later.
     fn end_trial(&mut self, next: Self) {
-        let paid = self.steps >= WORTHWHILE;
-        *self = Self { patience: if paid { PATIENCE } else { (2 * self.patience).min(MOST_PATIENCE) }, ..next };
+        let paid = self.steps >= MIN_PAID_STEPS;
+        *self = Self {
+            check_interval: if paid { MIN_CHECK_INTERVAL } else { (2 * self.check_interval).min(MAX_CHECK_INTERVAL) },
+            ..next
+        };
     }
 }
 
-/// [1/s] About the fastest rate of a motion near a state with these derivatives of the rates, by powers of their matrix
-/// on a vector without pattern: over an even number of them an oscillation comes back to the phase that it had.
+/// [1/s] Estimate of the fastest rate of the motion near a state, from its Jacobian by power iteration on a vector
+/// without pattern. After an even number of iterations an oscillation has returned to its phase.
 pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64]) -> f64 {
     let StateLayout { positions, weighted, .. } = layout;
     let next = |y: &mut [f64; MAX_STATES]| {
@@ -154,7 +165,7 @@ pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64]) -> f64 
     for _ in 0..4 {
         next(&mut y);
     }
-    // 0 where nothing acts.
+    // 0 for a Jacobian of zeros.
     (square(&y) / before).sqrt().sqrt().sqrt().max(0.0)
 }
 
@@ -192,17 +203,17 @@ mod tests {
 
     #[test]
     fn a_trial_that_does_not_pay_makes_the_next_wait_longer() {
-        let mut switch = StiffnessSwitch::LOOSE;
+        let mut switch = StiffnessSwitch::NON_STIFF;
         let trial = |switch: &mut StiffnessSwitch| {
-            let looks = (1..).find(|_| {
+            let steps = (1..).find(|_| {
                 switch.after_explicit(4.6, || 4.0);
                 switch.kind == MethodKind::Implicit
             });
             let ends = (1..).find(|_| switch.after_implicit(1e-6, 4.6, 4e6, 2).is_some());
-            (looks, ends)
+            (steps, ends)
         };
-        for patience in [32, 64, 128, 256, 512, 1024, 1024] {
-            assert_eq!(trial(&mut switch), (Some(patience), Some(3)));
+        for check_interval in [32, 64, 128, 256, 512, 1024, 1024] {
+            assert_eq!(trial(&mut switch), (Some(check_interval), Some(3)));
             assert!(switch.is_sound());
         }
         // One that paid for a while, and then no more.
@@ -211,12 +222,12 @@ mod tests {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
             switch.after_implicit(h, 4.6, 4e6, 2).is_some()
         });
-        assert_eq!((ends, switch), (Some(22), StiffnessSwitch::LOOSE));
+        assert_eq!((ends, switch), (Some(22), StiffnessSwitch::NON_STIFF));
     }
 
     #[test]
     fn steps_far_within_stability_are_never_tried() {
-        let mut switch = StiffnessSwitch::LOOSE;
+        let mut switch = StiffnessSwitch::NON_STIFF;
         for _ in 0..1000 {
             switch.after_explicit(4.6, || 2.0);
         }
@@ -225,7 +236,7 @@ mod tests {
 
     #[test]
     fn explicit_steps_beside_blocks_are_kept_while_they_are_about_as_long() {
-        let mut switch = StiffnessSwitch::IN_BLOCKS;
+        let mut switch = StiffnessSwitch::BLOCKS;
         let trial = |switch: &mut StiffnessSwitch, length: f64| {
             let blocks = (1..).find(|_| {
                 switch.after_block(1e-6, || 1e6);
@@ -238,8 +249,8 @@ mod tests {
             });
             (blocks, steps)
         };
-        for patience in [32, 64, 128, 256, 512, 1024, 1024] {
-            assert_eq!(trial(&mut switch, 0.5e-6), (Some(patience), Some(3)));
+        for check_interval in [32, 64, 128, 256, 512, 1024, 1024] {
+            assert_eq!(trial(&mut switch, 0.5e-6), (Some(check_interval), Some(3)));
         }
         assert_eq!(trial(&mut switch, 2e-6), (Some(1024), Some(256)));
         assert_eq!(trial(&mut switch, 2e-6), (Some(32), Some(256)));
@@ -247,6 +258,6 @@ mod tests {
         while switch.kind == MethodKind::Explicit {
             switch.after_explicit_beside_blocks(2e-6, 4.6, || 4.0);
         }
-        assert_eq!(switch, StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::LOOSE });
+        assert_eq!(switch, StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::NON_STIFF });
     }
 }

@@ -1,6 +1,5 @@
-//! Verner 7(6), the most efficient pair of its family: J. H. Verner, Numerically optimal
-//! Runge-Kutta pairs with interpolants, Numer. Algorithms 53 (2010) 383-396; coefficients as in the
-//! author's RKV76.IIa.Efficient.00001675585.
+//! Verner 7(6), the most efficient pair of its family: J. H. Verner, Numerically optimal Runge-Kutta pairs with
+//! interpolants, Numer. Algorithms 53 (2010) 383-396; coefficients as in the author's RKV76.IIa.Efficient.00001675585.
 
 use crate::integrator::tableau::Tableau;
 

@@ -1,13 +1,12 @@
-//! Hysteresis damping: χ of each law as a function of the restitution.
+//! Hysteresis damping: the factor χ of each law as a function of the restitution.
 
 use crate::math;
 use crate::scene::DampingLaw;
 
-/// χ of `law` at the restitution `e` (0 < e ≤ 1).
+/// Damping factor χ of `law` at the restitution `e` (0 < e ≤ 1).
 ///
-/// A free impact under f_n = F(δ)·(1 + χ·δ̇/δ̇⁻) returns the e that solves
-/// χ(1 + e) = ln((1 + χ)/(1 − χ·e)), for any elastic law F. Only `ZhangSharf` solves that; the others
-/// approximate it, near e = 1 for the older ones.
+/// A free impact under f_n = F(δ)·(1 + χ·δ̇/δ̇⁻) has the restitution e that solves χ(1 + e) = ln((1 + χ)/(1 − χ·e)),
+/// for any elastic law F. `ZhangSharf` solves this equation; the other laws approximate it, the older ones near e = 1.
 pub fn factor(law: DampingLaw, e: f64) -> f64 {
     match law {
         DampingLaw::Hertz => 0.0,
@@ -36,7 +35,7 @@ pub fn factor(law: DampingLaw, e: f64) -> f64 {
 
 /// The root χ in (0, 1/e) of χ(1 + e) = ln((1 + χ)/(1 − χ·e)), by bisection to the last bit.
 ///
-/// With χ = x/e the right side minus the left is negative below the root and positive above it.
+/// The right side less the left is negative below the root and positive above it.
 fn exact(e: f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
@@ -45,7 +44,7 @@ fn exact(e: f64) -> f64 {
     // Series about χ = 0: the root is 3(1 − e²)/(2(1 + e³)) to first order in 1 − e.
     let series = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
     if series < 1e-5 {
-        // The excess is third order in χ: below this its rounding is larger than itself.
+        // The difference is of third order in χ: below this χ its rounding error exceeds it.
         return series;
     }
     let (mut low, mut high) = (0.1 * series, 1.0 / e);

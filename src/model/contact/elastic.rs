@@ -1,16 +1,17 @@
-//! Elastic force as a function of penetration: the laws that there are.
+//! The elastic laws: force as a function of penetration.
 
 use super::elastic_law::{ElasticLaw, PowerLaw};
 use super::linear::Linear;
 use crate::math::Real;
 use crate::scene;
 
-/// Declares [`Elastic`] from the declared elasticities.
+/// Declares [`Elastic`] from the list of declared elasticities.
 macro_rules! elastic {
     ($($law:ident in $file:ident,)+) => {
         $(use super::$file::$law;)+
 
-        /// The elastic law of one contact with its numbers: one of the scene's elasticities, or that of the slider's faces.
+        /// The elastic law of one contact with its parameters: one of the scene's elasticities, or that of the slider's
+        /// faces.
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[expect(missing_docs, reason = "each is the law of its name")]
         pub enum Elastic {
@@ -19,14 +20,14 @@ macro_rules! elastic {
         }
 
         impl Elastic {
-            /// Of a revolute joint.
+            /// The elastic law of a revolute joint.
             pub fn new(joint: &scene::Revolute) -> Self {
                 match joint.elasticity {
                     $(scene::Elasticity::$law => Self::$law($law::new(joint)),)+
                 }
             }
 
-            /// Any law's, out of line: a call costs the common laws nothing.
+            /// The force of any law, out of line, so that the common laws do not pay for the others.
             #[cold]
             #[inline(never)]
             fn rare_force<R: Real>(&self, depth: R) -> R {
@@ -44,7 +45,7 @@ macro_rules! elastic {
                 }
             }
 
-            /// The power law for penetrations that go to 0.
+            /// The power law that this law tends to as the penetration tends to 0.
             pub fn for_small_penetrations(&self) -> PowerLaw {
                 match self {
                     $(Self::$law(law) => law.for_small_penetrations(),)+
@@ -58,7 +59,7 @@ macro_rules! elastic {
 elasticities!(elastic);
 
 impl Elastic {
-    /// [N] F at the penetration `depth` [m], which is not negative.
+    /// [N] F at the penetration `depth` [m] ≥ 0.
     #[inline(always)]
     pub fn force<R: Real>(&self, depth: R) -> R {
         match self {

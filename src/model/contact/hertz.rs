@@ -1,11 +1,11 @@
-//! Hertz: F = K·δ^p, p = 3/2 where the scene names no other exponent.
+//! Hertz: F = K·δ^p, with p = 3/2 unless the scene gives another exponent.
 //!
-//! H. Hertz, J. reine angew. Math. 92 (1882) 156; in a revolute joint, as H. M. Lankarani, P. E. Nikravesh, J. Mech.
-//! Des. 112 (1990) 369 use it: K = 4/(3(σ_b + σ_j))·√(R_b·R_j/(R_b − R_j)), R_j = R_b − c, σ = (1 − ν²)/E. A corner of
+//! H. Hertz, J. reine angew. Math. 92 (1882) 156. In a revolute joint, as used by H. M. Lankarani, P. E. Nikravesh, J.
+//! Mech. Des. 112 (1990) 369: K = 4/(3(σ_b + σ_j))·√(R_b·R_j/(R_b − R_j)), R_j = R_b − c, σ = (1 − ν²)/E. A corner of
 //! the slider on the guide is a sphere on a plane: K = 4/(3(σ_b + σ_j))·√R_c.
 //!
-//! Limits: the contact must be small beside both radii, and the law knows no axial length. In a tight joint, c ≪ R_b,
-//! a conformal law holds longer.
+//! Limits: the contact must be small compared with both radii, and the axial length does not enter. In a tight joint, c
+//! ≪ R_b, a conformal law is valid for larger penetrations.
 
 use super::compliance::compliance;
 use super::elastic_law::{ElasticLaw, PowerLaw};
@@ -17,12 +17,12 @@ use crate::scene::{Contact, Guide, Revolute};
 pub struct Hertz(PowerLaw);
 
 impl Hertz {
-    /// A corner of the slider.
+    /// The contact of a corner of the slider.
     pub fn corner(joint: &Guide) -> Self {
         Self::with_curvature(&joint.contact, joint.corner_radius)
     }
 
-    /// `curvature` [m]: the radius of the sphere that meets a plane alike.
+    /// The contact of a sphere of radius `curvature` [m] with a plane.
     fn with_curvature(contact: &Contact, curvature: f64) -> Self {
         let given = contact.stiffness;
         let stiffness = if given > 0.0 { given } else { 4.0 / (3.0 * compliance(contact)) * curvature.sqrt() };
@@ -39,7 +39,7 @@ impl ElasticLaw for Hertz {
     #[inline(always)]
     fn force<R: Real>(&self, depth: R) -> R {
         let PowerLaw { stiffness, exponent } = self.0;
-        // Without a power function, where that is possible.
+        // The usual exponent needs no power function.
         if exponent == 1.5 { depth * stiffness * depth.sqrt() } else { power(depth, exponent) * stiffness }
     }
 

@@ -1,7 +1,7 @@
-//! Linear: F = K·δ, a bed of springs of the stiffness K, pressed in by δ on average.
+//! Linear: F = K·δ, a bed of springs of the stiffness K at the mean penetration δ.
 //!
-//! E. Winkler, Die Lehre von der Elastizität und Festigkeit, Prag 1867. The slider's faces are such beds; no scene names
-//! the law for a revolute joint.
+//! E. Winkler, Die Lehre von der Elastizität und Festigkeit, Prag 1867. The slider's faces are such beds; the law
+//! cannot be selected for a revolute joint.
 
 use super::elastic_law::PowerLaw;
 use crate::math::Real;
@@ -14,18 +14,18 @@ pub struct Linear {
 }
 
 impl Linear {
-    /// [N] At the mean penetration `depth` [m].
+    /// [N] F at the mean penetration `depth` [m].
     #[inline(always)]
     pub fn force<R: Real>(&self, depth: R) -> R {
         depth * self.stiffness
     }
 
-    /// [J] ½·K·δ²: of a bed that is pressed in evenly by `depth` [m].
+    /// [J] ½·K·δ² of a bed with uniform penetration `depth` [m].
     pub fn energy<R: Real>(&self, depth: R) -> R {
         depth * 0.5 * self.force(depth)
     }
 
-    /// The law itself.
+    /// This law as a power law.
     pub fn for_small_penetrations(&self) -> PowerLaw {
         PowerLaw { stiffness: self.stiffness, exponent: 1.0 }
     }

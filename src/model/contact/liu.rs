@@ -1,8 +1,8 @@
 //! Liu: conformal cylinders, F = K·δ·√(δ/(2(c + δ))), K = (π/2)·E*·L, E* = 1/(σ_b + σ_j), σ = (1 − ν²)/E.
 //!
-//! C. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with clearances, Mech. Mach.
-//! Theory 42 (2007) 183. L is the axial length, `joint.J.width`; `joint.J.stiffness` and `joint.J.exponent` are not
-//! used.
+//! C. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with clearances, Mech.
+//! Mach. Theory 42 (2007) 183. L is the axial length, `joint.J.width`; `joint.J.stiffness` and `joint.J.exponent` are
+//! not used.
 //!
 //! Limits: K/√(2c)·δ^(3/2) for δ ≪ c, and K·δ/√2 for δ ≫ c. Fitted to cylinders of equal materials.
 
@@ -32,7 +32,8 @@ impl ElasticLaw for Liu {
         depth * self.stiffness * (depth / ((depth + self.clearance) * 2.0)).sqrt()
     }
 
-    /// With u = δ/c: K·c²/√2·∫u^(3/2)/√(1 + u) du; a series where the closed form is a small difference.
+    /// K·c²/√2·∫u^(3/2)/√(1 + u) du with u = δ/c; a series for small u, where the closed form is a small difference of
+    /// large numbers.
     fn energy<R: Real>(&self, depth: R) -> R {
         let c = self.clearance;
         let u = depth / c;

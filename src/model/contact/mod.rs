@@ -1,9 +1,9 @@
 //! Normal contact: f_n = max(0, F(δ)·(1 + χ·s)), s = min(δ̇/δ̇⁻, s_max).
 //!
-//! F is an [`Elastic`] law, one a file; χ is a number that the damping law makes of the restitution
-//! ([`damping::factor`]). Which laws they are is data and looked up where the force is computed.
+//! F is an [`Elastic`] law; each has a file. χ is the factor that the damping law derives from the restitution
+//! ([`damping::factor`]). The laws are data: the force evaluation branches on them.
 
-// Defines `elasticities!`, which hands the list of the declared elasticities to another macro.
+// Defines `elasticities!`, which passes the list of declared elasticities to another macro.
 include!(concat!(env!("OUT_DIR"), "/elasticities.rs"));
 
 pub mod compliance;
@@ -12,7 +12,7 @@ mod elastic;
 mod elastic_law;
 mod linear;
 
-/// The file of each declared elasticity.
+/// Declares the file of each declared elasticity.
 macro_rules! files {
     ($($law:ident in $file:ident,)+) => { $(mod $file; pub use $file::$law;)+ };
 }
@@ -27,34 +27,35 @@ use crate::integrator::Discontinuities;
 use crate::math::{self, Real};
 use crate::scene;
 
-/// Numbers of one contact, ready for the inner loop.
+/// Parameters of one contact, precomputed for force evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactParameters {
-    /// F.
+    /// Elastic law F.
     pub elastic: Elastic,
-    /// χ.
+    /// Damping factor χ.
     pub damping: f64,
-    /// s_max.
+    /// Upper limit s_max of the speed ratio.
     pub ratio_limit: f64,
-    /// [m/s] v_floor.
+    /// [m/s] Lower limit v_floor of the approach speed.
     pub speed_floor: f64,
-    /// Friction.
+    /// Friction law.
     pub friction: Friction,
 }
 
-/// The memory of one contact.
+/// The discrete state of one contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactState {
-    /// Closed: δ has risen through zero and not fallen since.
+    /// Whether the contact is closed: δ has risen through zero and not fallen through it since.
     pub closed: bool,
-    /// [m/s] δ̇⁻, while closed.
+    /// [m/s] δ̇⁻, approach speed when the contact closed.
     pub approach: f64,
     /// [s/m] 1/δ̇⁻.
     pub per_approach: f64,
 }
 
 impl ContactState {
-    /// A contact that closes at the approach speed `rate` [m/s].
+    /// The state of a contact that closes at the approach speed `rate` [m/s], limited to `speed_floor` [m/s] from
+    /// below.
     pub fn closing(rate: f64, speed_floor: f64) -> Self {
         let approach = rate.max(speed_floor);
         Self { closed: true, approach, per_approach: 1.0 / approach }
@@ -64,22 +65,22 @@ impl ContactState {
 /// Forces in a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forces<R = f64> {
-    /// [N] f_n.
+    /// [N] f_n, normal force.
     pub normal: R,
-    /// [N] f_t.
+    /// [N] f_t, tangential force.
     pub tangential: R,
     /// [m/s] Rate of the bristles' deflection.
     pub bristle_rate: R,
 }
 
-/// What a contact does to energy.
+/// Energy and powers of a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactEnergy<R = f64> {
     /// [J] Elastic energy.
     pub energy: R,
-    /// [W] That normal forces take, f_n·δ̇: the rate of `energy` and what hysteresis loses.
+    /// [W] f_n·δ̇, power of the normal force on the contact: the rate of `energy` plus the hysteresis loss.
     pub normal_power: R,
-    /// [W] That friction takes, bristles included.
+    /// [W] f_t·v_t, power of friction, including that stored in bristles.
     pub friction_loss: R,
 }
 
@@ -92,7 +93,7 @@ impl<R: Real> std::ops::AddAssign for ContactEnergy<R> {
 }
 
 impl ContactParameters {
-    /// Of a contact with this elastic law.
+    /// Parameters of a contact with this elastic law.
     pub fn new(contact: &scene::Contact, elastic: Elastic) -> Self {
         let limit = contact.ratio_limit;
         Self {
@@ -104,7 +105,7 @@ impl ContactParameters {
         }
     }
 
-    /// [N] f_n at the penetration `depth` [m] and its `rate` [m/s]; 0 where it would pull: no adhesion.
+    /// [N] f_n at the penetration `depth` [m] and its `rate` [m/s]; limited to 0, because there is no adhesion.
     #[inline(always)]
     fn normal_force<R: Real>(&self, per_approach: f64, depth: R, rate: R) -> R {
         if !R::MANY && depth <= 0.0 {
@@ -114,8 +115,8 @@ impl ContactParameters {
         (self.elastic.force(depth.max(0.0)) * ratio.multiply_add(self.damping, R::ONE)).max(0.0)
     }
 
-    /// Forces at the penetration `depth` [m], its `rate` [m/s], the bristles' deflection `z` [m] and the sliding speed
-    /// that `sliding` gives [m/s]. Numbers with derivatives fit no registers: these are better off behind a call.
+    /// Forces at the penetration `depth` [m], its `rate` [m/s], the bristle deflection `z` [m] and the sliding speed
+    /// that `sliding` computes [m/s]. Numbers with derivatives do not fit into registers and are faster behind a call.
     #[inline(always)]
     pub fn forces<R: Real>(
         &self,
@@ -154,7 +155,8 @@ impl ContactParameters {
         Forces { normal, tangential: normal * ratio, bristle_rate }
     }
 
-    /// The account of the [`forces`](Self::forces) of the same arguments: what the bodies lose to it is f_n·δ̇ + f_t·v_t.
+    /// Energy and powers for the arguments of [`forces`](Self::forces). The bodies lose f_n·δ̇ + f_t·v_t to the
+    /// contact.
     pub fn contact_energy<R: Real>(&self, per_approach: f64, depth: R, rate: R, z: R, sliding: R) -> ContactEnergy<R> {
         let Forces { normal, tangential, .. } = self.forces(per_approach, depth, rate, z, || sliding);
         ContactEnergy {
@@ -164,9 +166,9 @@ impl ContactParameters {
         }
     }
 
-    /// Adds the discontinuities of the force in the closed contact of memory `state`, whose penetration grows at `rate` [m/s] and
-    /// whose surfaces slide at `sliding` [m/s]: where s reaches its limit, where the force is cut off at 0, where the
-    /// friction law has corners.
+    /// Adds the functions whose zeros are derivative discontinuities of the force of a closed contact with the discrete
+    /// state `state`, penetration rate `rate` [m/s] and sliding speed `sliding` [m/s]: the limits of s and of the
+    /// force, and the corners of the friction law.
     pub fn discontinuities(
         &self,
         state: &ContactState,
@@ -186,19 +188,19 @@ impl ContactParameters {
         }
     }
 
-    /// [s] How long a free impact of `mass` [kg] at `speed` [m/s] lasts: 2.94·δ_max/v, with δ_max
-    /// from ½·m·v² = K·δ^(p+1)/(p + 1) (Hertz; exact for p = 3/2).
+    /// [s] Duration of a free impact of `mass` [kg] at `speed` [m/s]: 2.94·δ_max/v, with δ_max from ½·m·v² =
+    /// K·δ^(p+1)/(p + 1) (Hertz; exact for p = 3/2).
     pub fn contact_time(&self, mass: f64, speed: f64) -> f64 {
         2.94 * self.penetration_of_energy(0.5 * mass * speed * speed) / speed
     }
 
-    /// [m] The penetration that stores `energy` [J].
+    /// [m] Penetration at which the contact stores `energy` [J].
     fn penetration_of_energy(&self, energy: f64) -> f64 {
         let PowerLaw { stiffness, exponent: p } = self.elastic.for_small_penetrations();
         math::powf((p + 1.0) * energy / stiffness, 1.0 / (p + 1.0))
     }
 
-    /// [1/s] Frequency of `mass` [kg] on this contact at the penetration `depth` [m].
+    /// [rad/s] Angular frequency of `mass` [kg] on this contact at the penetration `depth` [m].
     pub fn frequency(&self, mass: f64, depth: f64) -> f64 {
         let PowerLaw { stiffness, exponent: p } = self.elastic.for_small_penetrations();
         (p * stiffness * math::powf(depth, p - 1.0) / mass).sqrt()

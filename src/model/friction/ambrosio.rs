@@ -2,7 +2,8 @@
 //!
 //! J. A. C. Ambrósio, in Virtual Nonlinear Multibody Systems, Kluwer 2003.
 //!
-//! Limits: no force below v0, so that nothing sticks: what rests under a force creeps at a speed between v0 and v1.
+//! Limits: there is no force below v0, so that nothing sticks: a body at rest under a force creeps at a speed between
+//! v0 and v1.
 
 use super::law::{Law, FrictionResponse};
 use crate::math::Real;

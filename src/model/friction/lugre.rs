@@ -1,18 +1,18 @@
-//! LuGre: f_t/f_n = σ0·z + σ1·exp(−(v/v_s)²)·ż + σ2·v with ż = v − σ0·|v|·z/g(v),
-//! g(v) = μ_k + (μ_s − μ_k)·exp(−(v/v_s)²).
+//! LuGre: f_t/f_n = σ0·z + σ1·exp(−(v/v_s)²)·ż + σ2·v with ż = v − σ0·|v|·z/g(v), g(v) = μ_k + (μ_s −
+//! μ_k)·exp(−(v/v_s)²).
 //!
-//! C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419, with the damping
-//! that fades with the sliding speed: a fast first touch makes no spurious impulse. z, the mean deflection of bristles
-//! between the surfaces, is a state, which a contact starts anew each time that it closes.
+//! C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419, with a damping
+//! that decays with the sliding speed, so that a fast first touch causes no spurious impulse. z, the mean deflection of
+//! bristles between the surfaces, is a state that is reset when the contact opens.
 //!
-//! Limits: needs 0 < μ_k ≤ μ_s. Large σ0 is stiff: bristles at rest let go at z = μ_s/σ0.
+//! Limits: needs 0 < μ_k ≤ μ_s. The law is stiff for large σ0: bristles at rest slip at z = μ_s/σ0.
 
 use super::law::{Law, FrictionResponse};
 use super::stribeck::StribeckCurve;
 use crate::math::Real;
 use crate::scene;
 
-/// σ0·z + σ1·exp(−(v/v_s)²)·ż + σ2·v.
+/// f_t/f_n = σ0·z + σ1·exp(−(v/v_s)²)·ż + σ2·v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lugre {
     steady: StribeckCurve,
@@ -36,7 +36,7 @@ impl Law for Lugre {
         FrictionResponse { ratio: z * self.sigma0 + fading * self.sigma1 * rate + v * self.sigma2, bristle_rate: rate }
     }
 
-    fn greatest_deflection(&self) -> Option<f64> {
+    fn max_deflection(&self) -> Option<f64> {
         Some(self.steady.still / self.sigma0)
     }
 }

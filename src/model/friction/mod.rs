@@ -1,9 +1,9 @@
-//! Friction: f_t = f_n·ratio(v_t), one law a file, each odd in the sliding speed.
+//! Friction: f_t = f_n·ratio(v_t). Each law has a file and is odd in the sliding speed.
 //!
-//! A law may have a state, the mean deflection of bristles between the surfaces, which a contact starts anew each time
-//! that it closes. Which law it is is data and looked up where the force is computed.
+//! A law may have a state, the mean deflection of bristles between the surfaces, which is reset when the contact opens.
+//! The laws are data: the force evaluation branches on them.
 
-// Defines `friction_laws!`, which hands the list of the declared laws to another macro.
+// Defines `friction_laws!`, which passes the list of declared laws to another macro.
 include!(concat!(env!("OUT_DIR"), "/friction_laws.rs"));
 
 mod law;
@@ -13,12 +13,12 @@ pub use law::{FrictionResponse, Law};
 use crate::math::Real;
 use crate::scene;
 
-/// Declares the files and [`Friction`] from the declared laws.
+/// Declares the files and [`Friction`] from the list of declared laws.
 macro_rules! friction {
     ($($law:ident in $file:ident,)+) => {
         $(mod $file; pub use $file::$law;)+
 
-        /// The friction law of one contact with its numbers.
+        /// The friction law of one contact with its parameters.
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[expect(missing_docs, reason = "each is the law of its name")]
         pub enum Friction {
@@ -27,7 +27,7 @@ macro_rules! friction {
         }
 
         impl Friction {
-            /// Of the scene's.
+            /// The friction law with the parameters of the scene.
             pub fn new(friction: &scene::Friction) -> Self {
                 match friction.law {
                     scene::FrictionLaw::None => Self::None,
@@ -35,10 +35,10 @@ macro_rules! friction {
                 }
             }
 
-            /// Any law's, out of line: a call costs the common laws nothing.
+            /// The response of any law, out of line, so that the common laws do not pay for the others.
             #[cold]
             #[inline(never)]
-            fn rub_rarely<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
+            fn rare_response<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
                 match self {
                     Self::None => FrictionResponse::default(),
                     $(Self::$law(law) => law.response(v, z),)+
@@ -53,11 +53,11 @@ macro_rules! friction {
                 }
             }
 
-            /// [m] The deflection at which bristles at rest let go, where there are bristles.
-            pub fn greatest_deflection(&self) -> Option<f64> {
+            /// [m] The largest deflection of bristles at rest, at which they slip; `None` without bristles.
+            pub fn max_deflection(&self) -> Option<f64> {
                 match self {
                     Self::None => None,
-                    $(Self::$law(law) => law.greatest_deflection(),)+
+                    $(Self::$law(law) => law.max_deflection(),)+
                 }
             }
         }
@@ -67,12 +67,12 @@ macro_rules! friction {
 friction_laws!(friction);
 
 impl Friction {
-    /// At the sliding speed `v` [m/s], with the bristles deflected by `z` [m].
+    /// The response at the sliding speed `v` [m/s] and the bristle deflection `z` [m].
     #[inline(always)]
     pub fn response<R: Real>(&self, v: R, z: R) -> FrictionResponse<R> {
         match self {
             Self::Ambrosio(law) => law.response(v, z),
-            _ => self.rub_rarely(v, z),
+            _ => self.rare_response(v, z),
         }
     }
 }

@@ -1,16 +1,16 @@
-//! Stribeck: a coefficient that falls with the sliding speed, μ(v) = μ_k + (μ_s − μ_k)·exp(−(v/v_s)²), smoothed:
+//! Stribeck: a coefficient that decreases with the sliding speed, μ(v) = μ_k + (μ_s − μ_k)·exp(−(v/v_s)²), smoothed:
 //! f_t/f_n = μ(v)·tanh(v/v1).
 //!
 //! R. Stribeck, Z. VDI 46 (1902) 1341; the exponential form as in B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit,
 //! Automatica 30 (1994) 1083.
 //!
-//! Limits: nothing sticks: what rests under a force creeps. With v1 near v_s the peak stays below μ_s.
+//! Limits: nothing sticks: a body at rest under a force creeps. If v1 is near v_s, the peak stays below μ_s.
 
 use super::law::{Law, FrictionResponse};
 use crate::math::{self, Real};
 use crate::scene;
 
-/// μ(v)·tanh(v/v1).
+/// f_t/f_n = μ(v)·tanh(v/v1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stribeck {
     coefficient: StribeckCurve,
@@ -18,19 +18,19 @@ pub struct Stribeck {
     per_width: f64,
 }
 
-/// A coefficient between μ_s at rest and μ_k.
+/// The Stribeck curve: a coefficient between μ_s at rest and μ_k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StribeckCurve {
-    /// μ_k.
+    /// Kinetic coefficient μ_k.
     kinetic: f64,
-    /// μ_s.
+    /// Static coefficient μ_s.
     pub still: f64,
     /// [s/m] 1/v_s.
     per_stribeck: f64,
 }
 
 impl StribeckCurve {
-    /// Of the scene's friction.
+    /// The curve with the parameters of the scene.
     pub fn new(friction: &scene::Friction) -> Self {
         Self {
             kinetic: friction.coefficient,
@@ -39,14 +39,14 @@ impl StribeckCurve {
         }
     }
 
-    /// exp(−(v/v_s)²).
+    /// exp(−(v/v_s)²) at the sliding speed `v` [m/s].
     #[inline(always)]
     pub fn fading<R: Real>(&self, v: R) -> R {
         let share = v * self.per_stribeck;
         math::exp(-share * share)
     }
 
-    /// μ_k + (μ_s − μ_k)·`fading`.
+    /// μ_k + (μ_s − μ_k)·`fading`, with `fading` from [`fading`](Self::fading).
     #[inline(always)]
     pub fn at<R: Real>(&self, fading: R) -> R {
         fading * (self.still - self.kinetic) + self.kinetic

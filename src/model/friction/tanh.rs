@@ -1,12 +1,12 @@
 //! Coulomb friction smoothed by a hyperbolic tangent: f_t/f_n = μ·tanh(v/v1).
 //!
-//! Limits: nothing sticks: what rests under a force creeps.
+//! Limits: nothing sticks: a body at rest under a force creeps.
 
 use super::law::{Law, FrictionResponse};
 use crate::math::{self, Real};
 use crate::scene;
 
-/// μ·tanh(v/v1).
+/// f_t/f_n = μ·tanh(v/v1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tanh {
     /// μ.

@@ -1,4 +1,4 @@
-//! The slider's four corners as contacts of their own.
+//! The slider's four corners as separate contacts.
 
 use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, SurfaceContact};
 use super::revolute::event_function;
@@ -6,7 +6,7 @@ use crate::integrator::EventFunction;
 use crate::math::Real;
 use crate::model::contact::{ContactState, Elastic};
 
-/// Each corner is a contact of its own.
+/// The surface whose corners are separate contacts.
 pub(super) struct Corners;
 
 impl Surface for Corners {

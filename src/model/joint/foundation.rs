@@ -1,12 +1,20 @@
-//! The slider's faces on elastic foundations: a bed of springs, k_w·max(0, δ(x)) per length.
+//! The slider's faces on elastic foundations: a bed of springs with the line load k_w·max(0, δ(x)).
 //!
-//! A face is straight, so that δ(x) is linear along it: the resulting force K·(mean of max(0, δ)),
-//! with K = k_w·2a, its centre and its energy have closed forms. One corner in contact, the whole face
-//! in contact and what lies between is one law, with one continuous derivative.
+//! ```text
+//!    open part  ──__            face of the slider, tilted
+//!    ────────────────‾‾──__────────────────────────── line of the guide, δ = 0
+//!                          ‾‾──__      | δ(x) = middle + slope·x
+//!    pressed part                ‾‾──__|
+//!    x = −a               x = 0               x = a
+//! ```
 //!
-//! The damping is one factor for the whole face, made from the rate at the centre of the undamped
-//! pressure: force times that rate is just the rate of the elastic energy, so that damping never gives
-//! energy back. Force and friction act there.
+//! A face is straight, so that δ(x) is linear along it. The resulting force K·(mean of max(0, δ)) with K = k_w·2a, its
+//! centre and its energy have closed forms. One law with a continuous derivative covers contact of one corner, of part
+//! of the face, and of the whole face.
+//!
+//! The damping is one factor for the whole face. It depends on the rate at the centre of the undamped pressure: force
+//! times that rate is the rate of the elastic energy, so that damping never supplies energy. Force and friction act at
+//! that centre.
 
 use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, SurfaceContact};
 use crate::integrator::EventFunction;
@@ -17,18 +25,18 @@ use crate::model::plane::Vec2;
 use crate::scene::Scene;
 use std::f64::consts::PI;
 
-/// The penetration of a face: δ(x) = middle + slope·x, |x| ≤ half.
+/// Penetration along a face: δ(x) = middle + slope·x, |x| ≤ half.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FacePenetration<R = f64> {
-    /// [m] a, half the face's length.
+    /// [m] a: half the length of the face.
     pub half: f64,
-    /// [m] δ in the middle.
+    /// [m] δ at the middle of the face.
     pub middle: R,
-    /// dδ/dx.
+    /// dδ/dx: slope.
     pub slope: R,
 }
 
-/// The part of a bed that is pressed in.
+/// The part of a face in contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactZone<R = f64> {
     /// [m] ∫max(0, δ)dx/(2a).
@@ -38,21 +46,21 @@ pub struct ContactZone<R = f64> {
 }
 
 impl<R: Real> FacePenetration<R> {
-    /// δ at the end that lies deeper and at the other.
+    /// δ [m] at the deeper end and at the other end.
     #[inline(always)]
     fn ends(&self) -> (R, R) {
         let rise = self.slope.abs() * self.half;
         (self.middle + rise, self.middle - rise)
     }
 
-    /// Mean penetration and centre of pressure; 0 where nothing is pressed in.
+    /// Mean penetration and centre of pressure; 0 if the whole face is open.
     #[inline(always)]
     pub fn pressed(&self) -> ContactZone<R> {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
-        // A trapezoid. Parallel faces make no difference of large numbers here.
+        // Trapezoid: the whole face is in contact. For parallel faces this is no difference of large numbers.
         let trapezoid = || ContactZone { mean: middle, centre: slope * half / middle * (half / 3.0) };
-        // A triangle of this length at the deeper end.
+        // Triangle: only this length at the deeper end is in contact.
         let triangle = || {
             let length = deep / slope.abs();
             ContactZone { mean: deep * length / (4.0 * half), centre: (-(length / 3.0) + half).copysign(slope) }
@@ -70,7 +78,7 @@ impl<R: Real> FacePenetration<R> {
         }
     }
 
-    /// [m²] Mean of max(0, δ)²: the energy is half the face's stiffness K times this.
+    /// [m²] Mean of max(0, δ)²: the elastic energy is half the stiffness K of the face times this.
     pub fn mean_square(&self) -> R {
         let Self { half, middle, slope } = *self;
         let (deep, shallow) = self.ends();
@@ -83,7 +91,7 @@ impl<R: Real> FacePenetration<R> {
     }
 }
 
-/// [N/m] K = k_w·2a of a face that is pressed in evenly.
+/// [N/m] K = k_w·2a: stiffness of a face with uniform penetration.
 pub fn stiffness(scene: &Scene) -> f64 {
     let joint = &scene.joint.t;
     let length = scene.slider.length;
@@ -94,12 +102,12 @@ pub fn stiffness(scene: &Scene) -> f64 {
     }
 }
 
-/// [N/m] Of a rectangle on elastic half-spaces whose compliances (1 − ν²)/E add up to `compliance`
-/// [1/Pa]: √A/(m·compliance), m from the mean displacement under even pressure (S. P. Timoshenko,
-/// J. N. Goodier, Theory of Elasticity, § 139: 0.95 for a square).
+/// [N/m] Stiffness of a rectangle on elastic half-spaces whose compliances (1 − ν²)/E sum to `compliance` [1/Pa]:
+/// √A/(m·compliance), with m from the mean displacement under uniform pressure (S. P. Timoshenko, J. N. Goodier, Theory
+/// of Elasticity, § 139: 0.95 for a square).
 pub fn half_space_stiffness(length: f64, width: f64, compliance: f64) -> f64 {
     let r = length.max(width) / length.min(width);
-    // 1 + r³ − (1 + r²)^1.5 without the difference of two large cubes.
+    // 1 + r³ − (1 + r²)^1.5, written without the difference of two large cubes.
     let s = (1.0 + r * r).sqrt();
     let cubes = 1.0 - (s * s + s * r + r * r) / (s + r);
     let sum = 2.0 * r * math::asinh(r) + 2.0 * r * r * math::asinh(1.0 / r) + 2.0 / 3.0 * cubes;
@@ -107,7 +115,7 @@ pub fn half_space_stiffness(length: f64, width: f64, compliance: f64) -> f64 {
     (length * width).sqrt() / (m * compliance)
 }
 
-/// Each face is a contact.
+/// The surface whose two faces are contacts.
 pub(super) struct Faces;
 
 impl Faces {
@@ -144,8 +152,8 @@ impl Surface for Faces {
         (front.depth.max(rear.depth), front.rate.max(rear.rate))
     }
 
-    /// An open face closes with either of its corners and has a event function for each; a closed one opens
-    /// with the deeper one.
+    /// An open face has an event function for each of its corners and closes when one of them touches. A closed face
+    /// has one for its deeper corner and opens when that separates.
     fn event_functions(rectangle: &Rectangle, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS] {
         let mut event_functions = [EventFunction { value: 1.0, rate: 0.0 }; CORNERS];
         for (face, pair) in event_functions.chunks_exact_mut(2).enumerate() {

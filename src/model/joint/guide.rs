@@ -1,9 +1,9 @@
-//! The guide with clearance: a rectangle, the slider, between two lines.
+//! The guide with clearance: the slider, a rectangle, between two lines.
 //!
-//! Corner k is at the offsets (±a, ±b) from the rectangle's centre. An upper one penetrates by
-//! y_k − (h + b + c_T), a lower one by (h − b − c_T) − y_k. What touches a line is a surface: each
-//! corner as a contact of its own (`corners`, from which faces and jamming follow), or each face on
-//! an elastic foundation (`foundation`). Which it is, and by which laws, is chosen once.
+//! Corner k is at the offset (±a, ±b) from the rectangle's centre. An upper corner penetrates by y_k − (h + b + c_T), a
+//! lower corner by (h − b − c_T) − y_k. The contacts are the surface's: either each corner (`corners`, from which
+//! contact of faces and jamming follow), or each face on an elastic foundation (`foundation`). The scene selects the
+//! surface and its laws.
 
 use super::corners::Corners;
 use super::foundation::{self, Faces};
@@ -14,24 +14,24 @@ use crate::model::contact::{ContactEnergy, ContactParameters, ContactState, Elas
 use crate::model::plane::{Rotation, Vec2, cross};
 use crate::scene;
 
-/// Most contacts of the slider with the guide.
+/// Maximum number of contacts of the slider with the guide.
 pub const GUIDE_CONTACTS: usize = CORNERS;
 
-/// The guide's forces on the slider, reduced to the pin.
+/// The guide's load on the slider, reduced to the pin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load<R = f64> {
-    /// [N]
+    /// [N] Force.
     pub force: Vec2<R>,
-    /// [N·m] About the pin.
+    /// [N·m] Couple about the pin.
     pub couple: R,
 }
 
 /// The guide with clearance.
 #[derive(Clone, Copy, Debug)]
 pub struct Guide {
-    /// The slider between the two lines.
+    /// The slider's rectangle and the two lines.
     pub(super) rectangle: Rectangle,
-    /// The contact's numbers, the same for every contact.
+    /// Contact parameters, the same for every contact.
     pub contact: ContactParameters,
     surface: scene::Surface,
 }
@@ -39,7 +39,7 @@ pub struct Guide {
 /// One number for the bristles of each contact.
 type Bristles<R> = [R; GUIDE_CONTACTS];
 
-/// Does the same for either surface: `of_surface!(guide, S => …)` with S the guide's.
+/// Evaluates an expression with `S` as the guide's surface: `of_surface!(guide, S => …)`.
 macro_rules! of_surface {
     ($guide:expr, $surface:ident => $what:expr) => {
         match $guide.surface {
@@ -55,8 +55,8 @@ macro_rules! of_surface {
     };
 }
 
-/// Returns the force [N] and writes the couple [N·m]. The slider's pose goes in by registers, all but the pin's abscissa,
-/// which does not matter.
+/// Returns the force [N] on the slider and writes the couple [N·m]. The slider's pose is passed in registers, except
+/// for the pin's abscissa, which has no influence.
 #[expect(clippy::too_many_arguments, reason = "what goes by registers stands alone")]
 #[inline(never)]
 fn load<R: Real, S: Surface>(
@@ -108,7 +108,7 @@ fn contact_energy<R: Real, S: Surface>(
 }
 
 impl Guide {
-    /// From the scene.
+    /// The guide of a scene.
     pub fn new(scene: &scene::Scene) -> Self {
         let joint = &scene.joint.t;
         let elastic = match joint.surface {
@@ -122,23 +122,23 @@ impl Guide {
         }
     }
 
-    /// [m] Penetration of every corner, negative when open.
+    /// [m] Penetration of every corner; negative if open.
     pub fn penetrations(&self, pose: &SliderPose) -> [f64; CORNERS] {
         self.rectangle.corners.map(|corner| corner.touch(pose).depth)
     }
 
-    /// [m], [m/s] Greatest penetration in every contact, and the approach speed if it closes now; far
-    /// open where there is no contact.
+    /// Largest penetration [m] of every contact, and its approach speed [m/s] should it close now; −∞ and 0 for a
+    /// contact that does not exist.
     pub fn approaches(&self, pose: &SliderPose) -> [(f64, f64); CORNERS] {
         of_surface!(self, S => approaches::<S>(self, pose))
     }
 
-    /// The events at which the contacts change.
+    /// The event functions at which contacts close or open.
     pub fn event_functions(&self, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS] {
         of_surface!(self, S => S::event_functions(&self.rectangle, states, pose))
     }
 
-    /// Adds the discontinuities of the closed contacts' forces.
+    /// Adds the functions whose zeros are derivative discontinuities of the closed contacts' forces.
     pub fn discontinuities(&self, states: &[ContactState], pose: &SliderPose, discontinuities: &mut Discontinuities) {
         for (k, state) in states.iter().enumerate().filter(|(_, state)| state.closed) {
             let SurfaceContact { rate, sliding, .. } = of_surface!(self, S => S::touch(&self.rectangle, k, pose));
@@ -146,7 +146,7 @@ impl Guide {
         }
     }
 
-    /// Which of the joints' and the guide's contacts change when these event functions have fallen.
+    /// Converts event functions that have fallen into contacts of the joints and the guide that change.
     pub fn contacts_of(&self, crossed: &Triggered) -> Triggered {
         let mut contacts = *crossed;
         contacts[3..].fill(false);
@@ -156,8 +156,7 @@ impl Guide {
         contacts
     }
 
-    /// The load of the closed contacts, whose bristles are deflected by `z` [m] and move at
-    /// `bristle_rate` [m/s].
+    /// The load of the closed contacts at the bristle deflections `z` [m]; writes the rates of the deflections [m/s].
     #[inline(always)]
     pub fn load<R: Real>(
         &self,
@@ -178,7 +177,7 @@ impl Guide {
         }
     }
 
-    /// Energy and losses of the closed contacts, whose bristles are deflected by `z` [m].
+    /// Energy and powers of the closed contacts at the bristle deflections `z` [m].
     pub fn contact_energy<R: Real>(
         &self,
         states: &[ContactState],
@@ -189,12 +188,12 @@ impl Guide {
     }
 }
 
-/// How many contacts the slider has with the guide.
+/// Number of contacts of the slider with the guide.
 pub fn guide_contacts(surface: scene::Surface) -> usize {
     contact_of_corner(surface)[CORNERS - 1] + 1
 }
 
-/// The contact of the guide that each corner is part of.
+/// The contact of the guide to which each corner belongs.
 pub fn contact_of_corner(surface: scene::Surface) -> [usize; CORNERS] {
     match surface {
         scene::Surface::Corner => Corners::CONTACT_OF_CORNER,

@@ -1,4 +1,4 @@
-//! Joints with clearance: where they are open or closed, and what force they carry.
+//! Joints with clearance: contact detection and contact forces.
 
 mod corners;
 pub mod foundation;

@@ -1,4 +1,4 @@
-//! The slider's rectangle between the guide's lines: its corners and faces, and how deep a point of it lies beyond a line.
+//! The slider's rectangle between the guide's lines: corners, faces, and the penetration of a point.
 
 use crate::integrator::EventFunction;
 use crate::math::{Fused, Real};
@@ -7,49 +7,49 @@ use crate::model::plane::{Rotation, Vec2};
 use crate::scene::Scene;
 use std::ops::Mul;
 
-/// How many corners the slider has.
+/// Number of corners of the slider.
 pub const CORNERS: usize = 4;
 
-/// Where the slider is.
+/// Pose and velocity of the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SliderPose<R = f64> {
-    /// [m] Pin centre.
+    /// [m] Centre of the pin.
     pub pin: Vec2<R>,
-    /// [m/s] Its velocity.
+    /// [m/s] Velocity of the pin.
     pub pin_velocity: Vec2<R>,
-    /// Tilt.
+    /// Rotation of the slider (tilt).
     pub rotation: Rotation<R>,
-    /// [rad/s] Rate of tilt.
+    /// [rad/s] Angular velocity.
     pub speed: R,
 }
 
 /// A point of the slider and the line that it may touch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CornerOnLine {
-    /// [m] From the pin, in the slider's axes.
+    /// [m] Position from the pin, in slider axes.
     pub offset: Vec2,
-    /// Of the line's inner normal: −1 for the upper line, +1 for the lower.
+    /// y component of the line's inner normal: −1 for the upper line, +1 for the lower line.
     pub normal: f64,
     /// [m] Height of the line.
     pub line: f64,
 }
 
-/// Where a contact's force acts, and the motion of the slider's material there.
+/// Point of action of a contact force, and the motion of the slider's material there.
 pub(super) struct SurfaceContact<R = f64> {
-    /// [m] From the pin.
+    /// [m] Position from the pin, in inertial axes.
     pub arm: Vec2<R>,
-    /// Of the line's inner normal, as in [`CornerOnLine`].
+    /// y component of the line's inner normal, as in [`CornerOnLine`].
     pub normal: f64,
-    /// [m] Penetration; a face's mean.
+    /// [m] Penetration; for a face its mean.
     pub depth: R,
-    /// [m/s] Into the line.
+    /// [m/s] Velocity into the line.
     pub rate: R,
-    /// [m/s] Along the line.
+    /// [m/s] Velocity along the line.
     pub sliding: R,
 }
 
 impl CornerOnLine {
-    /// The contact of this point alone.
+    /// The contact of this point.
     #[inline(always)]
     pub fn touch<R: Real>(&self, pose: &SliderPose<R>) -> SurfaceContact<R> {
         self.touch_at(self.offset, pose)
@@ -76,16 +76,16 @@ impl CornerOnLine {
 /// The slider's rectangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
-    /// Its corners: the upper ones, then the lower ones.
+    /// The corners: the upper two, then the lower two.
     pub corners: [CornerOnLine; CORNERS],
-    /// Middles of the upper and of the lower face.
+    /// Middle points of the upper and the lower face.
     pub middles: [CornerOnLine; 2],
-    /// [m] a.
+    /// [m] a: half the length.
     pub half_length: f64,
 }
 
 impl Rectangle {
-    /// From the scene.
+    /// The rectangle of a scene.
     pub fn new(scene: &Scene) -> Self {
         let slider = &scene.slider;
         let (a, b) = (0.5 * slider.length, 0.5 * slider.height);
@@ -103,18 +103,18 @@ impl Rectangle {
     }
 }
 
-/// What the slider touches its lines with.
+/// Contact model between the slider and the lines.
 pub(super) trait Surface {
-    /// The contact that each corner is part of.
+    /// The contact to which each corner belongs.
     const CONTACT_OF_CORNER: [usize; CORNERS];
-    /// How many contacts there are.
+    /// Number of contacts.
     const CONTACTS: usize = Self::CONTACT_OF_CORNER[CORNERS - 1] + 1;
-    /// Contact `k` as its force law needs it.
+    /// Contact `k` as the force law needs it.
     fn touch<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> SurfaceContact<R>;
-    /// [m], [m/s] Greatest penetration in contact `k`, and the approach speed if it closes now.
+    /// Largest penetration [m] in contact `k`, and its approach speed [m/s] should it close now.
     fn approach(rectangle: &Rectangle, k: usize, pose: &SliderPose) -> (f64, f64);
-    /// The events at which contacts change, each at the place of a corner.
+    /// The event functions at which contacts close or open, one per corner.
     fn event_functions(rectangle: &Rectangle, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS];
-    /// [J] Elastic energy of contact `k` under this law.
+    /// [J] Elastic energy of contact `k` under the law `elastic`.
     fn energy<R: Real>(rectangle: &Rectangle, elastic: &Elastic, k: usize, pose: &SliderPose<R>) -> R;
 }

@@ -1,8 +1,8 @@
-//! Contacts without compliance: how fast a gap closes and its surfaces slide, and what forces along gap and sliding do.
+//! Rigid contacts: rates of gaps, sliding velocities, and the loads of contact forces.
 //!
-//! A normal force presses the journal, or the corner, away from the surface that it touches; a tangential one acts on
-//! it along the sliding speed. Force times velocity is power, as in the compliant contacts: so the forces' directions
-//! are the transposed velocities.
+//! A normal force pushes the journal or the corner away from the surface that it touches; a tangential force acts on it
+//! in the direction of the sliding velocity. Force times velocity is power, as in compliant contacts, so that the
+//! directions of the forces are the transposed velocity Jacobians.
 
 use super::guide::{Guide, Load};
 use super::rectangle::SliderPose;
@@ -10,7 +10,7 @@ use super::revolute::{self, JournalMotion, Revolute};
 use crate::model::plane::{Vec2, cross, perp};
 
 impl Revolute {
-    /// [m/s] Rate of the gap, and v_t; 0 where the journal is centred and n undefined.
+    /// [m/s] Rate of the gap, and v_t; 0 if the journal is centred, where n is undefined.
     pub fn contact_velocity(&self, play: &JournalMotion) -> [f64; 2] {
         let Some((epsilon, n)) = play.distance_and_normal() else {
             return [0.0; 2];
@@ -33,7 +33,7 @@ impl Revolute {
 }
 
 impl Guide {
-    /// [m/s] Rate of the gap of a corner, and its speed along the line.
+    /// [m/s] Rate of the gap of a corner, and its sliding velocity.
     pub fn contact_velocity(&self, corner: usize, pose: &SliderPose) -> [f64; 2] {
         let touch = self.rectangle.corners[corner].touch(pose);
         [-touch.rate, touch.sliding]

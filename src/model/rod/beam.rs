@@ -1,14 +1,14 @@
-//! The modal table of a uniform beam: exact modes of the simply supported beam in bending,
-//! φ_i = sin(iπx/l), and of the fixed-free bar along its axis, ψ_j = sin((2j − 1)πx/(2l)).
+//! The modal table of a uniform beam: the exact modes of the simply supported beam in bending, φ_i = sin(iπx/l), and of
+//! the fixed-free bar along its axis, ψ_j = sin((2j − 1)πx/(2l)).
 //!
-//! With S_m(x) = sin(mπx/l)·l/(mπ) and S_0(x) = x, the foreshortening of two bending modes is
-//! Γ_ij = ¼·ij·(π/l)²·(S_|i−j| + S_(i+j)), so that every integral is one of a product of sines.
+//! With S_m(x) = sin(mπx/l)·l/(mπ) and S_0(x) = x, the foreshortening of two bending modes is Γ_ij =
+//! ¼·ij·(π/l)²·(S_|i−j| + S_(i+j)), so that every integral is one of a product of sines.
 
 use crate::scene::modal::{AxialMode, BendingMode, ModalTable, pairs};
 use crate::scene::{Flexible, Scene};
 use std::f64::consts::PI;
 
-/// A function of x whose products have integrals in closed form.
+/// A function of x for which integrals of products have a closed form.
 #[derive(Clone, Copy)]
 enum Shape {
     /// S_m.
@@ -77,7 +77,7 @@ impl Beam {
     }
 }
 
-/// The functions along x of the table, each a weighted sum of shapes.
+/// The functions along x of the modal table, each a weighted sum of shapes.
 fn functions(beam: &Beam, bending: usize, axial: usize) -> Vec<Vec<(f64, Shape)>> {
     let mut all = vec![vec![(1.0, Shape::Sine(0))]];
     all.extend((1..=axial).map(|j| vec![(1.0, Shape::Axial(j))]));
@@ -90,7 +90,7 @@ fn functions(beam: &Beam, bending: usize, axial: usize) -> Vec<Vec<(f64, Shape)>
     all
 }
 
-/// The table of the scene's beam with its numbers of modes.
+/// The modal table of the scene's beam with its numbers of modes.
 pub fn table(scene: &Scene) -> ModalTable {
     let length = scene.rod.length;
     let Flexible { bending_modes, axial_modes, young, density, area, second_moment, .. } = scene.rod.flexible;
@@ -140,7 +140,7 @@ pub fn table(scene: &Scene) -> ModalTable {
     }
 }
 
-/// Number of functions along x of a table with these numbers of modes.
+/// Number of functions along x in a table with these numbers of modes.
 pub fn function_count(bending: usize, axial: usize) -> usize {
     1 + axial + pairs(bending)
 }

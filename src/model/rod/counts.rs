@@ -1,16 +1,16 @@
-//! How many modes a rod has, and how much of them is known where code is compiled.
+//! Numbers of modes of a rod, and whether they are known at compile time.
 
-/// So few modes have arrays of their own, and loops over them that are written out.
+/// Up to this number of modes, arrays have a size of their own and loops over modes are written out.
 pub const FEW_MODES: usize = 4;
 
-/// How many modes there are, in the order of the modal coordinates, and which of them foreshorten.
+/// Numbers of modes, in the order of the modal coordinates, and of those with foreshortening.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// Bending modes.
     pub bending: usize,
     /// Axial modes.
     pub axial: usize,
-    /// Bending modes that foreshorten: all, or none without geometric stiffness.
+    /// Number of bending modes with foreshortening: all, or 0 without geometric stiffness.
     pub shortening: usize,
 }
 
@@ -21,19 +21,19 @@ impl Counts {
         self.bending + self.axial
     }
 
-    /// Number of functions along x: the rod itself, axial modes, foreshortenings of pairs i ≤ j.
+    /// Number of functions along x: x itself, axial modes, and foreshortenings of pairs i ≤ j.
     #[inline(always)]
     pub const fn functions(self) -> usize {
         1 + self.axial + self.pairs()
     }
 
-    /// Number of pairs of bending modes that foreshorten.
+    /// Number of pairs i ≤ j of bending modes with foreshortening.
     #[inline(always)]
     pub const fn pairs(self) -> usize {
         self.shortening * (self.shortening + 1) / 2
     }
 
-    /// These pairs, i ≤ j.
+    /// The pairs i ≤ j of bending modes with foreshortening.
     pub(super) fn all_pairs(self) -> impl Iterator<Item = (usize, usize)> {
         (0..self.shortening).flat_map(move |i| (i..self.shortening).map(move |j| (i, j)))
     }
@@ -44,7 +44,7 @@ impl Counts {
         bending * (bending.saturating_sub(1)) / 2
     }
 
-    /// Place among the functions of the foreshortening of the bending modes `i` and `j`.
+    /// Index among the functions of the foreshortening of bending modes `i` and `j`.
     #[inline(always)]
     pub const fn pair(self, i: usize, j: usize) -> usize {
         let (i, j) = if i < j { (i, j) } else { (j, i) };
@@ -52,25 +52,25 @@ impl Counts {
     }
 }
 
-/// What is known of a rod's counts where code is compiled.
+/// The counts of a rod as far as they are known at compile time.
 pub trait CompiledCounts {
-    /// The counts, where they are known.
+    /// The counts; `None` if they are known only at run time.
     const COUNTS: Option<Counts>;
-    /// They are known: loops over modes and functions are written out.
+    /// Whether the counts are known: loops over modes and functions are then written out.
     const KNOWN: bool = Self::COUNTS.is_some();
-    /// Most modes.
+    /// Upper bound of the number of modes.
     const MODES: usize = match Self::COUNTS {
         Some(counts) => counts.modes(),
         None => usize::MAX,
     };
-    /// Most functions along x.
+    /// Upper bound of the number of functions along x.
     const FUNCTIONS: usize = match Self::COUNTS {
         Some(counts) => counts.functions(),
         None => usize::MAX,
     };
 }
 
-/// So many modes, with geometric stiffness.
+/// `BENDING` bending modes and `AXIAL` axial modes, with geometric stiffness.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedCounts<const BENDING: usize, const AXIAL: usize>;
 
@@ -78,7 +78,7 @@ impl<const BENDING: usize, const AXIAL: usize> CompiledCounts for FixedCounts<BE
     const COUNTS: Option<Counts> = Some(Counts { bending: BENDING, axial: AXIAL, shortening: BENDING });
 }
 
-/// Any counts.
+/// Counts that are known only at run time.
 #[derive(Clone, Copy, Debug)]
 pub struct RuntimeCounts;
 
@@ -86,19 +86,19 @@ impl CompiledCounts for RuntimeCounts {
     const COUNTS: Option<Counts> = None;
 }
 
-/// How many modes and functions along x the code of a rod has room for.
+/// Array sizes for a rod: maximum numbers of modes and of functions along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RodCapacity {
-    /// For up to 4 modes and 12 functions.
+    /// 4 modes and 12 functions.
     Few,
-    /// For up to 8 modes and 40 functions.
+    /// 8 modes and 40 functions.
     Many,
-    /// For all 16 modes and 48 functions.
+    /// 16 modes and 48 functions, which suffice for any rod.
     All,
 }
 
 impl RodCapacity {
-    /// Numbers of modes and functions.
+    /// Maximum numbers of modes and of functions.
     pub const fn size(self) -> [usize; 2] {
         match self {
             Self::Few => [4, 12],
@@ -107,7 +107,7 @@ impl RodCapacity {
         }
     }
 
-    /// The smallest one for such counts.
+    /// The smallest capacity for these counts.
     pub fn of(counts: Counts) -> Self {
         let suits = |room: &Self| {
             let [modes, functions] = room.size();

@@ -1,23 +1,24 @@
-//! What outputs tell of a rod's elasticity.
+//! Outputs of a rod's elasticity.
 
 use super::flexible::Rod;
 use crate::math::Real;
 
-/// Deflection, stretch, elastic energy and its loss.
+/// Deflection, stretch, elastic energy and modal loss of a rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elastic<R = f64> {
-    /// [m] At mid-span.
+    /// [m] Deflection at mid-span.
     pub deflection: R,
-    /// [m] From end to end.
+    /// [m] Change of the chord's length, L − l.
     pub stretch: R,
-    /// [J]
+    /// [J] Elastic energy.
     pub energy: R,
-    /// [W] That modal damping takes.
+    /// [W] Power lost in modal damping.
     pub modal_loss: R,
 }
 
 impl Rod {
-    /// Deflection, stretch and elastic energy.
+    /// Deflection, elastic energy and modal loss of a rod with this `stretch` [m] and the modal coordinates `eta` [m] with
+    /// their `rate` [m/s].
     pub fn elastic<R: Real>(&self, stretch: R, eta: &[R], rate: &[R]) -> Elastic<R> {
         let mut elastic = Elastic { stretch, ..Elastic::default() };
         elastic.deflection = eta.iter().zip(&self.middle).fold(R::ZERO, |sum, (eta, middle)| sum + *eta * *middle);

@@ -1,21 +1,21 @@
-//! A flexible rod's modes as a scene has them.
+//! The modes of a flexible rod as the scene gives them.
 
 use super::beam;
 use super::counts::Counts;
 use crate::math::Vec2;
 use crate::model::body::Body;
-use crate::scene::modal::{MOST_MODES, ModalTable};
+use crate::scene::modal::{MAX_MODES, ModalTable};
 use crate::scene::{Flexible, Scene};
 
-/// The rod's modes, as the scene calls for them.
+/// The modes of a flexible rod that the scene selects.
 #[derive(Clone, Debug)]
 pub struct Rod {
     pub(super) counts: Counts,
-    /// [m] Undeformed.
+    /// [m] Undeformed length l.
     pub(super) length: f64,
-    /// [kg]
+    /// [kg] Mass.
     pub(super) mass: f64,
-    /// [kg·m] ∫B dm.
+    /// [kg·m] ∫B dm, with B the functions along the rod.
     pub(super) first: Vec<f64>,
     /// [kg·m²] ∫B·Bᵀ dm, row by row.
     pub(super) second: Vec<f64>,
@@ -23,24 +23,24 @@ pub struct Rod {
     pub(super) coupling: Vec<f64>,
     /// [kg] ∫φ dm.
     pub(super) moment: Vec<f64>,
-    /// φ(l/2), φ'(0), φ'(l).
+    /// φ(l/2), φ'(0) and φ'(l) of the bending modes.
     pub(super) middle: Vec<f64>,
     pub(super) slope: [Vec<f64>; 2],
-    /// B(l).
+    /// B(l): values of the functions at the small end.
     pub(super) end: Vec<f64>,
-    /// [kg] Modal masses of η.
+    /// [kg] Modal masses of the modal coordinates η.
     pub(super) modal_mass: Vec<f64>,
-    /// [rad/s] Frequencies of η.
+    /// [rad/s] Natural angular frequencies of η.
     pub frequency: Vec<f64>,
     pub(super) damping_ratio: f64,
 }
 
 impl Rod {
-    /// Of a scene; `None` of a rigid rod.
+    /// The rod of a scene; `None` if it is rigid.
     pub fn new(scene: &Scene) -> Option<Self> {
         let Flexible { bending_modes, axial_modes, damping_ratio, geometric_stiffness, table, .. } =
             &scene.rod.flexible;
-        let count = |modes: i32| usize::try_from(modes).unwrap_or(0).min(MOST_MODES);
+        let count = |modes: i32| usize::try_from(modes).unwrap_or(0).min(MAX_MODES);
         let (bending, axial) = (count(*bending_modes), count(*axial_modes));
         if bending + axial == 0 {
             return None;
@@ -56,7 +56,7 @@ impl Rod {
         Some(Self::of(table, bending, axial, scene.rod.length, *damping_ratio, *geometric_stiffness))
     }
 
-    /// The first `bending` and `axial` modes of a table.
+    /// The first `bending` bending and `axial` axial modes of a table, with foreshortening if `shortens`.
     fn of(table: &ModalTable, bending: usize, axial: usize, length: f64, damping_ratio: f64, shortens: bool) -> Self {
         let all = table.bending.len();
         let mut kept: Vec<usize> = (0..=axial).collect();
@@ -96,7 +96,7 @@ impl Rod {
         }
     }
 
-    /// The rod as a rigid body.
+    /// The undeformed rod as a rigid body.
     pub fn undeformed(&self) -> Body {
         let com = Vec2::new(self.first[0] / self.mass, 0.0);
         let inertia = self.second[0] - self.mass * com.x * com.x;
@@ -108,7 +108,7 @@ impl Rod {
         self.counts.modes()
     }
 
-    /// [kg]
+    /// [kg] Mass.
     pub fn mass(&self) -> f64 {
         self.mass
     }

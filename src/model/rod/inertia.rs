@@ -1,5 +1,5 @@
-//! Inertia of the deformed rod: mass matrix blocks, and the centrifugal and Coriolis terms beside them, all of them
-//! sums over the rod's tables.
+//! Inertia of the deformed rod: the blocks of its mass matrix and its centrifugal and Coriolis terms, as sums over the
+//! rod's tables. Frame, symbols, formulas and a drawing are in [the module above](super).
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
@@ -11,31 +11,31 @@ use super::tables::TableView;
 use crate::math::{LANES, Real, unroll};
 use crate::model::plane::{Vec2, perp};
 
-/// Inertia of the rod in its own frame, for the acceleration of its origin, its angle and η, and what
-/// its motion asks for besides.
+/// Inertia of the rod in its own frame, for the accelerations of the frame's origin, of its angle and of the modal
+/// coordinates η, and the forces that the motion requires at zero accelerations.
 #[derive(Clone, Copy, Debug)]
 pub struct Inertia<R, const K: usize> {
-    /// [kg·m] First moment D.
+    /// [kg·m] First moment D = ∫ρ dm about the frame's origin.
     pub first: Vec2<R>,
-    /// [kg·m²] About the origin.
+    /// [kg·m²] Moment of inertia J = ∫|ρ|² dm about the frame's origin.
     pub about_origin: R,
     /// [kg] ∂D/∂η.
     pub first_slope: [Vec2<R>; K],
-    /// [kg·m] Of the angle with η.
+    /// [kg·m] T_a: coupling of the frame's angle with η.
     pub with_angle: [R; K],
-    /// [kg] Of η with η; the lower triangle.
+    /// [kg] m_ab: coupling of η with η; the lower triangle.
     pub modal: [[R; K]; K],
-    /// [N] What centrifugal and Coriolis accelerations ask for: force along the frame's axes,
+    /// [N] Force ∫a dm that centrifugal and Coriolis accelerations require, in the frame's axes.
     pub force: Vec2<R>,
-    /// [N·m] moment about the origin,
+    /// [N·m] Moment ∫ρ × a dm that centrifugal and Coriolis accelerations require, about the origin.
     pub couple: R,
-    /// [N] and force on η.
+    /// [N] Force ∫∂ρ/∂η · a dm that centrifugal and Coriolis accelerations require of η.
     pub modal_force: [R; K],
 }
 
 impl<const K: usize, const F: usize> Arrays<'_, K, F> {
-    /// The inertia of a shape, with its modal coordinates and their rates, whose frame turns at `speed`
-    /// [rad/s].
+    /// The inertia of a `shape` with modal coordinates `eta` [m] and their rates `rate` [m/s], in a frame that rotates
+    /// at `speed` [rad/s].
     #[inline(always)]
     pub fn inertia<R: Real, C: CompiledCounts>(
         &self,
@@ -51,7 +51,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         let Shape { xi, xi_rate, xi_bias, .. } = shape;
         let (functions, pairs, none) = (counts.functions(), 1 + axial..counts.functions(), [R::ZERO; F]);
         let (square, twice) = (speed * speed, speed * 2.0);
-        // Of each function, the acceleration along x at q̈ = 0 as seen from the frame's origin.
+        // Of each function, its part of the acceleration along x at q̈ = 0, relative to the frame's origin.
         let mut asking = none;
         unroll!(C::KNOWN, k < functions, C::FUNCTIONS => {
             asking[k] = (-square).multiply_add(xi[k], xi_bias[k]);
@@ -141,7 +141,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             unroll!(C::KNOWN, further < shortening - i, C::MODES => {
                 let (k, place) = (i + further, first + further);
                 inertia.modal[k][i] += product[place - 1 - axial];
-                // ∂x/∂q_i has −2·q_k of the foreshortening of i and k.
+                // ∂x/∂q_i contains −2·q_k times the foreshortening of i and k.
                 inertia.modal_force[i] = (q[k] * -2.0).multiply_add(asked[place], inertia.modal_force[i]);
                 if k > i {
                     inertia.modal_force[k] = (q[i] * -2.0).multiply_add(asked[place], inertia.modal_force[k]);

@@ -1,26 +1,26 @@
-//! The rod's modes as the inner loop reads them.
+//! The rod's modes in the arrays that the equations read.
 
 use super::counts::{Counts, RodCapacity};
 use super::flexible::Rod;
 use super::tables::{TableView, Tables};
 use crate::math::Real;
 
-/// A rod's modes in lists with [`RodCapacity`] for more of them.
+/// The modes of a rod in lists with the sizes of a [`RodCapacity`].
 #[derive(Clone, Debug)]
 pub struct Modes {
-    /// How many there are.
+    /// Numbers of modes.
     pub counts: Counts,
-    /// What the lists have room for.
+    /// Sizes of the lists.
     pub room: RodCapacity,
     /// [m] Undeformed length.
     length: f64,
-    /// B(l), of functions.
+    /// B(l): values of the functions at the small end.
     end: Vec<f64>,
     /// [1/m] φ'(0) and φ'(l).
     slope: [Vec<f64>; 2],
-    /// [N/m] Modal mass times ω².
+    /// [N/m] Modal stiffness: modal mass times ω².
     stiffness: Vec<f64>,
-    /// [N·s/m] 2·ζ·ω times the modal mass.
+    /// [N·s/m] Modal damping: 2·ζ·ω times the modal mass.
     damping: Vec<f64>,
     tables: Tables,
     /// [kg] ∫φ dm.
@@ -29,10 +29,10 @@ pub struct Modes {
     modal_mass: Vec<f64>,
 }
 
-/// The same modes in arrays of `K` modes and `F` functions.
+/// The modes in arrays for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrays<'a, const K: usize, const F: usize> {
-    /// How many there are.
+    /// Numbers of modes.
     pub counts: Counts,
     pub(super) length: f64,
     pub(super) end: &'a [f64; F],
@@ -45,12 +45,12 @@ pub(crate) struct Arrays<'a, const K: usize, const F: usize> {
 }
 
 impl Modes {
-    /// Of a rod.
+    /// The modes of a rod, with the smallest capacity.
     pub fn new(rod: &Rod) -> Self {
         Self::with_capacity(rod, RodCapacity::of(rod.counts))
     }
 
-    /// The same in a room that is given.
+    /// The modes of a rod, with the capacity `room`.
     pub fn with_capacity(rod: &Rod, room: RodCapacity) -> Self {
         let counts = rod.counts;
         let [modes, functions] = room.size();
@@ -77,7 +77,7 @@ impl Modes {
         }
     }
 
-    /// In the arrays of its room.
+    /// Views the lists as arrays of their own sizes.
     #[inline(always)]
     pub(crate) fn arrays<const K: usize, const F: usize>(&self) -> Arrays<'_, K, F> {
         Arrays {
@@ -94,7 +94,7 @@ impl Modes {
     }
 }
 
-/// A list as an array of its own length.
+/// Views a list as an array of its own length.
 #[inline(always)]
 fn array<const N: usize>(list: &[f64]) -> &[f64; N] {
     match list.first_chunk() {
@@ -104,7 +104,8 @@ fn array<const N: usize>(list: &[f64]) -> &[f64; N] {
 }
 
 impl<const K: usize, const F: usize> Arrays<'_, K, F> {
-    /// [N] What elasticity, modal damping and the couples [N·m] on the end sections do to the modal coordinate `k`.
+    /// [N] Generalised force on modal coordinate `k`: elasticity, modal damping, and the couples [N·m] on the end
+    /// sections.
     #[inline(always)]
     pub fn force<R: Real>(&self, k: usize, eta: R, rate: R, couple: &[R; 2]) -> R {
         let bent = couple[0] * self.slope[0][k] + couple[1] * self.slope[1][k];

@@ -1,4 +1,4 @@
-//! The deformed rod in its own frame: amplitudes of its functions, and the chord.
+//! The deformed rod in its own frame: amplitudes of its functions, and its chord.
 
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
@@ -7,14 +7,14 @@ use super::modes::Arrays;
 use super::sums::{ModesToModes, add_rows};
 use crate::math::{Real, unroll};
 
-/// The deformed rod, and how it deforms; with room for `K` modes and `F` functions.
+/// Deformation of the rod and its rate, in arrays for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape<R, const K: usize, const F: usize> {
-    /// The chord.
+    /// Chord of the deformed rod.
     pub chord: Chord<R>,
     /// ∂L/∂η.
     pub chord_slope: [R; K],
-    /// [rad/s] Rates of the end slopes.
+    /// [rad/s] Rates of the slopes at both ends.
     pub slope_rate: [R; 2],
     pub(super) xi: [R; F],
     pub(super) xi_rate: [R; F],
@@ -22,14 +22,14 @@ pub struct Shape<R, const K: usize, const F: usize> {
     pub(super) xi_bias: [R; F],
 }
 
-/// The chord of the deformed rod.
+/// The chord of the deformed rod: the straight line between its ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Chord<R> {
-    /// [m] Its length L = l + stretch.
+    /// [m] Length L = l + stretch.
     pub length: R,
-    /// [m]
+    /// [m] Change of the chord's length.
     pub stretch: R,
-    /// [m/s] Its rate.
+    /// [m/s] Rate of the chord's length.
     pub rate: R,
     /// [m/s²] L̈ at η̈ = 0.
     pub bias: R,
@@ -51,7 +51,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         };
         let Shape { chord, chord_slope, slope_rate, xi, xi_rate, xi_bias } = &mut shape;
         let (eta, rate) = (&eta[..counts.modes()], &rate[..counts.modes()]);
-        // Foreshortening is quadratic in the bending modes, and so is half of what its slope has with them.
+        // Foreshortening is quadratic in the bending modes: half the product of their amplitudes and its slope.
         let mut with_rate = [R::ZERO; K];
         let lists = [&mut *chord_slope, &mut with_rate];
         add_rows::<R, ModesToModes<C>, _, _>(lists, self.tables.shortening, 0..shortening, [eta, rate], bending);

@@ -8,22 +8,23 @@ use std::array;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// Most fours of sums at a time, those of all lists together: as many as stay in registers.
+/// Maximum number of groups of four sums at a time, over all lists: as many as stay in registers.
 const FOURS: usize = if cfg!(target_feature = "avx") { 8 } else { 4 };
 
-/// How many rows and columns a sum may have, as far as that is known where it is compiled.
+/// Bounds of the numbers of rows and columns of a sum, as far as they are known at compile time.
 pub trait Bounds {
-    /// Most rows.
+    /// Maximum number of rows.
     const ROWS: usize;
-    /// Most columns.
+    /// Maximum number of columns.
     const COLUMNS: usize;
 }
 
-/// From modal coordinates to what stands with them.
+/// Bounds of sums with a row for each modal coordinate and a column for each modal coordinate.
 pub struct ModesToModes<C>(PhantomData<C>);
-/// From amplitudes of functions along x to what stands with modal coordinates and, after them, the rod's own.
+/// Bounds of sums with a row for each function along x and a column for each modal coordinate and, last, one for the
+/// rod.
 pub struct FunctionsToModes<C>(PhantomData<C>);
-/// From amplitudes to what stands with functions or pairs of modes.
+/// Bounds of sums with a row for each function along x and a column for each function or pair of modes.
 pub struct FunctionsToFunctions<C>(PhantomData<C>);
 
 impl<C: CompiledCounts> Bounds for ModesToModes<C> {
@@ -39,8 +40,9 @@ impl<C: CompiledCounts> Bounds for FunctionsToFunctions<C> {
     const COLUMNS: usize = C::FUNCTIONS;
 }
 
-/// Adds Σ factor·row over `rows` of a table to each list of `sums`, with factors of its own: in so many columns, and in
-/// others up to whole fours. Sums over a known number of rows are written out: at most sixteen.
+/// Adds Σ factor·row over the `rows` of a table to each list in `sums`, with the list's own `factors`, in the first
+/// `columns` columns, rounded up to groups of four. If the number of rows is known at compile time, the sum is written
+/// out: at most sixteen rows.
 #[inline(always)]
 pub fn add_rows<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize>(
     mut sums: [&mut [R; WIDTH]; LISTS],
@@ -70,7 +72,7 @@ pub fn add_rows<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize>(
     }
 }
 
-/// So many fours of each list are added up at a time.
+/// Number of groups of four sums of each list that are computed at a time.
 const fn most_fours<R: Real, B: Bounds>(width: usize, lists: usize) -> usize {
     const fn smaller(a: usize, b: usize) -> usize {
         if a < b { a } else { b }
@@ -79,7 +81,7 @@ const fn most_fours<R: Real, B: Bounds>(width: usize, lists: usize) -> usize {
     if R::PLAIN { smaller(smaller(FOURS / lists, there), 4) } else { 1 }
 }
 
-/// The same for `COUNT` fours of columns from the `first` on, side by side: a sum waits for itself alone.
+/// Adds the rows in `COUNT` groups of four columns from group `first` on; the groups do not wait for each other.
 #[inline(always)]
 fn add_fours<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize, const COUNT: usize>(
     sums: &mut [&mut [R; WIDTH]; LISTS],
@@ -127,7 +129,8 @@ mod tests {
         const COLUMNS: usize = usize::MAX;
     }
 
-    /// Two lists of sums over the rows from the third on, by [`add_rows`] together and apart, and one by one.
+    /// Compares sums of two lists over the rows from the third on: by [`add_rows`] together and separately, and one by
+    /// one.
     fn agrees<R: Real + PartialEq, B: Bounds>(number: impl Fn(usize) -> R, columns: usize) {
         let table: [[f64; WIDTH]; ROWS] = array::from_fn(|row| array::from_fn(|i| ((7 * row + 3 * i) as f64).sin()));
         let factors: [[R; ROWS]; 2] = array::from_fn(|list| array::from_fn(|row| number(20 * list + row)));

@@ -1,13 +1,13 @@
-//! Moments of the rod's modes, in the tables that its inertia is summed from.
+//! Moments of the rod's modes, in the tables from which its inertia is summed.
 //!
-//! The field of places along the rod is x = Σ ξ_p·B_p across the functions B: the rod itself (ξ = 1), axial modes,
-//! foreshortenings of pairs (ξ_kl = −q_k·q_l, twice that where k ≠ l). With w = Σ q_i·φ_i and ∂x/∂q_i = −2·Σ_k q_k·B_ik,
-//! every integral over the rod that its motion asks for is a sum over few products of modal coordinates and rates.
+//! Positions along the rod are x = Σ ξ_p·B_p over the functions B: the rod itself (ξ = 1), axial modes, and
+//! foreshortenings of pairs (ξ_kl = −q_k·q_l, twice that if k ≠ l). With w = Σ q_i·φ_i and ∂x/∂q_i = −2·Σ_k q_k·B_ik,
+//! every integral over the rod is a sum over few products of modal coordinates and rates.
 
 use super::counts::RodCapacity;
 use super::flexible::Rod;
 
-/// Rows of numbers, each with room for so many.
+/// Rows of `width` numbers.
 #[derive(Clone, Debug)]
 struct Table {
     width: usize,
@@ -29,8 +29,8 @@ impl Table {
     }
 }
 
-/// The tables, each with a row for a factor and a column for a result. Their units are such that a factor [1, m, m² and
-/// their rates] makes of a row what stands with it.
+/// The tables; each has a row for a factor and a column for a result. A factor [1, m, m² or their rates] times its row
+/// gives its part of the results.
 #[derive(Clone, Debug)]
 pub struct Tables {
     second: Table,
@@ -44,30 +44,30 @@ pub struct Tables {
     shortening: Table,
 }
 
-/// The tables as rows of arrays with room for `K` modes and `F` functions.
+/// The tables as rows of arrays for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TableView<'a, const K: usize, const F: usize> {
     tables: &'a Tables,
-    /// ∫B·Bᵀ dm; of a product of two factors [kg·m²].
+    /// ∫B·Bᵀ dm, for a product of two factors [kg·m²].
     pub second: &'a [[f64; F]],
-    /// ∫B·φ_i dm for every bending mode and, after them, ∫B dm [kg·m].
+    /// ∫B·φ_i dm for every bending mode and, last, ∫B dm [kg·m].
     pub with_modes: &'a [[f64; F]],
-    /// From ξ: ∫(x·φ_i − w·∂x/∂q_i) dm, and ∫x dm [kg·m].
+    /// Factors ξ; results ∫(x·φ_i − w·∂x/∂q_i) dm, and ∫x dm [kg·m].
     pub placing: &'a [[f64; F]],
-    /// From ξ̇, with `twisting`: ∫(ẋ·φ_i − ẇ·∂x/∂q_i) dm, and ∫ẋ dm [kg·m/s].
+    /// Factors ξ̇; results, together with those of `twisting`: ∫(ẋ·φ_i − ẇ·∂x/∂q_i) dm, and ∫ẋ dm [kg·m/s].
     pub moving: &'a [[f64; F]],
-    /// From q_j·q̇_k − q_k·q̇_j for j < k, ordered by k.
+    /// Factors q_j·q̇_k − q_k·q̇_j for j < k, ordered by k.
     pub twisting: &'a [[f64; F]],
-    /// From ξ: ∫(∂x/∂q_i)·(∂x/∂q_j) dm [kg], for pairs i ≤ j.
+    /// Factors ξ; results ∫(∂x/∂q_i)·(∂x/∂q_j) dm [kg] for pairs i ≤ j.
     pub products: &'a [[f64; F]],
-    /// From q: ∫∂x/∂q_i dm [kg].
+    /// Factors q; results ∫∂x/∂q_i dm [kg].
     pub shifting: &'a [[f64; F]],
-    /// From q: ∂x/∂q_i at the small end.
+    /// Factors q; results ∂x/∂q_i at the small end.
     pub shortening: &'a [[f64; K]],
 }
 
 impl<'a, const K: usize, const F: usize> TableView<'a, K, F> {
-    /// From q, for the axial mode `j`: ∫B_j·∂x/∂q_i dm [kg].
+    /// Factors q; results ∫B_j·∂x/∂q_i dm [kg] for the axial mode `j`.
     #[inline(always)]
     pub fn stretching(&self, j: usize) -> &'a [[f64; K]] {
         self.tables.stretching[j].rows()
@@ -75,7 +75,7 @@ impl<'a, const K: usize, const F: usize> TableView<'a, K, F> {
 }
 
 impl Tables {
-    /// Of a rod.
+    /// The tables of a rod, with the array sizes of `room`.
     pub fn new(rod: &Rod, room: RodCapacity) -> Self {
         let counts = rod.counts;
         let (n, axial, count) = (counts.bending, counts.axial, counts.functions());
@@ -129,7 +129,7 @@ impl Tables {
         tables
     }
 
-    /// As rows of arrays of their own width.
+    /// Views the tables as rows of arrays of their own width.
     #[inline(always)]
     pub(super) fn viewed<const K: usize, const F: usize>(&self) -> TableView<'_, K, F> {
         TableView {

@@ -1,10 +1,10 @@
-//! Where a step is looked at that is made as a [`block`](super), and the polynomials through what is seen there.
+//! Nodes of a [`block`](super) and the tables of the polynomials through the accelerations at the nodes.
 
 #![expect(clippy::excessive_precision, reason = "coefficients stand as printed")]
 
 use crate::math::{F64x8, ROW, Real};
 
-/// The instants of a step: those of Radau's quadrature that end at 1, after the step's start.
+/// Nodes c₁ … c₈ of a step, as shares of its length: those of Radau's right quadrature, which include 1.
 pub const NODES: [f64; ROW] = [
     0.022_479_386_438_712_498_108_825_5,
     0.114_679_053_160_904_231_909_640_2,
@@ -15,7 +15,7 @@ pub const NODES: [f64; ROW] = [
     0.943_737_439_463_077_853_534_347_8,
     1.0,
 ];
-/// Gauss's quadrature, for polynomials up to degree nine.
+/// Nodes and weights of Gauss quadrature on 0 to 1, exact for polynomials up to degree nine.
 const GAUSS: [(f64, f64); 5] = [
     (0.046_910_077_030_668_003_601_186_56, 0.118_463_442_528_094_543_757_132_0),
     (0.230_765_344_947_158_454_481_842_8, 0.239_314_335_249_683_234_020_645_8),
@@ -23,14 +23,14 @@ const GAUSS: [(f64, f64); 5] = [
     (0.769_234_655_052_841_545_518_157_2, 0.239_314_335_249_683_234_020_645_8),
     (0.953_089_922_969_331_996_398_813_4, 0.118_463_442_528_094_543_757_132_0),
 ];
-/// The step's start and its nodes.
+/// Number of interpolation points: the step's start, c₀ = 0, and its nodes.
 pub const POINTS: usize = 1 + ROW;
 
 const fn point(j: usize) -> f64 {
     if j == 0 { 0.0 } else { NODES[j - 1] }
 }
 
-/// ℓ_j(x): 1 at point j, 0 at all others.
+/// Lagrange polynomial ℓ_j(x): 1 at point j, 0 at all other points.
 const fn cardinal(j: usize, x: f64) -> f64 {
     let (mut product, mut k) = (1.0, 0);
     while k < POINTS {
@@ -42,11 +42,11 @@ const fn cardinal(j: usize, x: f64) -> f64 {
     product
 }
 
-/// Two tables by columns, one of velocities and one of positions: A_ij and B_ij of [`block`](super), the first
-/// columns for a step's start.
+/// Two tables stored by columns, one for velocities and one for positions: A_ij and B_ij of [`block`](super). Column 0
+/// belongs to the step's start.
 pub type Tables = [[F64x8; POINTS]; 2];
 
-/// ∫ ℓ_j and ∫∫ ℓ_j from `start` on, over the way from a step's start to each node: columns by j.
+/// ∫ ℓ_j dx and ∫∫ ℓ_j dx² from `start` to `start` + c_i, stored by columns j.
 const fn integrals(start: f64) -> Tables {
     let mut all = [[F64x8::ZERO; POINTS]; 2];
     let mut j = 0;
@@ -70,20 +70,21 @@ const fn integrals(start: f64) -> Tables {
     all
 }
 
-/// Of the accelerations in a step.
+/// A and B: integrals of the accelerations in a step.
 pub static INTEGRALS: Tables = integrals(0.0);
 
-/// Of the accelerations in the step before, if that was as long.
-pub static AHEAD: Tables = integrals(1.0);
+/// Integrals of the polynomial of the step before over a step of the same length.
+pub static EXTRAPOLATION: Tables = integrals(1.0);
 
-/// Coefficients of x¹ to x⁸ of the polynomials ℓ_j about the step's start and about its end, columns by j.
+/// Coefficients of x¹ … x⁸ of the polynomials ℓ_j about the step's start (0) and about its end (1), stored by columns
+/// j.
 pub static POWERS: [[F64x8; POINTS]; 2] = {
     let mut all = [[F64x8::ZERO; POINTS]; 2];
     let mut origin = 0;
     while origin < 2 {
         let mut j = 0;
         while j < POINTS {
-            // Π(x − (c_k − origin)), one factor after the other; signs do not mix.
+            // Π (x − (c_k − origin))/(c_j − c_k), multiplied factor by factor.
             let mut coefficients = [0.0; POINTS];
             coefficients[0] = 1.0;
             let (mut degree, mut k) = (0, 0);
@@ -112,7 +113,7 @@ pub static POWERS: [[F64x8; POINTS]; 2] = {
     all
 };
 
-/// c_i^(n+1)/(n + 1) and c_i^(n+2)/((n + 1)·(n + 2)) in row n.
+/// Integrals of the monomials xⁿ from 0 to c_i: c_i^(n+1)/(n + 1) and c_i^(n+2)/((n + 1)·(n + 2)) in column n.
 pub static MONOMIALS: Tables = {
     let mut all = [[F64x8::ZERO; POINTS]; 2];
     let (mut n, mut powers) = (0, NODES);
@@ -131,9 +132,9 @@ pub static MONOMIALS: Tables = {
     all
 };
 
-/// Weights of the accelerations' part of degree eight, its coefficient in Legendre polynomials: of the one at the start, and
-/// of those at the nodes.
-pub static TOP: (f64, F64x8) = {
+/// Weights that give the coefficient of degree eight of the accelerations in Legendre polynomials: that of the start,
+/// and those of the nodes.
+pub static TOP_DEGREE_WEIGHTS: (f64, F64x8) = {
     let mut all = [0.0; POINTS];
     let mut j = 0;
     while j < POINTS {
@@ -175,7 +176,7 @@ mod tests {
     #[test]
     fn polynomials_up_to_degree_eight_are_integrated_exactly() {
         // Sums about the next step are of terms up to a million.
-        for (tables, start, bound) in [(&INTEGRALS, 0.0, 8e-16), (&AHEAD, 1.0, 1e-9)] {
+        for (tables, start, bound) in [(&INTEGRALS, 0.0, 8e-16), (&EXTRAPOLATION, 1.0, 1e-9)] {
             for degree in 0..=8 {
                 let [once, twice] = [0, 1].map(|times| sums(&tables[times], degree, point));
                 // From the start, of x^degree: ∫ = (x^(n+1) − start^(n+1))/(n+1), and so on.
@@ -216,8 +217,8 @@ mod tests {
     fn the_part_of_degree_eight_is_that_of_legendre() {
         // x⁸ on 0 to 1 has 1/12870 of the polynomial, and what is lower has none.
         for degree in 0..=8 {
-            let at_start = if degree == 0 { TOP.0 } else { 0.0 };
-            let found = at_start + (TOP.1 * F64x8::of(NODES.map(|c| c.powi(degree)))).sum();
+            let at_start = if degree == 0 { TOP_DEGREE_WEIGHTS.0 } else { 0.0 };
+            let found = at_start + (TOP_DEGREE_WEIGHTS.1 * F64x8::of(NODES.map(|c| c.powi(degree)))).sum();
             let wanted = if degree == 8 { 1.0 / 12_870.0 } else { 0.0 };
             assert!((found - wanted).abs() < 1e-14, "degree {degree}: {found:e}");
         }

@@ -1,23 +1,23 @@
-//! One step from end to end.
+//! One step of Moreau's midpoint rule.
 
 use super::closed_contacts::ClosedContacts;
 use super::midpoint::{Midpoint, State};
 use crate::integrator::complementarity::NORMAL;
 use crate::integrator::error::IntegrationError;
-use crate::integrator::state::{StepPoint, lost_state};
+use crate::integrator::state::{StepPoint, first_invalid};
 use crate::integrator::unilateral::{Impulses, Unilateral};
 
 /// An attempted step.
 pub struct AttemptedStep {
-    /// State at its end.
+    /// State at the end of the step.
     pub y: State,
-    /// What the contacts did.
+    /// Impulses of the contacts.
     pub impulses: Impulses,
-    /// Evaluations of accelerations.
+    /// Number of evaluations of the accelerations.
     pub evaluations: u64,
 }
 
-/// A step of `h` from `start`, whose discrete state is `open` where no contact acts.
+/// Attempts a step of `h` [s] from `start`. `open` is the discrete state with every contact open.
 pub fn attempt<D: Copy>(
     system: &dyn Unilateral<Discrete = D>,
     open: D,
@@ -32,14 +32,14 @@ pub fn attempt<D: Copy>(
     } else {
         through_contacts(system, &midpoint, closed, &free)?
     };
-    match lost_state(&made.y) {
+    match first_invalid(&made.y) {
         None => Ok(made),
         Some(component) => Err(IntegrationError::NotFinite { time: start.t, component }),
     }
 }
 
-/// A step with closed contacts, which would have the velocities `free` without them. Its impulses are found twice: with
-/// the velocities of the free step for what depends on velocity, and with those that came of it.
+/// A step with closed contacts; `free` holds the velocities at its end without contact impulses. The impulses are
+/// solved twice: first with velocity-dependent forces from the free step, then with those from the first solution.
 fn through_contacts<D: Copy>(
     system: &dyn Unilateral<Discrete = D>,
     midpoint: &Midpoint<'_, D>,
@@ -66,6 +66,6 @@ fn through_contacts<D: Copy>(
         made.impulses.forces[contact] = impulse.map(|impulse| impulse / midpoint.h);
         made.impulses.closed[contact] = impulse[NORMAL] > 0.0;
     }
-    closed.press_back(system, midpoint, &impulses, &mut made.y);
+    closed.correct_penetration(system, midpoint, &impulses, &mut made.y);
     Ok(made)
 }

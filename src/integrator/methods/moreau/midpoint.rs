@@ -1,29 +1,29 @@
-//! The middle of a step, where velocities change.
+//! The midpoint of a step, where velocities change.
 
 use crate::integrator::state::StepPoint;
 use crate::integrator::unilateral::{Impulses, MAX_RIGID_CONTACT_STATES, Unilateral, padded};
 
-/// A state, and zeros.
+/// A state, padded with zeros.
 pub type State = [f64; MAX_RIGID_CONTACT_STATES];
 
-/// The middle of a step: where velocities change.
+/// The midpoint of a step.
 pub struct Midpoint<'a, D> {
     /// The discrete state with every contact open.
     pub open: D,
-    /// Where the step starts.
+    /// Start of the step.
     pub start: &'a StepPoint<Impulses>,
-    /// [s] How long it is.
+    /// [s] Length of the step.
     pub h: f64,
-    /// [s] Time in its middle.
+    /// [s] Time at the midpoint.
     pub t: f64,
-    /// Positions there, with the velocities of the start.
+    /// Positions at the midpoint, with the velocities of the start.
     pub y: State,
     /// Number of positions.
     pub positions: usize,
 }
 
 impl<'a, D: Copy> Midpoint<'a, D> {
-    /// Of a step of `h` from `start`.
+    /// The midpoint of a step of `h` [s] from `start`.
     pub fn new(system: &dyn Unilateral<Discrete = D>, open: D, start: &'a StepPoint<Impulses>, h: f64) -> Self {
         let positions = system.layout().positions;
         let mut y = padded(&start.y);
@@ -33,8 +33,8 @@ impl<'a, D: Copy> Midpoint<'a, D> {
         Self { open, start, h, t: start.t + 0.5 * h, y, positions }
     }
 
-    /// The middle's positions with the velocities that the step ends with when no contact acts and forces are those at
-    /// the velocities of `moving`.
+    /// The positions of the midpoint with the velocities at the end of a step without contact impulses; forces are
+    /// evaluated at the velocities of `moving`.
     pub fn free(&self, system: &dyn Unilateral<Discrete = D>, moving: &State) -> State {
         let n = self.states();
         let mut rates = [0.0; MAX_RIGID_CONTACT_STATES];
@@ -50,17 +50,17 @@ impl<'a, D: Copy> Midpoint<'a, D> {
         self.start.y.len()
     }
 
-    /// The middle's positions with the velocities of the start.
+    /// The positions of the midpoint with the velocities of the start.
     pub fn state(&self) -> &[f64] {
         self.of(&self.y)
     }
 
-    /// As much of an array as there are states.
+    /// The part of `y` that holds states.
     pub fn of<'y>(&self, y: &'y State) -> &'y [f64] {
         &y[..self.states()]
     }
 
-    /// The middle's positions with velocities half-way between the start's and those of `last`.
+    /// The positions of the midpoint with the mean of the start's velocities and those of `last`.
     pub fn halfway(&self, last: &State) -> State {
         let mut y = self.y;
         for i in self.positions..2 * self.positions {
@@ -69,7 +69,7 @@ impl<'a, D: Copy> Midpoint<'a, D> {
         y
     }
 
-    /// Where the step ends with the velocities of `y`.
+    /// The end of the step if its velocities are those of `y`.
     pub fn end(&self, y: &State) -> State {
         let mut end = *y;
         for i in 0..self.positions {

@@ -1,31 +1,39 @@
-//! Moreau's midpoint rule: time stepping for rigid contacts, with Newton's restitution and Coulomb's friction (J. J.
+//! Moreau's midpoint rule: time stepping for rigid contacts, with Newton restitution and Coulomb friction (J. J.
 //! Moreau, in Nonsmooth Mechanics and Applications, CISM 302, Springer 1988; M. Jean, Comput. Methods Appl. Mech. Eng.
 //! 177 (1999) 235; for a slider-crank: P. Flores, R. Leine, C. Glocker, Multibody Syst. Dyn. 23 (2010) 165).
 //!
-//! A step of h from (q_A, u_A): q_M = q_A + (h/2)·u_A; the contacts whose gap is gone by then are closed;
-//! M(q_M)·(u_E − u_A) = h·f + W_N·Λ_N + W_T·Λ_T, where ξ_N = γ_NE + e_N·γ_NA ≥ 0 is complementary to Λ_N ≥ 0 and
-//! −Λ_T ∈ μ·Λ_N·Sgn(γ_TE); q_E = q_M + (h/2)·u_E. Impacts are not located: a step may hold several, and a lasting
-//! contact is an impact in every step.
+//! A step of length h starts at (q_A, u_A) and ends at (q_E, u_E):
 //!
-//! Three things are of the second order in h here that are usually of the first, all because minimal coordinates are
-//! curved:
-//! - Forces f that depend on velocity are taken half-way between u_A and u_E (as known from a first pass), not at u_A.
-//! - γ_A and γ_E are the velocities where the step starts and where it ends, not those that u_A and u_E would have at
-//!   q_M: they differ by (h/2)·Ẇᵀu (taken from the step without contacts), as much as the velocities of a lasting
-//!   contact. So a journal in its bearing leaves no step along the tangent, and chatter comes to rest.
+//! ```text
+//! A ──── q_M = q_A + (h/2)·u_A ────> M ──── q_E = q_M + (h/2)·u_E ────> E
+//!                                    │
+//!    M(q_M)·(u_E − u_A) = h·f + W_N·Λ_N + W_T·Λ_T
+//!    ξ_N = γ_NE + e_N·γ_NA ≥ 0  ⟂  Λ_N ≥ 0,    −Λ_T ∈ μ·Λ_N·Sgn(γ_TE)    for all closed contacts
+//! ```
+//!
+//! A contact is closed if its gap vanishes by the midpoint M. γ_N and γ_T are relative velocities of the contact
+//! surfaces, Λ impulses, e_N restitution, μ friction. Impacts are not located: a step may contain several, and a
+//! lasting contact is an impact in every step.
+//!
+//! Three terms are of second order in h here that are usually of first order. They arise because minimal coordinates
+//! are curvilinear:
+//! - Forces f that depend on velocity are evaluated half-way between u_A and u_E (known from a first pass), not at u_A.
+//! - γ_A and γ_E are the relative velocities at the start and at the end of the step, not those of u_A and u_E at q_M.
+//!   They differ by (h/2)·Ẇᵀu (taken from the step without contacts), which is as much as the relative velocities of a
+//!   lasting contact. Hence a journal does not leave its bearing along the tangent, and chatter comes to rest.
 //! - A contact is closed if gap + (h/2)·γ_A ≤ 0 at the start, for the same reason.
 //!
-//! So the rule is of order 2 where nothing touches or contacts last, and of order 1 through an impact, which errs by
-//! what is passed in a step.
+//! The rule is of order 2 without contacts and in lasting contacts. Through an impact it is of order 1, because the
+//! impact happens up to one step early or late.
 //!
-//! Penetration: an impact goes as deep as its approach in a step, h·|γ_NA|. In a lasting contact, a tenth of what is
-//! deeper than the h·|γ_N| of the step is taken back in every step, by the shift of positions of least kinetic
-//! distance; so what an impact leaves behind fades, and what stays is of order h². Contacts that part are left alone:
-//! lifting them would add energy.
+//! Penetration: an impact penetrates as far as the bodies approach in a step, h·|γ_NA|. In a lasting contact, every
+//! step corrects a tenth of the penetration that exceeds h·|γ_N| of the step, by the shift of positions with the least
+//! kinetic norm. The penetration that an impact leaves decays, and the rest is of order h². Contacts that separate are
+//! not corrected, because that would add energy.
 //!
-//! Newton's restitution with friction may add energy too, where an impact turns the sliding about and restitution is
-//! near 1 (T. R. Kane, D. A. Levinson, Dynamics: Theory and Applications, McGraw-Hill 1985). Without friction and with
-//! one restitution it never does.
+//! Newton restitution with friction can add energy if an impact reverses the sliding and restitution is near 1 (T. R.
+//! Kane, D. A. Levinson, Dynamics: Theory and Applications, McGraw-Hill 1985). Without friction and with equal
+//! restitution in all contacts it never does.
 
 mod attempt;
 mod closed_contacts;
@@ -38,7 +46,7 @@ use crate::integrator::system::{EventFunctions, System};
 use crate::integrator::unilateral::{Impulses, MAX_RIGID_CONTACT_STATES, Unilateral, padded};
 use attempt::{AttemptedStep, attempt};
 
-/// Time stepping with a fixed step.
+/// Time stepping by Moreau's midpoint rule with a fixed step.
 pub struct Moreau<D> {
     settings: Settings,
     /// The discrete state of the system with every contact open.
@@ -52,30 +60,30 @@ impl<D: Copy> Moreau<D> {
     /// Starts from the state `y` at `t`; `open` is the discrete state of the system with every contact open.
     pub fn start(settings: Settings, t: f64, y: &[f64], open: D) -> Self {
         assert!(y.len() <= MAX_RIGID_CONTACT_STATES, "at most as many states as a rigid mechanism has");
-        // Rates are of no use to it.
+        // The method does not use rates.
         let point = StepPoint::new(t, y, Impulses::none(t, y));
         let mut state = SolverState::new(&point, settings.fixed_step);
         state.last_error = 0.0;
         Self::resume(settings, state, open)
     }
 
-    /// Goes on from a saved state.
+    /// Resumes from a saved state.
     pub fn resume(settings: Settings, state: SolverState<Impulses>, open: D) -> Self {
         let inside = state.front().y.clone();
         Self { settings, open, state, inside }
     }
 
-    /// The discrete state with every contact open.
+    /// The discrete state of the system with every contact open.
     pub fn open(&self) -> &D {
         &self.open
     }
 
-    /// Gives the next steps another discrete state with every contact open. Time must be at the front.
+    /// Replaces the discrete state with every contact open, from the next step on. The present time must be the front.
     pub fn set_open(&mut self, open: D) {
         self.open = open;
     }
 
-    /// All that is needed to go on.
+    /// The solver's state: all that a later [`resume`](Self::resume) needs.
     pub fn state(&self) -> &SolverState<Impulses> {
         &self.state
     }
@@ -90,8 +98,8 @@ impl<D: Copy> Moreau<D> {
         self.march(system, t, |_| false)
     }
 
-    /// Steps until `t` lies within the last step, or until a step has ended after `after` that closed or opened
-    /// contacts, and tells when that was.
+    /// Steps until `t` lies within the last step, or until a step that ends after `after` has closed or opened
+    /// contacts. Returns the time [s] at which that step ended, if it did by `t`.
     ///
     /// # Errors
     /// As [`Moreau::advance`].
@@ -106,14 +114,14 @@ impl<D: Copy> Moreau<D> {
         Ok(Some(self.state.front().t).filter(|&event| happened(&self.state) && event <= t))
     }
 
-    /// Starts anew from the state `y` at `t`.
+    /// Restarts from the state `y` at `t`.
     pub fn place(&mut self, t: f64, y: &[f64]) {
         let statistics = self.state.statistics;
         *self = Self::start(self.settings, t, y, self.open);
         self.state.statistics = statistics;
     }
 
-    /// Steps until `t` lies within the last step, or `done` is so.
+    /// Steps until `t` lies within the last step or `done` holds.
     fn march(
         &mut self,
         system: &dyn Unilateral<Discrete = D>,
@@ -121,14 +129,14 @@ impl<D: Copy> Moreau<D> {
         done: impl Fn(&SolverState<Impulses>) -> bool,
     ) -> Result<(), IntegrationError> {
         let before = self.state.statistics.evaluations;
-        let most = self.settings.effort.over(t - self.state.front().t);
+        let work_limit = self.settings.effort.over(t - self.state.front().t);
         while self.state.front().t < t && !done(&self.state) {
             let time = self.state.front().t;
             let evaluations = self.state.statistics.evaluations - before;
-            if evaluations > most {
+            if evaluations > work_limit {
                 return Err(IntegrationError::TooMuchWork { time, evaluations });
             }
-            // The step is what time really moves by: nothing drifts from its rounding.
+            // The step is the difference of two representable times, so that rounding does not accumulate.
             let step = self.settings.fixed_step;
             let end = time + step.min(system.longest_step());
             if end <= time {
@@ -144,8 +152,8 @@ impl<D: Copy> Moreau<D> {
         Ok(())
     }
 
-    /// State at `t` in the last step, and the step's impulses. Velocities change evenly within a step, at
-    /// impacts too.
+    /// State at `t` in the last step and the impulses of the step. Velocities are interpolated linearly within a step,
+    /// across impacts, too.
     pub fn state_at(&mut self, system: &dyn System<Discrete = D>, t: f64) -> (&[f64], Impulses) {
         let (start, end, front) = (self.state.start(), self.state.end(), self.state.front());
         if t >= front.t {
@@ -164,9 +172,9 @@ impl<D: Copy> Moreau<D> {
         (y, end.discrete)
     }
 
-    /// Takes back what lies beyond `t` in the last step: the front is at `t` again, reached by a step of its own, or
-    /// by interpolation should that step fail. Contact forces stay those of the whole step: the impulses of a part
-    /// over its length may be of any size.
+    /// Shortens the last step so that it ends at `t`: by a new step, or by interpolation if that step fails. The
+    /// contact forces remain those of the whole step, because the impulses of a short step divided by its length may be
+    /// arbitrarily large.
     pub fn truncate(&mut self, system: &dyn Unilateral<Discrete = D>, t: f64) {
         let (start, end) = (self.state.start().t, self.state.end().discrete);
         if t >= self.state.front().t {
@@ -188,7 +196,7 @@ impl<D: Copy> Moreau<D> {
         self.commit(t, &AttemptedStep { impulses, ..made });
     }
 
-    /// Makes `made` the step that ends at `t`.
+    /// Makes the step in `made`, which ends at `t`, the last step.
     fn commit(&mut self, t: f64, made: &AttemptedStep) {
         let AttemptedStep { y, impulses, evaluations } = made;
         let (start, end) = self.state.ends();
@@ -202,7 +210,7 @@ impl<D: Copy> Moreau<D> {
     }
 }
 
-/// The dead end that `y` lies beyond. Like impacts, dead ends are not located: a step may pass one.
+/// The dead end that the state `y` at `t` has passed. Like impacts, dead ends are not located.
 fn dead_end<D: Copy>(system: &dyn Unilateral<Discrete = D>, open: &D, t: f64, y: &[f64]) -> Option<usize> {
     let mut events = EventFunctions::default();
     if system.event_count() == 0 || !system.is_dead_end(0) {
