@@ -1,5 +1,9 @@
 //! A product and a sum as one operation.
 
+/// Whether this library is compiled for every processor of its platform, so that its results have the same bits on all of
+/// them; otherwise it multiplies and adds in one instruction.
+pub const PORTABLE: bool = !cfg!(target_feature = "fma");
+
 /// a·b + c.
 ///
 /// Compiled for processors that do it in one instruction it rounds once, and otherwise the product, too: then it has the
@@ -13,6 +17,6 @@ pub trait Fused<F = Self>: Sized {
 impl Fused for f64 {
     #[inline(always)]
     fn times_plus(self, factor: f64, term: f64) -> f64 {
-        if cfg!(target_feature = "fma") { self.mul_add(factor, term) } else { self * factor + term }
+        if PORTABLE { self * factor + term } else { self.mul_add(factor, term) }
     }
 }

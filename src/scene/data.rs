@@ -252,4 +252,6 @@ pub struct Solver {
     pub step: f64,
     /// Most evaluations of the equations of motion in one communication step; 0 leaves it to the simulation.
     pub max_evaluations: i32,
+    /// The same bits on every processor. It is the FMU that has two libraries to choose from.
+    pub portable: bool,
 }

@@ -23,6 +23,7 @@ pub use phase::{Phase, PhaseScales};
 pub use system::System;
 
 use crate::integrator::{IntegrationError, Reader};
+use crate::math::PORTABLE;
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
@@ -36,6 +37,8 @@ use motion::Motion;
 pub struct Simulation {
     motion: Box<dyn Motion>,
     time: f64,
+    /// As the scene has it.
+    tolerance: f64,
 }
 
 /// The only end that a mechanism's equations of motion have.
@@ -48,7 +51,7 @@ impl Simulation {
     /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
     pub fn start(scene: &Scene, time: f64, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
-        Ok(Self { motion: start::start(scene, time, inputs)?, time })
+        Ok(Self { motion: start::start(scene, time, inputs)?, time, tolerance: scene.solver.tolerance })
     }
 
     /// [s] The communication point reached.
@@ -100,12 +103,15 @@ impl Simulation {
             IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
             _ => error.to_string(),
         };
-        SimulationError::Integration { time: error.time(), cause }
+        let dead_end = matches!(error, IntegrationError::DeadEnd { .. });
+        SimulationError::Integration { time: error.time(), cause, dead_end }
     }
 
     /// Outputs at the communication point.
     pub fn outputs(&mut self) -> Outputs {
-        self.motion.outputs(self.time)
+        let mut outputs = self.motion.outputs(self.time);
+        (outputs.solver.tolerance_used, outputs.solver.portable_used) = (self.tolerance, PORTABLE);
+        outputs
     }
 
     /// First time derivatives of the real outputs at the communication point; its integers and
