@@ -37,6 +37,8 @@ pub enum Fault {
     Unknown(String),
     /// Declared twice.
     Duplicate(String),
+    /// An enumeration whose items do not rise in value.
+    Disorder(String),
     /// Not a name of the structured convention.
     Name(String),
 }
@@ -55,6 +57,7 @@ impl fmt::Display for RowError {
             Fault::Fraction(value) => write!(f, "{value} is no integer"),
             Fault::Unknown(name) => write!(f, "`{name}` is not declared"),
             Fault::Duplicate(name) => write!(f, "`{name}` is declared twice"),
+            Fault::Disorder(name) => write!(f, "the items of `{name}` do not rise in value"),
             Fault::Name(name) => write!(f, "`{name}` is not a structured name"),
         }
     }

@@ -100,7 +100,7 @@ fn line(declaration: &Declaration, starts: &[Option<f64>], same: &[usize]) -> St
             format!("<td>{}</td><td>{}</td>", each.join("<br>"), range(declaration, row))
         }
     };
-    let description = escaped(&row.description);
+    let description = escaped(&row.meaning);
     format!("<tr><td>{name}</td><td>{}</td>{start}<td>{description}</td></tr>\n", type_of(declaration, row))
 }
 

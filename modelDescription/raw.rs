@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
+use toml::value::Datetime;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -29,8 +30,14 @@ pub struct Model {
     pub identifier: String,
     /// One line of explanation.
     pub description: String,
+    /// Who made the model.
+    pub author: String,
+    /// Whose it is.
+    pub copyright: String,
     /// SPDX expression.
     pub license: String,
+    /// The day of the version: when a package says that it was made, unless its maker says otherwise.
+    pub date: Datetime,
     /// What writes the package.
     pub generation_tool: String,
 }
@@ -171,6 +178,8 @@ pub(super) struct RawRow {
     pub of_type: String,
     pub field: String,
     pub description: String,
+    #[serde(skip)]
+    pub meaning: String,
     pub start: Option<RawStart>,
     pub min: Option<f64>,
     pub max: Option<f64>,
@@ -212,6 +221,7 @@ impl RawRow {
         row.name = fill(&self.name);
         row.field = fill(&self.field);
         row.description = fill(&self.description);
+        row.meaning = self.description.replace("{J}", "J");
         if let Some(AtStart::Of(names)) = &mut row.at_start {
             names.iter_mut().for_each(|name| *name = fill(name));
         }

@@ -38,8 +38,10 @@ pub struct Row {
     pub letters: Vec<String>,
     /// Index of the group.
     pub group: usize,
-    /// One line of explanation.
+    /// One line of explanation, of no other variable.
     pub description: String,
+    /// The same for all rows of the template, with `J` for the letter.
+    pub meaning: String,
     /// The Rust field that it means.
     pub field: String,
     /// Type and range.
@@ -86,8 +88,10 @@ pub enum Role {
         /// In SI units.
         start: f64,
     },
-    /// An output: continuous if real, discrete otherwise.
+    /// An output.
     Output {
+        /// Whether it changes between communication points rather than in jumps.
+        continuous: bool,
         /// Rows of the inputs that it feels at once.
         depends: Vec<usize>,
         /// Rows that it depends on at the start; `None`: all inputs and parameters.
@@ -111,6 +115,7 @@ pub fn read(text: &str) -> Result<Declaration, RowError> {
     })?;
     let mut drafts = drafts(text, &raw)?;
     refuse_duplicates(&drafts)?;
+    refuse_disorder(text, &raw.enumeration)?;
     link(&mut drafts, &raw.start_groups)?;
     Ok(Declaration {
         model: raw.model,
@@ -150,7 +155,7 @@ fn link(drafts: &mut [Draft], groups: &BTreeMap<String, Vec<String>>) -> Result<
     let knowns: Vec<Known> = drafts.iter().enumerate().filter_map(known).collect();
     let inputs: Vec<Known> = knowns.iter().filter(|(_, _, input)| *input).cloned().collect();
     for (line, row, written) in drafts {
-        let Role::Output { depends, at_start } = &mut row.role else {
+        let Role::Output { depends, at_start, .. } = &mut row.role else {
             continue;
         };
         let fail = |fault| RowError { line: *line, fault };
@@ -187,13 +192,29 @@ fn resolve<'a>(
     Ok(found)
 }
 
-/// Refuses two variables of the same name.
+/// Refuses two variables of the same name or of the same description.
 fn refuse_duplicates(drafts: &[Draft]) -> Result<(), RowError> {
     let mut seen = HashSet::new();
-    match drafts.iter().find(|(_, row, _)| !seen.insert(&row.name)) {
-        Some((line, row, _)) => Err(RowError { line: *line, fault: Fault::Duplicate(row.name.clone()) }),
-        None => Ok(()),
+    for (line, row, _) in drafts {
+        for words in [&row.name, &row.description] {
+            if !seen.insert(words) {
+                return Err(RowError { line: *line, fault: Fault::Duplicate(words.clone()) });
+            }
+        }
     }
+    Ok(())
+}
+
+/// Refuses an enumeration whose items do not rise in value, at the first that does not.
+fn refuse_disorder(text: &str, enumerations: &[Enumeration]) -> Result<(), RowError> {
+    let place = |from: usize, name: &str| from + text[from..].find(&format!("name = {name:?}")).unwrap_or_default();
+    for Enumeration { name, items, .. } in enumerations {
+        if let Some(pair) = items.windows(2).find(|pair| pair[0].value >= pair[1].value) {
+            let line = line_of(text, place(place(0, name), &pair[1].name));
+            return Err(RowError { line, fault: Fault::Disorder(name.clone()) });
+        }
+    }
+    Ok(())
 }
 
 /// Whether a name has the pattern's parts, `*` standing for any one part.

@@ -13,7 +13,8 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
     let kind = kind(row, raw)?;
     let role = match (group.causality.as_str(), group.variability.as_str(), &kind) {
         ("input", "continuous", Kind::Real { .. }) => Role::Input { start: number(&row.start)? },
-        ("output", "continuous", Kind::Real { .. }) | ("output", "discrete", Kind::Integer { .. } | Kind::Boolean) => {
+        ("output", variability @ "continuous", Kind::Real { .. })
+        | ("output", variability @ "discrete", Kind::Real { .. } | Kind::Integer { .. } | Kind::Boolean) => {
             row.depends.as_ref().ok_or(Fault::Missing("depends"))?;
             match &row.at_start {
                 None => return Err(Fault::Missing("at_start")),
@@ -21,7 +22,7 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
                     return Err(Fault::Unknown(word.clone()));
                 }
                 Some(_) if row.start.is_some() => return Err(Fault::Superfluous("start")),
-                Some(_) => Role::Output { depends: vec![], at_start: None },
+                Some(_) => Role::Output { continuous: variability == "continuous", depends: vec![], at_start: None },
             }
         }
         ("parameter", "fixed", Kind::Real { .. } | Kind::Integer { .. }) => {
@@ -58,6 +59,7 @@ pub(super) fn typed(row: &RawRow, index: usize, raw: &Raw) -> Result<Row, Fault>
         letters: row.letters.clone(),
         group: index,
         description: row.description.clone(),
+        meaning: row.meaning.clone(),
         field: row.field.clone(),
         kind,
         role,

@@ -16,15 +16,20 @@ pub struct Package<'a> {
     pub starts: &'a [f64],
     /// Default experiment.
     pub experiment: Experiment,
-    /// [s] Time of writing since 1970; none leaves the date out.
-    pub written: Option<u64>,
+    /// When it was made, as [`made`] tells it; none leaves the date out.
+    pub made: Option<&'a str>,
 }
 
 impl<'a> Package<'a> {
     /// A package with no guid and the declared experiment: the text that a guid is made from.
     pub fn anonymous(declaration: &Declaration, starts: &'a [f64]) -> Self {
-        Self { guid: "", starts, experiment: declaration.experiment, written: None }
+        Self { guid: "", starts, experiment: declaration.experiment, made: None }
     }
+}
+
+/// When a package was made: so many seconds after 1970 if they are told, else on the day of the version.
+pub fn made(declaration: &Declaration, seconds: Option<u64>) -> String {
+    seconds.map_or_else(|| declaration.model.date.to_string(), date)
 }
 
 /// The model description of a package.
@@ -74,11 +79,13 @@ fn root(declaration: &Declaration, package: &Package) -> Attributes<'static> {
         ("modelName", model.name.clone()),
         ("guid", package.guid.into()),
         ("description", model.description.clone()),
+        ("author", model.author.clone()),
         ("version", env!("CARGO_PKG_VERSION").into()),
+        ("copyright", model.copyright.clone()),
         ("license", model.license.clone()),
         ("generationTool", format!("{} {}", model.generation_tool, env!("CARGO_PKG_VERSION"))),
     ];
-    attributes.extend(package.written.map(|seconds| ("generationDateAndTime", date(seconds))));
+    attributes.extend(package.made.map(|made| ("generationDateAndTime", made.into())));
     attributes.push(("variableNamingConvention", "structured".into()));
     attributes
 }
@@ -111,11 +118,11 @@ fn variable(
     row: &Row,
     start: Option<f64>,
 ) -> io::Result<()> {
-    let (causality, variability, initial) = match (&row.role, &row.kind) {
-        (Role::Input { .. }, _) => ("input", "continuous", None),
-        (Role::Output { .. }, Kind::Real { .. }) => ("output", "continuous", Some("calculated")),
-        (Role::Output { .. }, _) => ("output", "discrete", Some("calculated")),
-        (Role::Parameter { .. }, _) => ("parameter", "fixed", Some("exact")),
+    let (causality, variability, initial) = match row.role {
+        Role::Input { .. } => ("input", "continuous", None),
+        Role::Output { continuous: true, .. } => ("output", "continuous", Some("calculated")),
+        Role::Output { .. } => ("output", "discrete", Some("calculated")),
+        Role::Parameter { .. } => ("parameter", "fixed", Some("exact")),
     };
     let mut attributes = vec![
         ("name", row.name.clone()),
@@ -179,7 +186,7 @@ fn unknowns(
     choose: impl Fn(&[usize], Rows) -> Option<Vec<usize>>,
 ) -> io::Result<()> {
     for (row, Row { role, .. }) in declaration.rows.iter().enumerate() {
-        let Role::Output { depends, at_start } = role else {
+        let Role::Output { depends, at_start, .. } = role else {
             continue;
         };
         let mut attributes = vec![("index", (row + 1).to_string())];

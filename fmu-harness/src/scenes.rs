@@ -1,8 +1,12 @@
 //! The shipped scenes, and any other scene file: a mechanism with what is done to it.
 
+use crate::host::Setting;
 use crate::package::build::workspace;
 use anyhow::{Context, Result, bail};
+use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::read::{SceneFile, read};
+use slidercrank::scene::units::quantity;
+use slidercrank::scene::write::write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +29,46 @@ impl Scenario {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let file = read(&text, &shown)?;
         Ok(Self { name, text, file })
+    }
+
+    /// The same with other values of some parameters, the last of a name counts. The text is then the whole scene in SI
+    /// units.
+    ///
+    /// # Errors
+    /// If a parameter or value is not one, or the values do not go together.
+    pub fn with(mut self, settings: &[Setting]) -> Result<Self> {
+        if settings.is_empty() {
+            return Ok(self);
+        }
+        for Setting { name, value } in settings {
+            let parameter = Parameter::named(name).with_context(|| format!("there is no parameter `{name}`"))?;
+            let number = understood(parameter, value)
+                .with_context(|| format!("{name} = {value} is not allowed: {}", parameter.allowed()))?;
+            parameter.write(&mut self.file.scene, number)?;
+        }
+        let told: Vec<String> = settings.iter().map(|Setting { name, value }| format!("{name} = {value}")).collect();
+        self.file.description = format!("{}; with {}", self.file.description, told.join(", "));
+        self.text = write(&self.file);
+        // Reads as any other scene does: what does not go together is refused.
+        self.file = read(&self.text, &self.name)?;
+        Ok(self)
+    }
+}
+
+/// A parameter's value as a person types it: a number in SI units or with a unit, a truth value, an item by name or number.
+fn understood(parameter: &Parameter, text: &str) -> Option<f64> {
+    match parameter.kind {
+        Kind::Real { unit, .. } => text.parse().ok().or_else(|| quantity(text, unit).ok()),
+        Kind::Integer { .. } => text.parse().ok().map(|number: i32| f64::from(number)),
+        Kind::Boolean { .. } => match text {
+            "true" | "1" => Some(1.0),
+            "false" | "0" => Some(0.0),
+            _ => None,
+        },
+        Kind::Enumeration { items, .. } => {
+            let is_meant = |(name, value): &&(&str, i32)| *name == text || value.to_string() == text;
+            items.iter().find(is_meant).map(|(_, value)| f64::from(*value))
+        }
     }
 }
 

@@ -1,12 +1,13 @@
 //! The packaged FMU: its bytes are reproducible, its archive keeps FMI's rules, and a host can open and run it.
 
-use fmu_harness::host::{Archive, Description, Fmu, PLATFORM};
+use fmu_harness::host::{Archive, Description, Fmu, LogLine, PLATFORM, Setting};
 use fmu_harness::inspect::declared;
 use fmu_harness::package::Package;
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
 use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::OnceLock;
 use tempfile::TempDir;
 
@@ -208,6 +209,92 @@ fn modes_of_a_table_beside_the_scene_travel_in_the_package() {
     let scene = told_archive.text("documentation/scene.toml").expect("the scene");
     let again = slidercrank::scene::read::read_with(&scene, "scene.toml", &|_| Ok(modes.clone())).expect("legal");
     assert_eq!(again.scene.rod.flexible.table, Some(table));
+}
+
+/// Settings as they are typed.
+fn settings(texts: &[&str]) -> Vec<Setting> {
+    texts.iter().map(|text| text.parse().expect("name=value")).collect()
+}
+
+#[test]
+fn set_values_are_start_values_of_the_description_and_of_the_library() {
+    let (directory, plain) = saved();
+    let typed = ["joint.B.model=clearance", "joint.C.clearance=0.1 mm", "joint.C.law=9", "energy.audit=true"];
+    let same = ["joint.B.model=clearance", "joint.C.clearance=1e-4", "joint.C.law=hu_guo", "energy.audit=1"];
+    let set = scenario().with(&settings(&typed)).expect("a legal scene");
+    let file = directory.path().join("set.fmu");
+    Package::make(&set).expect("a package").save(&file).expect("saved");
+    let course = |file: &Path, settings: Vec<Setting>| {
+        let fmu = Fmu::open(file).expect("an FMU");
+        let until = Until::Time(2e-3);
+        let experiment = Experiment { settings, inputs: vec![], start: 0.0, until, step: 1e-5, tolerance: None };
+        let quiet = |line: &LogLine| assert!(line.message.is_empty(), "{}", line.message);
+        let recording = run(&fmu, &experiment, quiet, |_| {}).expect("a run");
+        let outputs = fmu.description().variables.iter().filter(|variable| variable.causality() == "output");
+        let columns = outputs.map(|variable| recording.column(&variable.name).expect("recorded").to_vec());
+        (columns.collect::<Vec<_>>(), fmu)
+    };
+    let ((packaged, fmu), (by_host, _)) = (course(&file, vec![]), course(&plain, settings(&same)));
+    assert!(packaged == by_host, "a start value does what a host's value does");
+    assert!(packaged != course(&plain, vec![]).0);
+    let start =
+        |name: &str| fmu.description().variable(name).expect("a variable").of_kind.get("start").map(str::to_owned);
+    let starts = ["joint.B.model", "joint.C.clearance", "joint.C.law", "energy.audit"]
+        .map(|name| start(name).unwrap_or_default());
+    assert_eq!(starts, ["2", "0.0001", "9", "true"]);
+    // The package tells its scene.
+    let text = Archive::open(&file).expect("an archive").text("documentation/scene.toml").expect("the scene");
+    assert_eq!(slidercrank::scene::read::read(&text, "scene.toml").expect("legal").scene, set.file.scene);
+}
+
+#[test]
+fn what_cannot_be_set_is_refused_before_anything_is_built() {
+    for (text, wanted) in [
+        ("joint.C.clearance=0", "joint.C.clearance = 0 is not allowed: 1e-9 to 0.1 m"),
+        ("joint.C.clearance=1 kg", "joint.C.clearance = 1 kg is not allowed"),
+        ("joint.C.law=hertzian", "joint.C.law = hertzian is not allowed: 1 (hertz)"),
+        ("energy.audit=yes", "energy.audit = yes is not allowed: true or false"),
+        ("rod.flexible.bending_modes=1.5", "rod.flexible.bending_modes = 1.5 is not allowed: 0 to 8"),
+        ("slider.x=1", "there is no parameter `slider.x`"),
+        ("guide.offset=0.5", "rod.length"),
+    ] {
+        let error = format!("{:#}", scenario().with(&settings(&[text])).err().expect("a value that cannot be"));
+        assert!(error.contains(wanted), "{text}: {error}");
+    }
+}
+
+#[test]
+fn a_package_tells_its_date_and_the_time_of_day_changes_no_byte() {
+    let directory = TempDir::new().expect("a directory");
+    let package = |epoch: Option<&str>| {
+        let file = directory.path().join("dated.fmu");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+        command.args(["package", "--scene", "wornpin", "-o"]).arg(&file).env_remove("SOURCE_DATE_EPOCH");
+        if let Some(epoch) = epoch {
+            command.env("SOURCE_DATE_EPOCH", epoch);
+        }
+        let output = command.output().expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        if output.status.success() { Ok(std::fs::read(&file).expect("read")) } else { Err(words) }
+    };
+    let date = |bytes: &[u8]| {
+        let file = directory.path().join("read.fmu");
+        std::fs::write(&file, bytes).expect("written");
+        let description = Archive::open(&file).expect("an archive").description().expect("text");
+        let value = description.split("generationDateAndTime=\"").nth(1).expect("a date");
+        value.split('"').next().map(str::to_owned).expect("an end")
+    };
+    let day = slidercrank::model_description::load().expect("the declaration").model.date.to_string();
+    let plain = package(None).expect("a package");
+    assert!(plain == self::package());
+    assert_eq!(date(&plain), day);
+    let dated = package(Some("1767225599")).expect("a package");
+    assert!(dated == package(Some("1767225599")).expect("a package"));
+    assert_eq!(date(&dated), "2025-12-31T23:59:59Z");
+    for wrong in ["yesterday", "-1", "1e9", "253402300800"] {
+        let words = package(Some(wrong)).expect_err("no number of seconds");
+        assert!(words.contains(&format!("SOURCE_DATE_EPOCH = {wrong} is no number of seconds")), "{words}");
+    }
 }
 
 #[test]

@@ -1,5 +1,9 @@
 //! A product and a sum as one operation.
 
+/// Whether this library is compiled for every processor of its platform, so that its results have the same bits on all of
+/// them; otherwise it multiplies and adds in one instruction.
+pub const PORTABLE: bool = !cfg!(target_feature = "fma");
+
 /// a·b + c.
 ///
 /// On processors with a fused multiply-add instruction the result is rounded once; on others the product is rounded,
@@ -13,6 +17,6 @@ pub trait Fused<F = Self>: Sized {
 impl Fused for f64 {
     #[inline(always)]
     fn multiply_add(self, factor: f64, term: f64) -> f64 {
-        if cfg!(target_feature = "fma") { self.mul_add(factor, term) } else { self * factor + term }
+        if PORTABLE { self * factor + term } else { self.mul_add(factor, term) }
     }
 }

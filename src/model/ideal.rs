@@ -3,8 +3,9 @@
 use super::plane::Rotation;
 use super::rod::Chord;
 use crate::integrator::EventFunction;
-use crate::math::Real;
+use crate::math::{self, Real};
 use crate::scene::Scene;
+use std::f64::consts::{PI, TAU};
 
 /// Smallest cosine of the rod angle. A rod that is longer than its crank by less than half a millionth cannot pass the
 /// change point: rounding and integration errors would decide on which branch it continues.
@@ -58,6 +59,25 @@ impl IdealMechanism {
         let sin = (self.height - crank.sin * self.crank) / rod;
         let sin_rate = -(crank.cos * self.crank * speed + sin * rate) / rod;
         EventFunction { value: (1.0 - sin) * (1.0 + sin) - MIN_COSINE * MIN_COSINE, rate: -2.0 * sin * sin_rate }
+    }
+
+    /// [s] How long a crank that turns at a constant `speed` [rad/s] from `angle` [rad] takes to where the rod stands
+    /// across the guide; `None` if it never comes there.
+    pub fn time_to_change_point(&self, angle: f64, speed: f64) -> Option<f64> {
+        let limit = (1.0 - MIN_COSINE * MIN_COSINE).sqrt() * self.rod;
+        let rise = self.height - math::sin_cos(angle).0 * self.crank;
+        if rise.abs() >= limit || speed == 0.0 {
+            return None;
+        }
+        // r·sin θ = height ∓ limit.
+        let sines = [self.height - limit, self.height + limit].map(|rise| rise / self.crank);
+        let sines = sines.into_iter().filter(|sine| sine.abs() <= 1.0);
+        let angles = sines.flat_map(|sine| {
+            let angle = math::atan2(sine, ((1.0 - sine) * (1.0 + sine)).sqrt());
+            [angle, PI - angle]
+        });
+        let ahead = angles.map(|there| ((there - angle) * speed.signum()).rem_euclid(TAU));
+        ahead.min_by(f64::total_cmp).map(|ahead| ahead / speed.abs())
     }
 
     /// [unit of the change point's event function] Scale of its tolerable error.

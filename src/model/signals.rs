@@ -1,10 +1,12 @@
-//! Inputs and outputs of the mechanism, as named in the FMU's interface.
+//! Inputs and outputs of the mechanism, as named in the FMU's interface. Their layout is that of C: two builds of the library
+//! exchange these values.
 
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
 /// Inputs at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C)]
 pub struct Inputs<R = f64> {
     /// [N·m] Torque on the crank; ignored with a speed drive.
     pub crank_torque: R,
@@ -14,6 +16,7 @@ pub struct Inputs<R = f64> {
 
 /// Outputs at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct Outputs {
     /// Motion of the slider.
     pub slider: SliderOutputs,
@@ -35,12 +38,13 @@ pub struct Outputs {
     pub accuracy: AccuracyOutputs,
     /// Energies, works and losses with an audit; all 0 without one.
     pub energy: EnergyOutputs,
-    /// Counters of the integrator since the start.
+    /// Work of the integrator since the start, and its settings in use.
     pub solver: SolverOutputs,
 }
 
 /// Motion of the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct SliderOutputs {
     /// [m] Position of the pin's centre along the guide.
     pub x: f64,
@@ -56,6 +60,7 @@ pub struct SliderOutputs {
 
 /// Motion of the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct CrankOutputs {
     /// [rad] Angle, not wrapped to one turn.
     pub angle: f64,
@@ -67,6 +72,7 @@ pub struct CrankOutputs {
 
 /// Motion of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct RodOutputs {
     /// [rad] Angle.
     pub angle: f64,
@@ -80,6 +86,7 @@ pub struct RodOutputs {
 
 /// State and force of a revolute joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct RevoluteOutputs {
     /// [N] x and y components of the joint force.
     pub force: [f64; 2],
@@ -93,6 +100,7 @@ pub struct RevoluteOutputs {
 
 /// State and force of the guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct GuideOutputs {
     /// [N] x and y components of the force on the slider.
     pub force: [f64; 2],
@@ -106,6 +114,7 @@ pub struct GuideOutputs {
 
 /// Motion of the slider less that of the ideal rigid mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct AccuracyOutputs {
     /// [m] Difference of positions.
     pub position: f64,
@@ -117,6 +126,7 @@ pub struct AccuracyOutputs {
 
 /// [J] Energies, and works and losses since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct EnergyOutputs {
     /// Kinetic energy.
     pub kinetic: f64,
@@ -148,8 +158,9 @@ pub struct EnergyOutputs {
     pub modal_loss: f64,
 }
 
-/// Counters of the integrator since the start.
+/// Work of the integrator since the start, and its settings in use.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct SolverOutputs {
     /// Number of accepted steps.
     pub steps: i32,
@@ -159,6 +170,10 @@ pub struct SolverOutputs {
     pub evaluations: i32,
     /// Number of openings and closings of contacts.
     pub events: i32,
+    /// Relative tolerance in use.
+    pub tolerance_used: f64,
+    /// Whether the library for every processor computes, rather than that for newer ones.
+    pub portable_used: bool,
 }
 
 impl Outputs {

@@ -253,4 +253,6 @@ pub struct Solver {
     /// Maximum number of evaluations of the equations of motion in one communication step; 0 selects the simulation's
     /// default.
     pub max_evaluations: i32,
+    /// The same bits on every processor. It is the FMU that has two libraries to choose from.
+    pub portable: bool,
 }

@@ -1,9 +1,10 @@
 //! Errors of a simulation.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Errors of a simulation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum SimulationError {
     /// The scene is inconsistent; the text names the parameter and the allowed values.
     Scene(String),
@@ -13,6 +14,8 @@ pub enum SimulationError {
         time: f64,
         /// The cause, in one line.
         cause: String,
+        /// Whether no step can lead on from there, however short and under whatever inputs.
+        dead_end: bool,
     },
     /// A snapshot does not fit the scene.
     Snapshot(String),
@@ -22,7 +25,7 @@ impl SimulationError {
     /// The same error with times of an importer whose run started at `start` [s].
     pub fn counted_from(self, start: f64) -> Self {
         match self {
-            Self::Integration { time, cause } => Self::Integration { time: start + time, cause },
+            Self::Integration { time, cause, dead_end } => Self::Integration { time: start + time, cause, dead_end },
             other => other,
         }
     }
@@ -32,7 +35,7 @@ impl fmt::Display for SimulationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scene(text) | Self::Snapshot(text) => f.write_str(text),
-            Self::Integration { time, cause } => write!(f, "at t = {time:.9} s: {cause}"),
+            Self::Integration { time, cause, .. } => write!(f, "at t = {time:.9} s: {cause}"),
         }
     }
 }

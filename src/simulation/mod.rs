@@ -23,6 +23,7 @@ pub use phase::{Phase, PhaseScales};
 pub use system::System;
 
 use crate::integrator::{IntegrationError, Reader};
+use crate::math::PORTABLE;
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
@@ -36,6 +37,8 @@ use motion::Motion;
 pub struct Simulation {
     motion: Box<dyn Motion>,
     time: f64,
+    /// As the scene has it.
+    tolerance: f64,
 }
 
 /// Message for the only dead end of a mechanism's equations of motion.
@@ -49,7 +52,7 @@ impl Simulation {
     /// `Scene` if the loop does not close in the start pose, or if the method does not support the scene.
     pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
-        Ok(Self { motion: start::start(scene, inputs)?, time: 0.0 })
+        Ok(Self { motion: start::start(scene, inputs)?, time: 0.0, tolerance: scene.solver.tolerance })
     }
 
     /// [s] The communication point reached, relative to the start.
@@ -101,12 +104,15 @@ impl Simulation {
             IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
             _ => error.to_string(),
         };
-        SimulationError::Integration { time: error.time(), cause }
+        let dead_end = matches!(error, IntegrationError::DeadEnd { .. });
+        SimulationError::Integration { time: error.time(), cause, dead_end }
     }
 
     /// Outputs at the communication point.
     pub fn outputs(&mut self) -> Outputs {
-        self.motion.outputs(self.time)
+        let mut outputs = self.motion.outputs(self.time);
+        (outputs.solver.tolerance_used, outputs.solver.portable_used) = (self.tolerance, PORTABLE);
+        outputs
     }
 
     /// First time derivatives of the real outputs at the communication point; integers and Booleans are meaningless.

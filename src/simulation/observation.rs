@@ -25,5 +25,6 @@ pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
         rejected: count(rejected),
         evaluations: count(evaluations),
         events: count(events),
+        ..SolverOutputs::default()
     }
 }

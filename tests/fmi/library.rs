@@ -2,7 +2,7 @@
 
 use crate::host::api::Api;
 use crate::host::library;
-use slidercrank::fmi::v2::abi::functions::Functions;
+use slidercrank::fmi::v2::abi::functions;
 use slidercrank::fmi::v2::lifecycle::Call;
 use std::process::Command;
 
@@ -14,7 +14,7 @@ fn the_library_the_lifecycle_and_the_standard_have_the_same_functions() {
     functions.sort_unstable();
     assert_eq!(calls, functions);
     assert_eq!(calls.len(), 44);
-    let mut declared = Functions::NAMES.to_vec();
+    let mut declared = functions::NAMES.to_vec();
     declared.sort_unstable();
     assert_eq!(declared, functions);
 }

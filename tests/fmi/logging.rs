@@ -1,4 +1,4 @@
-//! The log: one line for trouble, silence otherwise, and only to those who asked.
+//! The log: one line for trouble, to every importer; remarks to those who asked; silence otherwise.
 
 use crate::host::Slave;
 use crate::host::api::Api;
@@ -29,47 +29,76 @@ fn a_run_without_trouble_is_silent_with_logging_on() {
 }
 
 #[test]
-fn without_logging_nothing_is_said() {
+fn trouble_is_told_whatever_the_importer_chose() {
     let slave = Slave::of(Api::linked(), "quiet", false);
-    trouble(&slave);
-    assert_eq!(slave.log.take(), []);
-    assert_eq!(choose(&slave, 1, &[]), Status::Ok);
-    trouble(&slave);
-    assert_eq!(slave.log.only().instance, "quiet");
+    // As hosts do that look at no status: the start value stays, and the user must hear of it.
+    assert_eq!(slave.set("joint.C.clearance", 0.0), Status::Error);
+    let line = slave.log.only();
+    assert_eq!((line.instance.as_str(), line.status, line.category.as_str()), ("quiet", 3, "logStatusError"));
+    assert!(line.text.contains("joint.C.clearance = 0 is out of range"), "{line:?}");
+    for (on, names) in [(0, &[][..]), (0, &["logStatusError"]), (1, &["logStatusFatal"]), (1, &["logRemark"]), (1, &[])]
+    {
+        assert_eq!(choose(&slave, on, names), Status::Ok);
+        trouble(&slave);
+        assert_eq!(slave.log.only().category, "logStatusError", "{on} {names:?}");
+    }
+    // A warning, and a step that is discarded, in an instance without debug logging.
+    assert_eq!(choose(&slave, 0, &[]), Status::Ok);
+    assert_eq!(slave.setup_raw(1, 1e-30, 0.0, 0, 0.0), Status::Warning);
+    assert_eq!(slave.log.only().category, "logStatusWarning");
+    slave.wear();
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    assert_eq!(slave.set("slider.load", 1e308), Status::Ok);
+    assert_eq!(slave.step(0.0, 1e-3), Status::Discard);
+    assert_eq!(slave.log.only().category, "logStatusDiscard");
+}
+
+/// Lines of a call that has something to remark on, under a choice of categories.
+fn remarks(on: i32, names: &[&str]) -> usize {
+    let slave = Slave::new();
+    choose(&slave, on, names);
+    slave.log.take();
+    assert_eq!(slave.set("solver.tolerance", 1e-7), Status::Ok);
+    assert_eq!(slave.setup_raw(1, 1e-4, 0.0, 0, 0.0), Status::Ok);
+    assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
+    let lines = slave.log.take();
+    assert!(lines.iter().all(|line| (line.status, line.category.as_str()) == (0, "logRemark")), "{lines:?}");
+    let wanted = "fmi2ExitInitializationMode: the experiment's tolerance 0.0001 is left aside, since solver.tolerance = 1e-7 was set";
+    assert!(lines.iter().all(|line| line.text == wanted), "{lines:?}");
+    lines.len()
 }
 
 #[test]
-fn only_chosen_categories_are_heard() {
-    let slave = Slave::new();
-    let heard = |slave: &Slave| {
-        trouble(slave);
-        slave.log.take().len()
-    };
+fn remarks_are_for_those_who_asked() {
     for (on, names, lines) in [
-        (1, &["logStatusWarning", "logStatusDiscard"][..], 0),
-        (1, &["logStatusError"], 1),
-        (1, &["logStatusFatal"], 0),
+        (1, &[][..], 1),
+        (1, &["logRemark"], 1),
         (1, &["logAll"], 1),
-        (0, &["logStatusError"], 0),
-        (1, &[], 1),
+        (1, &["logStatusError", "logRemark"], 1),
+        (1, &["logStatusError"], 0),
+        (1, &["nonsense"], 0),
+        (1, &["nonsense", "logRemark"], 1),
         (0, &[], 0),
+        (0, &["logRemark"], 0),
     ] {
-        assert_eq!(choose(&slave, on, names), Status::Ok);
-        assert_eq!(heard(&slave), lines, "{on} {names:?}");
+        assert_eq!(remarks(on, names), lines, "{on} {names:?}");
     }
 }
 
 #[test]
-fn every_declared_category_is_known_and_no_other() {
+fn every_declared_category_is_known_and_others_are_ignored_with_a_warning() {
     let slave = Slave::new();
     for category in LogCategory::ALL {
         assert_eq!(choose(&slave, 1, &[category.name()]), Status::Ok);
     }
-    assert_eq!(choose(&slave, 1, &["logStatusError"]), Status::Ok);
-    assert_eq!(choose(&slave, 1, &["logAll", "nonsense"]), Status::Error);
-    assert!(slave.log.only().text.contains("nonsense"));
-    trouble(&slave);
-    slave.log.only();
+    assert_eq!(slave.log.take(), []);
+    for on in [0, 1] {
+        assert_eq!(choose(&slave, on, &["logAll", "nonsense", "more", "still more"]), Status::Warning);
+        let line = slave.log.only();
+        assert_eq!((line.status, line.category.as_str()), (1, "logStatusWarning"));
+        let wanted = "fmi2SetDebugLogging: log category 'nonsense' is not declared and is ignored, as are 2 others";
+        assert_eq!(line.text, wanted);
+    }
 }
 
 #[test]

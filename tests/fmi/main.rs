@@ -5,6 +5,7 @@
 #[path = "../host/mod.rs"]
 mod host;
 
+mod dead_ends;
 mod derivatives;
 mod instantiate;
 mod library;
@@ -12,7 +13,9 @@ mod lifecycle;
 mod logging;
 mod slave;
 mod small_stack;
+mod start_derivatives;
 mod states;
 mod steps;
 mod threads;
+mod tolerance;
 mod values;

@@ -21,7 +21,7 @@ fn get(slave: &mut Slave, name: &str) -> f64 {
 
 /// What [`host::Slave::running`] is.
 fn running() -> Slave {
-    let mut slave = Slave::new(slot::read().expect("a readable slot").0);
+    let mut slave = Slave::new(slot::read().expect("a readable slot").0, None);
     slave.set(ValueType::Integer, EVERYTHING, &[vr("joint.C.model")], &[2], f64::from).expect("a legal value");
     set(&mut slave, "crank.speed_start", 500.0).expect("a legal value");
     slave.initialize().expect("a legal scene");

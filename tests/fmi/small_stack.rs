@@ -114,7 +114,8 @@ fn live_in_a_small_stack(path: &Path) {
     }
     let table = file.scene.rod.flexible.table.is_some().then(|| {
         let settings = Settings::of(file.scene.clone());
-        let state = FmuState { state: State::Instantiated, settings, last_step: Status::Ok, snapshot: None };
+        let state =
+            FmuState { state: State::Instantiated, settings, last_step: Status::Ok, dead_end: false, snapshot: None };
         state.to_bytes().expect("bytes")
     });
     let small = thread::Builder::new().name("small".into()).stack_size(STACK);

@@ -147,6 +147,7 @@ fn a_scene_s_modes_are_part_of_its_states() {
         state: State::InitializationMode,
         settings: Settings::of(scene),
         last_step: Status::Ok,
+        dead_end: false,
         snapshot: None,
     };
     let bytes = state.to_bytes().expect("bytes");

@@ -115,22 +115,6 @@ fn an_undefined_stop_time_means_nothing() {
 }
 
 #[test]
-fn the_experiments_tolerance_comes_before_the_scenes() {
-    let evaluations = |own: f64, experiment: Option<f64>| {
-        let slave = Slave::new();
-        let defined = i32::from(experiment.is_some());
-        assert_eq!(slave.setup_raw(defined, experiment.unwrap_or(1e-2), 0.0, 0, 0.0), Status::Ok);
-        slave.wear();
-        assert_eq!(slave.set("solver.tolerance", own), Status::Ok);
-        assert_eq!((slave.enter(), slave.exit()), (Status::Ok, Status::Ok));
-        slave.steps(0.0, 0.01, 1);
-        (slave.get_integer("solver.evaluations"), slave.picture())
-    };
-    assert_eq!(evaluations(1e-4, Some(1e-9)), evaluations(1e-9, None));
-    assert!(evaluations(1e-4, None).0 < evaluations(1e-9, None).0);
-}
-
-#[test]
 fn a_step_below_the_rounding_of_time_is_a_step() {
     let slave = from_to(1000.0, None);
     assert_eq!(slave.step(1000.0, 1e-20), Status::Ok);

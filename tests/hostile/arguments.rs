@@ -12,7 +12,7 @@ use slidercrank::fmi::v2::lifecycle::Call;
 use slidercrank::fmi::v2::lifecycle::Call::*;
 use std::ptr::without_provenance_mut;
 
-/// What a value is refused for.
+/// What a value is refused for, or obeyed with a reservation.
 #[derive(Clone, Debug)]
 pub struct Fault {
     pub status: Status,
@@ -156,17 +156,16 @@ fn categories(stage: &Stage) -> Vec<Argument> {
         _ => std::ptr::null_mut(),
     };
     let all = || pointer(b"logAll");
-    let names = array(
-        stage,
-        "categories",
-        vec![all(), pointer(b"logStatusError")],
-        vec![
-            (vec![all(), std::ptr::null_mut()], "'an entry of categories' is NULL"),
-            (vec![pointer(b"nonsense"), all()], "log category 'nonsense'"),
-            (vec![all(), pointer(b"")], "log category ''"),
-            (vec![all(), pointer(b"log\xff\xfe%d\n")], "log category 'log"),
-        ],
-    );
+    let no_name = (vec![all(), std::ptr::null_mut()], "'an entry of categories' is NULL");
+    let mut names = array(stage, "categories", vec![all(), pointer(b"logStatusError")], vec![no_name]);
+    for (entries, words) in [
+        (vec![pointer(b"nonsense"), all()], "log category 'nonsense'"),
+        (vec![all(), pointer(b"")], "log category ''"),
+        (vec![all(), pointer(b"log\xff\xfe%d\n")], "log category 'log"),
+    ] {
+        let fault = Some(Fault { status: Status::Warning, words: vec![words.into()] });
+        names.values.push(Value { word: stage.array(entries), fault });
+    }
     vec![flag(1), count(2), names.counted_by(2)]
 }
 

@@ -22,8 +22,10 @@ fn mixed(one: &FmuState, other: &FmuState, bits: usize) -> FmuState {
             scene: of(1).settings.scene.clone(),
             experiment: of(2).settings.experiment,
             inputs: of(3).settings.inputs,
+            tolerance_set: of(2).settings.tolerance_set,
         },
         last_step: of(4).last_step,
+        dead_end: of(4).dead_end,
         snapshot: of(5).snapshot.clone(),
     }
 }

@@ -10,6 +10,7 @@ use slidercrank::fmi::v2::description::{declared_experiment, documentation, mode
 use slidercrank::model_description::rows::read;
 use slidercrank::scene::parameter::Kind;
 use slidercrank::scene::{PARAMETERS, Scene, slot};
+use std::collections::BTreeMap;
 use std::{env, fs};
 
 const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/modelDescription.xml");
@@ -68,7 +69,7 @@ const SEEDS: [(&str, &str, &str); 25] = [
     ("dependencies=\"1 2\"", "dependencies=\"1 2000\"", "dependencies"),
     ("dependencies=\"1 2\"", "dependencies=\"2 1\"", "dependencies"),
     ("dependencies=\"1 2\"", "dependencies=\"1 5\"", "dependencies"),
-    ("variableNaming", "generationDateAndTime=\"2026-01-01T00:00:00+00:00\" variableNaming", "date"),
+    ("T00:00:00Z\"", "T00:00:00+00:00\"", "date"),
     ("declaredType=\"Torque\"", "declaredType=\"Torc\"", "declaredType"),
     ("<Outputs>\n      <Unknown index=\"3\" dependencies=\"\"/>", "<Outputs>", "Outputs"),
     ("nominal=\"100.0\" start=\"0.0\"", "nominal=\"100.0\"", "start"),
@@ -116,6 +117,41 @@ fn value_references_and_tables_are_those_of_the_description() {
     let categories: Vec<_> = document.descendants().filter(|node| node.has_tag_name("Category")).collect();
     let names: Vec<_> = categories.iter().filter_map(|node| node.attribute("name")).collect();
     assert_eq!(names, LogCategory::ALL.iter().map(|category| category.name()).collect::<Vec<_>>());
+}
+
+#[test]
+fn every_variable_has_a_description_of_its_own_and_items_stand_in_order() {
+    let xml = made();
+    let document = roxmltree::Document::parse(&xml).expect("well-formed XML");
+    let mut seen = BTreeMap::new();
+    for scalar in document.descendants().filter(|node| node.has_tag_name("ScalarVariable")) {
+        let [name, description] = ["name", "description"].map(|attribute| scalar.attribute(attribute).expect("told"));
+        assert_eq!(seen.insert(description, name), None, "{name}: {description}");
+        if let Some(joint) = name.strip_prefix("joint.") {
+            assert!(description.starts_with(&format!("Joint {}: ", &joint[..1])), "{name}: {description}");
+        }
+    }
+    for enumeration in document.descendants().filter(|node| node.has_tag_name("Enumeration")) {
+        let items = enumeration.children().filter_map(|item| item.attribute("value")?.parse::<i32>().ok());
+        assert!(items.is_sorted_by(|one, next| one < next));
+    }
+}
+
+#[test]
+fn the_root_tells_who_made_it_and_when() {
+    let xml = made();
+    let document = roxmltree::Document::parse(&xml).expect("well-formed XML");
+    let root = document.root_element();
+    let licence = include_str!("../../LICENSE-MIT");
+    for attribute in ["author", "copyright"] {
+        let told = root.attribute(attribute).expect("told");
+        assert!(licence.contains(told.trim_start_matches("Copyright ")), "{told}");
+    }
+    let date = root.attribute("generationDateAndTime").expect("told");
+    assert!(date.ends_with("T00:00:00Z") && date.len() == 20, "{date}");
+    // The date is no part of what the library checks.
+    let dated = model_description(&Scene::default(), None, Some(0)).expect("a description");
+    assert_eq!(dated, xml.replace(date, "1970-01-01T00:00:00Z"));
 }
 
 /// Outputs that tell what the modes and the audit reckon, and a dependency of theirs at the start.
@@ -190,9 +226,9 @@ fn the_page_tells_whether_the_package_has_modes_of_its_own() {
 }
 
 /// What stands in the declaration, what replaces it, and the complaint.
-const WRONG_ROWS: [(&str, &str, &str); 15] = [
+const WRONG_ROWS: [(&str, &str, &str); 17] = [
     ("causality = \"input\"", "causality = \"local\"", "cannot be local, continuous and Torque"),
-    ("type = \"Boolean\", field", "type = \"Torque\", field", "cannot be output, discrete and Torque"),
+    ("type = \"Boolean\", field", "type = \"DriveMode\", field", "cannot be output, discrete and DriveMode"),
     ("start = 0.05, min = 1e-4", "start = 0.05, min = 0.1", "not min <= start <= max and nominal > 0"),
     ("start = 0.05, min = 1e-4", "min = 1e-4", "`start` is missing"),
     ("start = 0.05, min = 1e-4, ", "start = 0.05, ", "`min` is missing"),
@@ -205,6 +241,8 @@ const WRONG_ROWS: [(&str, &str, &str); 15] = [
     ("start = 0, min = 0, max = 8", "start = 0, min = 0", "`max` is missing"),
     ("start = true, field", "start = 1, field", "`start` is missing"),
     ("start = true, field", "start = true, min = 0, field", "`min, max` has no meaning here"),
+    ("\"Crank angle, not wrapped\"", "\"Tilt of the slider\"", "`Tilt of the slider` is declared twice"),
+    ("name = \"speed\", value = 2", "name = \"speed\", value = 0", "the items of `DriveMode` do not rise in value"),
     ("start = \"automatic\"", "start = \"verner9\"", "`verner9` is not declared"),
 ];
 

@@ -111,7 +111,7 @@ fn declared(root: Node, variable: Node) -> Vec<String> {
     let legal = match triple {
         [Some("input"), Some("continuous"), None] => tag == "Real",
         [Some("output"), Some("continuous"), Some("calculated")] => tag == "Real",
-        [Some("output"), Some("discrete"), Some("calculated")] => tag != "Real",
+        [Some("output"), Some("discrete"), Some("calculated")] => tag != "Enumeration",
         [Some("parameter"), Some("fixed"), Some("exact")] => true,
         _ => false,
     };

@@ -3,13 +3,13 @@
 use super::{out_directory, shown};
 use crate::dynamics::bifurcation::{From, Range};
 use crate::dynamics::portrait::Plan;
+use crate::host::Setting;
 use crate::report::dynamics as report;
 use crate::report::table::Table;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use slidercrank::scene::parameter::Parameter;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,9 +23,9 @@ pub struct Dynamics {
     /// The scene: name of a shipped one, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
     scene: String,
-    /// A parameter's value, in SI units; may be repeated
+    /// A parameter's value, in SI units or with a unit; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
-    set: Vec<String>,
+    set: Vec<Setting>,
     /// Turns that are forgotten
     #[arg(long, default_value_t = 100, value_name = "TURNS")]
     transient: usize,
@@ -69,11 +69,7 @@ impl Dynamics {
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
-        let mut scenario = Scenario::find(&self.scene)?;
-        for assignment in &self.set {
-            assign(&mut scenario, assignment)?;
-        }
-        scenario.file.scene.check()?;
+        let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
         let range = self.range()?;
         let plan = Plan {
             transient: self.transient,
@@ -126,15 +122,6 @@ impl Dynamics {
         let (from, to) = (self.from.context("--from is missing")?, self.to.context("--to is missing")?);
         Range::new(name, from, to, self.values, self.logarithmic).map(Some)
     }
-}
-
-/// Sets `NAME=VALUE`.
-fn assign(scenario: &mut Scenario, assignment: &str) -> Result<()> {
-    let (name, value) = assignment.split_once('=').with_context(|| format!("`{assignment}` is not NAME=VALUE"))?;
-    let parameter = Parameter::named(name).with_context(|| format!("there is no parameter `{name}`"))?;
-    let value = value.parse().with_context(|| format!("`{value}` is not a number for `{name}`"))?;
-    parameter.write(&mut scenario.file.scene, value)?;
-    Ok(())
 }
 
 fn write(base: &Path, ending: &str, text: &str) -> Result<PathBuf> {

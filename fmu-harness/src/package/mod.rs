@@ -18,6 +18,7 @@ use slidercrank::scene::parameter::PARAMETERS;
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::slot;
 use slidercrank::scene::write::write_table;
+use std::env;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
 use std::path::Path;
@@ -37,6 +38,7 @@ pub struct Package {
 }
 
 /// What packages of all scenes have in common.
+#[derive(Clone)]
 pub struct Stock {
     library: Vec<u8>,
     newer: Option<Vec<u8>>,
@@ -86,8 +88,9 @@ impl Stock {
             Part::new("documentation/licenses/third-party.txt", self.third_party.as_str()),
         ];
         if let Some(library) = &self.newer {
+            // It computes scenes that the other library hands it, so it needs none of its own.
             let name = format!("binaries/{}/{identifier}.{}{DLL_SUFFIX}", platform()?, dispatch_x86_64_v3::LEVEL);
-            parts.insert(3, Part::new(name, with_scene(library)?));
+            parts.insert(3, Part::new(name, library.as_slice()));
         }
         if let Some(table) = &scene.rod.flexible.table {
             parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
@@ -116,8 +119,22 @@ fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -
     let (stop, step, tolerance) = (run.stop(scene), run.step, scene.solver.tolerance);
     let experiment = Experiment { start: 0.0, stop, tolerance, step };
     let guid = slot::guid(scene);
-    let package = xml::Package { guid: &guid, starts, experiment, written: None };
+    let made = xml::made(declaration, epoch()?);
+    let package = xml::Package { guid: &guid, starts, experiment, made: Some(&made) };
     Ok(xml::write(declaration, &package)?)
+}
+
+/// The variable by which builds that can be repeated are told when they are made, in seconds since 1970.
+const EPOCH: &str = "SOURCE_DATE_EPOCH";
+/// [s] The last second of the year 9999.
+const LAST: u64 = 253_402_300_799;
+
+/// [s] What that variable says, if it is set.
+fn epoch() -> Result<Option<u64>> {
+    let Some(text) = env::var_os(EPOCH) else { return Ok(None) };
+    let seconds = text.to_str().and_then(|text| text.parse().ok()).filter(|seconds| *seconds <= LAST);
+    let context = || format!("{EPOCH} = {} is no number of seconds since 1970", text.display());
+    seconds.map(Some).with_context(context)
 }
 
 /// documentation/index.html.
@@ -128,7 +145,7 @@ fn page(scenario: &Scenario) -> Result<String> {
 
 /// FMI 2.0 names three platforms that there are machines of.
 fn platform() -> Result<&'static str> {
-    match (std::env::consts::OS, std::env::consts::ARCH) {
+    match (env::consts::OS, env::consts::ARCH) {
         ("linux", "x86_64") => Ok("linux64"),
         ("windows", "x86_64") => Ok("win64"),
         ("macos", _) => Ok("darwin64"),

@@ -288,7 +288,6 @@ def test_unknown_variables_and_calls_out_of_order_are_refused_by_name(wornpin):
         lambda: slave.fmu.getInteger(speed),
         lambda: slave.fmu.exitInitializationMode(),
         lambda: slave.fmu.cancelStep(),
-        lambda: slave.fmu.setDebugLogging(True, ["no such category"]),
     ):
         count = len(ears.heard)
         with pytest.raises(FMICallException) as refusal:
@@ -299,6 +298,21 @@ def test_unknown_variables_and_calls_out_of_order_are_refused_by_name(wornpin):
     assert any(b"crank.speed" in message for *_, message in ears.heard)
     slave.fmu.setupExperiment()
     slave.initialize()
+    slave.free()
+
+
+def test_hosts_that_look_at_no_status_hear_of_trouble_with_logging_off(wornpin):
+    """ecos and fmi-sim go on with the start value; their users must read why."""
+    ears = Ears()
+    slave = wornpin.instantiate(callbacks=ears.callbacks, logging=0)
+    clearance = wornpin.references(["joint.C.clearance"])
+    with pytest.raises(FMICallException):
+        slave.fmu.setReal(clearance, [0.0])
+    ((*_, status, category, message),) = ears.heard
+    assert (status, category) == (3, b"logStatusError") and b"joint.C.clearance = 0 is out of range" in message
+    # A category that is not declared is a warning, and the others of the call count.
+    slave.fmu.setDebugLogging(True, ["no such category", "logRemark"])
+    assert ears.heard[-1][2:4] == (1, b"logStatusWarning") and b"no such category" in ears.heard[-1][4]
     slave.free()
 
 

@@ -50,6 +50,22 @@ def test_start_values_of_the_host_reach_the_mechanism(ideal):
     assert np.abs(result["crank.angle"] - (0.25 + 100.0 * result["time"])).max() <= bound
 
 
+def test_a_tolerance_among_the_start_values_wins_over_the_experiments(wornpin):
+    """FMPy's experiment always has the model description's tolerance, which nobody asked for."""
+
+    def run(**options):
+        names = ["solver.tolerance_used", "solver.evaluations", "slider.a"]
+        return simulate_fmu(str(wornpin.file), stop_time=STOP, output_interval=1e-4, output=names, **options)
+
+    packaged, tight = run(), run(start_values={"solver.tolerance": 1e-9})
+    assert set(packaged["solver.tolerance_used"]) == {float(wornpin.variables["solver.tolerance"].start)}
+    assert set(tight["solver.tolerance_used"]) == {1e-9}
+    assert tight["solver.evaluations"][-1] > packaged["solver.evaluations"][-1]
+    assert tight.tolist() == run(relative_tolerance=1e-9).tolist()
+    both = run(start_values={"solver.tolerance": 1e-9}, relative_tolerance=1e-4)
+    assert tight.tolist() == both.tolist()
+
+
 def test_fmpys_input_table_drives_the_load(ideal):
     """A load that rises to 400 N. FMPy's own way to hand over slopes too fails in 0.3.32 unless an FMU has nine inputs."""
     table = np.array([(0.0, 0.0), (1e-3, 400.0), (2e-3, 400.0)], dtype=[("time", "f8"), ("slider.load", "f8")])

@@ -102,3 +102,22 @@ def test_a_fresh_process_goes_on_to_the_bit(scene, request, tmp_path):
     fresh = subprocess.run(list(map(str, program)), capture_output=True, text=True)
     assert fresh.returncode == 0, fresh.stderr
     assert list(map(bytes.fromhex, fresh.stdout.split())) == straight_on
+
+
+def test_a_state_brings_along_which_library_computes(wornpin):
+    portable, usual = wornpin.start({"solver.portable": True}), wornpin.start()
+    portable.run(POINTS[: BEFORE + 1])
+    state = portable.fmu.serializeFMUstate(portable.fmu.getFMUstate())
+    straight_on = portable.run(POINTS[BEFORE:])
+    newer = not usual.get("solver.portable_used")
+    usual.fmu.setFMUstate(usual.fmu.deSerializeFMUstate(state))
+    assert usual.get("solver.portable_used")
+    assert usual.run(POINTS[BEFORE:]) == straight_on
+    # And back: a reset brings the packaged choice.
+    usual.fmu.reset()
+    usual.fmu.setupExperiment()
+    usual.initialize()
+    assert usual.get("solver.portable_used") != newer
+    assert (usual.run(POINTS)[-1] == straight_on[-1]) != newer
+    usual.free()
+    portable.free()

@@ -106,7 +106,12 @@ pub fn finite(variable: &Variable, value: f64) -> Result<f64, VariableError> {
 
 /// A value that may be handed out: extreme loads may make an output NaN or infinite.
 pub fn finite_output(variable: &Variable, value: f64) -> Result<f64, Error> {
-    if value.is_finite() { Ok(value) } else { Err(Error::OutputNotFinite(variable.name, value)) }
+    finite_number(variable.name, value)
+}
+
+/// The same, of the output of this name.
+pub fn finite_number(name: &'static str, value: f64) -> Result<f64, Error> {
+    if value.is_finite() { Ok(value) } else { Err(Error::OutputNotFinite(name, value)) }
 }
 
 /// Order of the derivatives that we know.
@@ -135,8 +140,25 @@ pub struct RealInput {
 
 /// How a real input is read and written.
 pub fn real_input(variable: &Variable) -> Result<RealInput, VariableError> {
+    input(variable, "a real input")
+}
+
+/// The same, of what outputs are differentiated with respect to, where parameters are out of the question.
+pub fn known_input(variable: &Variable) -> Result<RealInput, VariableError> {
+    input(variable, "a real input, nor a real parameter in initialization mode")
+}
+
+fn input(variable: &Variable, wanted: &'static str) -> Result<RealInput, VariableError> {
     match variable.access {
         Access::Input { get, set, .. } => Ok(RealInput { get, set }),
-        _ => Err(VariableError::Kind(variable.name, "a real input")),
+        _ => Err(VariableError::Kind(variable.name, wanted)),
+    }
+}
+
+/// The real parameter that a variable is.
+pub fn real_parameter(variable: &Variable) -> Option<&'static Parameter> {
+    match variable.access {
+        Access::Parameter(parameter @ Parameter { kind: Kind::Real { .. }, .. }) => Some(parameter),
+        _ => None,
     }
 }

@@ -15,14 +15,14 @@ pub enum Error {
     Variable(VariableError),
     /// A time or a tolerance cannot be used.
     Time(TimeError),
-    /// The log category is not declared.
-    Category(String),
     /// A saved state cannot be used.
     SavedState(SavedStateError),
     /// The parameters do not go together.
     Scene(SceneError),
     /// An output that is NaN or infinite.
     OutputNotFinite(&'static str, f64),
+    /// An output that has no derivative with respect to start values: it jumps there.
+    NoDerivative(&'static str),
     /// The mechanism cannot start or go on.
     Simulation(SimulationError),
 }
@@ -33,11 +33,12 @@ impl Error {
         match self {
             Self::Variable(_)
             | Self::Time(_)
-            | Self::Category(_)
             | Self::SavedState(_)
             | Self::Scene(_)
             | Self::Simulation(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => Severity::Error,
-            Self::OutputNotFinite(..) | Self::Simulation(SimulationError::Integration { .. }) => Severity::Discard,
+            Self::OutputNotFinite(..)
+            | Self::NoDerivative(_)
+            | Self::Simulation(SimulationError::Integration { .. }) => Severity::Discard,
         }
     }
 }

@@ -12,7 +12,7 @@ pub struct Experiment {
     pub start: f64,
     /// [s] No step may end later, if defined.
     pub stop: Option<f64>,
-    /// Relative tolerance, if defined; it takes precedence over the scene's.
+    /// Relative tolerance, if defined; it takes precedence over the scene's, unless the importer has set that, too.
     pub tolerance: Option<f64>,
 }
 
@@ -101,6 +101,28 @@ impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { asked, granted } = self;
         write!(f, "tolerance {asked:?} is beyond the solver's range; {granted:?} is used")
+    }
+}
+
+/// A tolerance of the experiment that is not used, and the one that the importer has set as a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftAside {
+    experiment: f64,
+    used: f64,
+}
+
+impl LeftAside {
+    /// The experiment's tolerance, if there is one and another is used.
+    pub fn between(experiment: &Experiment, used: f64) -> Option<Self> {
+        let experiment = experiment.tolerance?;
+        (experiment != used).then_some(Self { experiment, used })
+    }
+}
+
+impl fmt::Display for LeftAside {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { experiment, used } = self;
+        write!(f, "the experiment's tolerance {experiment:?} is left aside, since solver.tolerance = {used:?} was set")
     }
 }
 

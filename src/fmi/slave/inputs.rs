@@ -4,9 +4,10 @@
 //! set alone is held: its derivative becomes 0. A derivative set alone starts from the value
 //! reached. Where nothing is set the line goes on, and the simulation is left alone.
 
+use super::engine::Run;
 use super::variables::{Access, VARIABLES};
 use crate::model::signals::Inputs;
-use crate::simulation::{Simulation, SimulationError};
+use crate::simulation::SimulationError;
 use serde::{Deserialize, Serialize};
 
 /// Every input as a straight line, from a point in time on.
@@ -112,8 +113,8 @@ impl InputLines {
     /// Makes a simulation by `start`, with the inputs wanted at its start in force.
     pub fn start(
         &mut self,
-        start: impl FnOnce(Inputs) -> Result<Simulation, SimulationError>,
-    ) -> Result<Simulation, SimulationError> {
+        start: impl FnOnce(Inputs) -> Result<Box<dyn Run>, SimulationError>,
+    ) -> Result<Box<dyn Run>, SimulationError> {
         let lines = self.at(0.0);
         let mut simulation = start(lines.values)?;
         if lines.rates != Inputs::default() {
@@ -124,7 +125,7 @@ impl InputLines {
     }
 
     /// Passes to the simulation what was set at its communication point, if that changes anything.
-    pub fn pass_on(&mut self, simulation: &mut Simulation) {
+    pub fn pass_on(&mut self, simulation: &mut dyn Run) {
         let Some(lines) = self.wanted else { return };
         let time = simulation.time();
         if !lines.same_bits(&self.in_force.shifted(time - self.since)) {

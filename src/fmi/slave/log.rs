@@ -1,18 +1,18 @@
-//! One line to the importer, and only where it asked for the line's category.
+//! One line to the importer: always where a call did not simply succeed, on request otherwise.
 //!
-//! By the standard the importer hears enabled categories only, errors included: with logging off a
-//! slave is silent. Success is not logged, so a run without trouble is silent with logging on, too.
+//! `loggingOn` and the choice of categories rule what helps in debugging, as the standard has it. A warning, a discarded
+//! step, a refusal or a fault is told to every importer: many do not look at the status of a call, and would go on with
+//! values that nobody asked for. Success as such is not logged, so a run without trouble is silent.
 
-use super::error::Error;
 use super::severity::Severity;
 use super::variables::LogCategory;
 use std::ffi::{CStr, CString};
-use std::fmt::{Display, Write as _};
+use std::fmt::{self, Display, Write as _};
 
 /// Where lines go: the importer, through the callback of its version of FMI.
 pub trait Host {
-    /// Hands one line to the importer.
-    fn log(&self, instance_name: &CStr, severity: Severity, category: &CStr, line: &CStr);
+    /// Hands one line to the importer; without a severity it is about a call that simply succeeded.
+    fn log(&self, instance_name: &CStr, severity: Option<Severity>, category: &CStr, line: &CStr);
 }
 
 /// A host that does not listen.
@@ -20,65 +20,64 @@ pub trait Host {
 pub struct Silent;
 
 impl Host for Silent {
-    fn log(&self, _: &CStr, _: Severity, _: &CStr, _: &CStr) {}
+    fn log(&self, _: &CStr, _: Option<Severity>, _: &CStr, _: &CStr) {}
 }
 
-/// Which categories are enabled: one bit each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Enabled(u8);
+/// Names in a choice of categories that are not declared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnknownCategories {
+    first: String,
+    others: usize,
+}
 
-impl Enabled {
-    const NOTHING: Self = Self(0);
-    const ALL: Self = Self(u8::MAX);
-
-    fn with(self, category: LogCategory) -> Self {
-        Self(self.0 | 1 << category as u8)
-    }
-
-    fn has(self, category: LogCategory) -> bool {
-        self.0 & 1 << category as u8 != 0
+impl Display for UnknownCategories {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { first, others } = self;
+        write!(f, "log category '{first}' is not declared and is ignored")?;
+        if *others > 0 { write!(f, ", as are {others} others") } else { Ok(()) }
     }
 }
 
-/// Where messages go and which of them.
+/// Where messages go, and whether remarks do.
 pub struct Logger {
     host: Box<dyn Host>,
     instance_name: CString,
-    enabled: Enabled,
+    remarks: bool,
 }
 
 impl Logger {
-    /// A logger for the instance of this name, with all categories enabled or without any.
+    /// A logger for the instance of this name, with remarks or without.
     pub fn new(host: Box<dyn Host>, instance_name: CString, logging_on: bool) -> Self {
-        let enabled = if logging_on { Enabled::ALL } else { Enabled::NOTHING };
-        Self { host, instance_name, enabled }
+        Self { host, instance_name, remarks: logging_on }
     }
 
-    /// Enables the named categories alone, or all if no category is named; or nothing at all.
-    pub fn enable(&mut self, logging_on: bool, categories: &[&CStr]) -> Result<(), Error> {
-        let named = categories.iter().try_fold(Enabled::NOTHING, |enabled, name| {
-            let declared = |category: &&LogCategory| category.name().as_bytes() == name.to_bytes();
-            match LogCategory::ALL.iter().find(declared) {
-                Some(LogCategory::All) => Ok(Enabled::ALL),
-                Some(category) => Ok(enabled.with(*category)),
-                None => Err(Error::Category(name.to_string_lossy().into_owned())),
-            }
-        })?;
-        self.enabled = match (logging_on, categories.is_empty()) {
-            (false, _) => Enabled::NOTHING,
-            (true, true) => Enabled::ALL,
-            (true, false) => named,
-        };
-        Ok(())
+    /// Chooses whether remarks are sent: if logging is on, and their category is named or none is. The names that are not
+    /// declared, if there are such; the others count.
+    pub fn enable(&mut self, logging_on: bool, categories: &[&CStr]) -> Option<UnknownCategories> {
+        let named = |category: LogCategory| categories.iter().any(|name| name.to_bytes() == category.name().as_bytes());
+        let wanted = categories.is_empty() || named(LogCategory::All) || named(LogCategory::Remark);
+        self.remarks = logging_on && wanted;
+        let declared = |name: &CStr| LogCategory::ALL.iter().any(|known| known.name().as_bytes() == name.to_bytes());
+        let mut unknown = categories.iter().filter(|name| !declared(name));
+        let first = unknown.next()?.to_string_lossy().into_owned();
+        Some(UnknownCategories { first, others: unknown.count() })
     }
 
-    /// Sends one line about a call to `function`, if the category of its severity is enabled.
+    /// Sends one line about a call to `function` that did not simply succeed, whatever is enabled.
     pub fn say(&self, severity: Severity, function: &str, message: &dyn Display) {
-        let category = severity.category();
-        if self.enabled.has(category) {
-            let category = CString::new(category.name()).unwrap_or_default();
-            self.host.log(&self.instance_name, severity, &category, &line(function, message));
+        self.send(Some(severity), severity.category(), function, message);
+    }
+
+    /// Sends one line about a call to `function` that succeeded, if remarks are enabled.
+    pub fn remark(&self, function: &str, message: &dyn Display) {
+        if self.remarks {
+            self.send(None, LogCategory::Remark, function, message);
         }
+    }
+
+    fn send(&self, severity: Option<Severity>, category: LogCategory, function: &str, message: &dyn Display) {
+        let category = CString::new(category.name()).unwrap_or_default();
+        self.host.log(&self.instance_name, severity, &category, &line(function, message));
     }
 }
 

@@ -12,6 +12,8 @@
 //! A refused call changes nothing: values set together are applied all or none.
 
 pub mod access;
+pub mod difference;
+pub mod engine;
 pub mod error;
 pub mod experiment;
 pub mod inputs;
@@ -20,6 +22,7 @@ pub mod saved_states;
 pub mod sealed;
 pub mod settings;
 pub mod severity;
+pub mod start_sensitivity;
 pub mod variables;
 
 pub use access::{Permission, ValueType};
@@ -29,31 +32,42 @@ pub use severity::Severity;
 
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
-use crate::simulation::{Simulation, Snapshot};
-use access::{RealInput, check_first_order, finite, finite_output, real_input, real_output, typed, variable};
+use crate::simulation::Snapshot;
+use access::{
+    RealInput, check_first_order, finite, finite_output, known_input, real_input, real_output, real_parameter, typed,
+    variable,
+};
+use engine::{Engine, Own, Run};
 use error::VariableError;
-use experiment::{Experiment, Limit};
+use experiment::{Experiment, LeftAside, Limit};
 use inputs::are_finite;
+use start_sensitivity::{Rate, Reading, along};
 use variables::{Access, VARIABLES};
+
+/// Name of the parameter that comes before the experiment's tolerance once an importer has set it.
+const TOLERANCE: &str = "solver.tolerance";
 
 /// One slave.
 pub struct Slave {
     /// The scene that the FMU was packaged with.
     packaged: Scene,
+    /// Computes the motion of scenes that do not ask for portable bits, if there is such an engine.
+    newer: Option<&'static dyn Engine>,
     settings: Settings,
     /// Whether initialization is over: parameters are fixed and the simulation is there.
     initialized: bool,
     /// Absent until an output is needed.
-    simulation: Option<Simulation>,
+    simulation: Option<Box<dyn Run>>,
     /// Outputs at this communication point, once they have been asked for.
     outputs: Option<Outputs>,
 }
 
 impl Slave {
-    /// A slave with the start values of the packaged scene.
-    pub fn new(packaged: Scene) -> Self {
+    /// A slave with the start values of the packaged scene. Its motions are computed by `newer`, if there is such an
+    /// engine and the scene does not ask for portable bits.
+    pub fn new(packaged: Scene, newer: Option<&'static dyn Engine>) -> Self {
         let settings = Settings::of(packaged.clone());
-        Self { packaged, settings, initialized: false, simulation: None, outputs: None }
+        Self { packaged, newer, settings, initialized: false, simulation: None, outputs: None }
     }
 
     /// As after [`Slave::new`].
@@ -70,7 +84,7 @@ impl Slave {
 
     /// [s] The same, counted from the start: the simulation's time, which no start time rounds.
     fn elapsed(&self) -> f64 {
-        self.simulation.as_ref().map_or(0.0, Simulation::time)
+        self.simulation.as_ref().map_or(0.0, |run| run.time())
     }
 
     /// Sets times and tolerance. A tolerance that the solver cannot meet is limited: that limit.
@@ -79,6 +93,11 @@ impl Slave {
         let granted = asked.limited();
         self.settings.experiment = granted;
         Ok(Limit::between(&asked, &granted))
+    }
+
+    /// What became of the experiment's tolerance, if another one is in use though the solver could meet it.
+    pub fn tolerance_left_aside(&self) -> Option<LeftAside> {
+        LeftAside::between(&self.settings.experiment, self.settings.tolerance())
     }
 
     /// Fixes the parameters; the first step can follow. If the scene contradicts itself, the slave
@@ -134,6 +153,7 @@ impl Slave {
     ) -> Result<(), Error> {
         // Inputs are set every step: the scene is copied only where one of its parameters is set.
         let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.elapsed());
+        let mut tolerance_set = self.settings.tolerance_set;
         for (&reference, &value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;
             permission.check_write(variable)?;
@@ -142,6 +162,7 @@ impl Slave {
                 Access::Input { get, set, .. } => inputs.set_value(*set, *get, time, value),
                 Access::Parameter(parameter) => {
                     parameter.write(scene.get_or_insert_with(|| self.settings.scene.clone()), value)?;
+                    tolerance_set |= parameter.name == TOLERANCE;
                 }
                 // `check_write` lets no write to an output pass.
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => {}
@@ -151,6 +172,7 @@ impl Slave {
         if let Some(scene) = scene {
             self.settings.scene = scene;
         }
+        self.settings.tolerance_set = tolerance_set;
         self.drop_what_followed_from_settings();
         Ok(())
     }
@@ -197,26 +219,55 @@ impl Slave {
         fill(references, &rates, values)
     }
 
-    /// Derivatives of real outputs along a direction of real inputs. An input named twice counts twice.
+    /// Derivatives of real outputs along a direction of real inputs and, while the permission lets parameters be set, of
+    /// real parameters. A variable named twice counts twice.
     pub fn directional_derivative(
         &mut self,
+        permission: Permission,
         unknowns: &[u32],
         knowns: &[u32],
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        let mut direction = Inputs::default();
+        let (mut inputs, mut starts) = (Inputs::default(), Vec::<Rate>::new());
         for (&known, &seed) in knowns.iter().zip(seeds) {
             let variable = variable(known)?;
-            let RealInput { get, set } = real_input(variable)?;
-            let sum = get(&direction) + finite(variable, seed)?;
-            set(&mut direction, sum);
+            let seed = |variable| finite(variable, seed);
+            if let (Some(parameter), true) = (real_parameter(variable), permission.parameters) {
+                let seed = seed(variable)?;
+                match starts.iter_mut().find(|(known, _)| known.name == parameter.name) {
+                    Some((_, rate)) => *rate += seed,
+                    None => starts.push((parameter, seed)),
+                }
+            } else {
+                let RealInput { get, set } = known_input(variable)?;
+                let sum = get(&inputs) + seed(variable)?;
+                set(&mut inputs, sum);
+            }
         }
         for &unknown in unknowns {
             real_output(variable(unknown)?)?;
         }
-        let sensitivity = self.live()?.output_sensitivity(direction);
-        fill(unknowns, &sensitivity, values)
+        let sensitivity = self.live()?.output_sensitivity(inputs);
+        if starts.is_empty() {
+            return fill(unknowns, &sensitivity, values);
+        }
+        let by_starts = self.start_sensitivity(&starts, unknowns)?;
+        for ((&unknown, by_starts), value) in unknowns.iter().zip(by_starts).zip(values) {
+            let variable = variable(unknown)?;
+            *value = finite_output(variable, real_output(variable)?(&sensitivity) + by_starts)?;
+        }
+        Ok(())
+    }
+
+    /// Derivatives of real outputs along a direction of start values.
+    fn start_sensitivity(&self, direction: &[Rate], unknowns: &[u32]) -> Result<Vec<f64>, Error> {
+        let reading = |&unknown: &u32| -> Result<Reading, VariableError> {
+            let variable = variable(unknown)?;
+            Ok((variable.name, real_output(variable)?))
+        };
+        let outputs = unknowns.iter().map(reading).collect::<Result<Vec<_>, _>>()?;
+        along(direction, &self.settings, &outputs, |mut settings| Ok(started(&mut settings, self.newer)?.outputs()))
     }
 
     /// [s] Where a step of `size` from the importer's `point` ends, counted from the start. A refusal changes nothing.
@@ -246,7 +297,7 @@ impl Slave {
     pub fn save(&self) -> (Settings, Option<Snapshot>) {
         // While parameters can still change, the simulation is no more than a reading of the scene.
         let running = if self.initialized { self.simulation.as_ref() } else { None };
-        (self.settings.clone(), running.map(Simulation::snapshot))
+        (self.settings.clone(), running.map(|run| run.snapshot()))
     }
 
     /// Makes the slave what it was when it was saved.
@@ -254,7 +305,10 @@ impl Slave {
         // The only part that can fail comes first.
         self.simulation = match snapshot {
             None => None,
-            Some(snapshot) => Some(Simulation::restore(&settings.simulated_scene()?, snapshot)?),
+            Some(snapshot) => {
+                let scene = settings.simulated_scene()?;
+                Some(engine_of(self.newer, &scene).restore(&scene, snapshot)?)
+            }
         };
         self.initialized = snapshot.is_some();
         self.outputs = None;
@@ -263,16 +317,14 @@ impl Slave {
     }
 
     /// The simulation, started if need be, with the inputs of this communication point.
-    fn live(&mut self) -> Result<&mut Simulation, Error> {
+    fn live(&mut self) -> Result<&mut dyn Run, Error> {
+        let newer = self.newer;
         match &mut self.simulation {
             Some(simulation) => {
-                self.settings.inputs.pass_on(simulation);
-                Ok(simulation)
+                self.settings.inputs.pass_on(simulation.as_mut());
+                Ok(simulation.as_mut())
             }
-            absent => {
-                let scene = self.settings.simulated_scene()?;
-                Ok(absent.insert(self.settings.inputs.start(|inputs| Simulation::start(&scene, inputs))?))
-            }
+            absent => Ok(absent.insert(started(&mut self.settings, newer)?).as_mut()),
         }
     }
 
@@ -289,6 +341,20 @@ impl Slave {
         if !self.initialized {
             self.simulation = None;
         }
+    }
+}
+
+/// The mechanism of these settings at its start, with the inputs wanted there in force.
+fn started(settings: &mut Settings, newer: Option<&'static dyn Engine>) -> Result<Box<dyn Run>, Error> {
+    let scene = settings.simulated_scene()?;
+    Ok(settings.inputs.start(|inputs| engine_of(newer, &scene).start(&scene, inputs))?)
+}
+
+/// What computes the motion of `scene`.
+fn engine_of(newer: Option<&'static dyn Engine>, scene: &Scene) -> &'static dyn Engine {
+    match newer {
+        Some(newer) if !scene.solver.portable => newer,
+        _ => &Own,
     }
 }
 

@@ -2,8 +2,11 @@
 
 use super::experiment::Experiment;
 use super::inputs::InputLines;
+use crate::math::PORTABLE;
+use crate::model::ideal::IdealMechanism;
+use crate::model_description::number::number;
 use crate::scene::parameter::{PARAMETERS, Parameter};
-use crate::scene::{Scene, SceneError};
+use crate::scene::{DriveMode, JointModel, Scene, SceneError};
 use serde::{Deserialize, Serialize};
 
 /// Everything that an importer has set, or left at its start value.
@@ -15,12 +18,15 @@ pub struct Settings {
     pub experiment: Experiment,
     /// Inputs.
     pub inputs: InputLines,
+    /// Whether the importer has set the scene's tolerance: then it takes precedence over the experiment's, which many
+    /// importers take from the model description without being told to.
+    pub tolerance_set: bool,
 }
 
 impl Settings {
     /// Those of a slave of which nothing has been set yet.
     pub fn of(scene: Scene) -> Self {
-        Self { scene, experiment: Experiment::default(), inputs: InputLines::default() }
+        Self { scene, experiment: Experiment::default(), inputs: InputLines::default(), tolerance_set: false }
     }
 
     /// Whether an importer can have set all of this.
@@ -29,14 +35,50 @@ impl Settings {
         PARAMETERS.iter().all(in_range) && self.experiment.is_sound() && self.inputs.are_finite()
     }
 
-    /// The scene to be simulated, if its parameters go together. The experiment's tolerance takes
-    /// precedence over the scene's.
+    /// The tolerance to be used: the scene's if the importer has set it, else the experiment's if it has one, else the
+    /// scene's as packaged.
+    pub fn tolerance(&self) -> f64 {
+        match self.experiment.tolerance {
+            Some(tolerance) if !self.tolerance_set => tolerance,
+            _ => self.scene.solver.tolerance,
+        }
+    }
+
+    /// Refuses a run that is certain to end before its time: a crank that is driven at a constant speed to where the rod
+    /// stands across the guide, if the experiment does not stop before. A torque may or may not lead there.
+    fn check_way(&self) -> Result<(), SceneError> {
+        let Scene { drive, crank, rod, joint, .. } = &self.scene;
+        let ideal = [joint.a.model, joint.b.model, joint.c.model, joint.t.model] == [JointModel::Ideal; 4];
+        let rigid = rod.flexible.bending_modes == 0 && rod.flexible.axial_modes == 0;
+        if drive.mode != DriveMode::Speed || !ideal || !rigid {
+            return Ok(());
+        }
+        let mechanism = IdealMechanism::new(&self.scene);
+        let Some(lasts) = mechanism.time_to_change_point(crank.angle_start, crank.speed_start) else {
+            return Ok(());
+        };
+        let end = self.experiment.start + lasts;
+        if self.experiment.stop.is_some_and(|stop| stop < end) {
+            return Ok(());
+        }
+        let least = number(mechanism.crank + mechanism.height.abs());
+        let allowed = format!(
+            "above {least} m for the crank to turn; it brings the rod across the guide at t = {end:.6} s, \
+             so that the run ends there, unless the experiment stops before"
+        );
+        Err(SceneError::Conflict { name: "rod.length".into(), value: rod.length, allowed })
+    }
+
+    /// The scene to be simulated, if its parameters go together, with the tolerance to be used.
     pub fn simulated_scene(&self) -> Result<Scene, SceneError> {
         self.scene.check()?;
-        let mut scene = self.scene.clone();
-        if let Some(tolerance) = self.experiment.tolerance {
-            scene.solver.tolerance = tolerance;
+        if self.scene.solver.portable && !PORTABLE {
+            let allowed = "false: this library is compiled for newer processors".into();
+            return Err(SceneError::Conflict { name: "solver.portable".into(), value: 1.0, allowed });
         }
+        self.check_way()?;
+        let mut scene = self.scene.clone();
+        scene.solver.tolerance = self.tolerance();
         Ok(scene)
     }
 }

@@ -39,12 +39,12 @@ impl From<io::Error> for DescriptionError {
     }
 }
 
-/// `modelDescription.xml` of a package whose start values are the scene's. With no experiment it
-/// has the declared one; `written` is the time of writing in seconds since 1970, or no date.
+/// `modelDescription.xml` of a package whose start values are the scene's. With no experiment it has the declared one;
+/// `made` is when it was made, in seconds since 1970, if not on the day of the version.
 pub fn model_description(
     scene: &Scene,
     experiment: Option<Experiment>,
-    written: Option<u64>,
+    made: Option<u64>,
 ) -> Result<String, DescriptionError> {
     let declaration = model_description::load()?;
     let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
@@ -52,7 +52,7 @@ pub fn model_description(
         guid: &slot::guid(scene),
         starts: &starts,
         experiment: experiment.unwrap_or(declaration.experiment),
-        written,
+        made: Some(&xml::made(&declaration, made)),
     };
     Ok(xml::write(&declaration, &package)?)
 }

@@ -19,6 +19,8 @@ pub struct FmuState {
     pub settings: Settings,
     /// Status of the last step.
     pub last_step: Status,
+    /// Whether that step came to where no step leads on.
+    pub dead_end: bool,
     /// The simulation, once initialization is over.
     pub snapshot: Option<Snapshot>,
 }
@@ -38,7 +40,8 @@ impl FmuState {
     /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over, and nothing in
     /// it is what an importer cannot set. The snapshot is checked when it is restored.
     fn makes_sense(&self) -> bool {
+        let ended = !self.dead_end || self.last_step == Status::Discard;
         let before = matches!(self.state, State::Instantiated | State::InitializationMode);
-        Call::GetFMUstate.allowed(self.state) && before == self.snapshot.is_none() && self.settings.are_sound()
+        Call::GetFMUstate.allowed(self.state) && ended && before == self.snapshot.is_none() && self.settings.are_sound()
     }
 }

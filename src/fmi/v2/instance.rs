@@ -7,6 +7,7 @@ use super::resource_location;
 use super::status::Status;
 use super::status_kind::StatusKind;
 use crate::fmi::slave;
+use crate::fmi::slave::engine::Engine;
 use crate::fmi::slave::error::SavedStateError;
 use crate::fmi::slave::log::{Host, Logger};
 use crate::fmi::slave::saved_states::SavedStates;
@@ -14,6 +15,7 @@ use crate::fmi::slave::{Severity, Slave, ValueType};
 use crate::scene::slot;
 use crate::simulation::SimulationError;
 use std::ffi::{CStr, CString};
+use std::fmt::Display;
 
 /// `fmi2CoSimulation`
 pub const CO_SIMULATION: i32 = 1;
@@ -29,7 +31,7 @@ pub struct Request<'a> {
     pub guid: Option<&'a CStr>,
     /// URI of the resources, which we do not need.
     pub resource_location: Option<&'a CStr>,
-    /// Whether all log categories are enabled, or no category is.
+    /// Whether remarks are logged; trouble always is.
     pub logging_on: bool,
 }
 
@@ -38,13 +40,20 @@ pub struct Instance {
     state: State,
     slave: Slave,
     last_step: Status,
+    /// Whether the last step came to where no step leads on.
+    dead_end: bool,
     saved: SavedStates<FmuState>,
     logger: Logger,
 }
 
 impl Instance {
-    /// An instance with the packaged start values, whose messages go to `host`.
-    pub fn instantiate(request: &Request<'_>, host: Box<dyn Host>) -> Result<Self, Error> {
+    /// An instance with the packaged start values, whose messages go to `host`. Its motions are computed by `newer`, if
+    /// there is such an engine and the scene does not ask for portable bits.
+    pub fn instantiate(
+        request: &Request<'_>,
+        host: Box<dyn Host>,
+        newer: Option<&'static dyn Engine>,
+    ) -> Result<Self, Error> {
         let Request { name, fmu_type, guid, resource_location, logging_on } = *request;
         let name = name.filter(|name| !name.is_empty()).ok_or(InstantiateError::Name)?;
         if fmu_type != CO_SIMULATION {
@@ -58,12 +67,13 @@ impl Instance {
         let logger = Logger::new(host, CString::from(name), logging_on);
         let location = resource_location.map(CStr::to_string_lossy).unwrap_or_default();
         if let Some(odd) = resource_location::oddity(&location) {
-            logger.say(Severity::Warning, Call::Instantiate.name(), &odd);
+            logger.remark(Call::Instantiate.name(), &odd);
         }
         Ok(Self {
             state: State::Instantiated,
-            slave: Slave::new(packaged),
+            slave: Slave::new(packaged, newer),
             last_step: Status::Ok,
+            dead_end: false,
             saved: SavedStates::default(),
             logger,
         })
@@ -104,18 +114,25 @@ impl Instance {
         self.state = State::Fatal;
     }
 
-    /// `fmi2SetDebugLogging`
-    pub fn set_debug_logging(&mut self, logging_on: bool, categories: &[&CStr]) -> Result<(), Error> {
-        Ok(self.logger.enable(logging_on, categories)?)
+    /// `fmi2SetDebugLogging`. Categories that are not declared are ignored, with a warning.
+    pub fn set_debug_logging(&mut self, logging_on: bool, categories: &[&CStr]) -> Result<Status, Error> {
+        let unknown = self.logger.enable(logging_on, categories);
+        Ok(self.warn_of(Call::SetDebugLogging, unknown))
     }
 
     /// `fmi2SetupExperiment`. A tolerance that the solver cannot meet is limited, with a warning.
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Status, Error> {
-        match self.slave.set_up(tolerance, start, stop)? {
-            None => Ok(Status::Ok),
-            Some(limit) => {
-                self.logger.say(Severity::Warning, Call::SetupExperiment.name(), &limit);
-                Ok(Status::Warning)
+        let limit = self.slave.set_up(tolerance, start, stop)?;
+        Ok(self.warn_of(Call::SetupExperiment, limit))
+    }
+
+    /// The status of a call that succeeded, with a reservation if there is one.
+    fn warn_of(&self, call: Call, reservation: Option<impl Display>) -> Status {
+        match reservation {
+            None => Status::Ok,
+            Some(reservation) => {
+                self.logger.say(Severity::Warning, call.name(), &reservation);
+                Status::Warning
             }
         }
     }
@@ -131,6 +148,9 @@ impl Instance {
     pub fn exit_initialization_mode(&mut self) -> Result<(), Error> {
         self.slave.initialize()?;
         self.state = State::StepComplete;
+        if let Some(left_aside) = self.slave.tolerance_left_aside() {
+            self.logger.remark(Call::ExitInitializationMode.name(), &left_aside);
+        }
         Ok(())
     }
 
@@ -143,7 +163,7 @@ impl Instance {
     /// `fmi2Reset`: as after instantiation, except that saved states stay and the log goes on.
     pub fn reset(&mut self) -> Result<(), Error> {
         self.state = State::Instantiated;
-        self.last_step = Status::Ok;
+        (self.last_step, self.dead_end) = (Status::Ok, false);
         self.slave.reset();
         Ok(())
     }
@@ -199,7 +219,8 @@ impl Instance {
         Ok(self.slave.get_output_derivatives(references, orders, values)?)
     }
 
-    /// `fmi2GetDirectionalDerivative` of real outputs along a direction of real inputs.
+    /// `fmi2GetDirectionalDerivative` of real outputs along a direction of real inputs and, in initialization mode, of
+    /// real parameters: the standard's knowns there are all variables whose start value is exact.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
@@ -207,7 +228,7 @@ impl Instance {
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        Ok(self.slave.directional_derivative(unknowns, knowns, seeds, values)?)
+        Ok(self.slave.directional_derivative(self.state.writing(), unknowns, knowns, seeds, values)?)
     }
 
     /// `fmi2DoStep`
@@ -216,7 +237,9 @@ impl Instance {
         let outcome = self.slave.advance_to(end);
         match &outcome {
             Ok(()) => {}
-            Err(slave::Error::Simulation(SimulationError::Integration { .. })) => self.state = State::StepFailed,
+            Err(slave::Error::Simulation(SimulationError::Integration { dead_end, .. })) => {
+                (self.state, self.dead_end) = (State::StepFailed, *dead_end);
+            }
             Err(_) => self.fail(),
         }
         let outcome = outcome.map_err(Error::from);
@@ -240,10 +263,10 @@ impl Instance {
         }
     }
 
-    /// `fmi2GetBooleanStatus`. The mechanism never asks for the simulation's end.
+    /// `fmi2GetBooleanStatus`: a run that has come to a dead end wants to be terminated.
     pub fn boolean_status(&self, kind: i32) -> Result<bool, Error> {
         match known(kind)? {
-            StatusKind::Terminated => Ok(false),
+            StatusKind::Terminated => Ok(self.dead_end),
             other => Err(Error::StatusKind(other)),
         }
     }
@@ -257,15 +280,16 @@ impl Instance {
     /// `fmi2GetFMUstate`: saves under `handle`, or under a new one if that is 0.
     pub fn get_fmu_state(&mut self, handle: usize) -> Result<usize, Error> {
         let (settings, snapshot) = self.slave.save();
-        let state = FmuState { state: self.state, settings, last_step: self.last_step, snapshot };
+        let state =
+            FmuState { state: self.state, settings, last_step: self.last_step, dead_end: self.dead_end, snapshot };
         Ok(self.saved.keep(handle, state)?)
     }
 
     /// `fmi2SetFMUstate`
     pub fn set_fmu_state(&mut self, handle: usize) -> Result<(), Error> {
-        let FmuState { state, settings, last_step, snapshot } = self.saved.get(handle)?;
+        let FmuState { state, settings, last_step, dead_end, snapshot } = self.saved.get(handle)?;
         self.slave.restore(settings, snapshot.as_ref())?;
-        (self.state, self.last_step) = (*state, *last_step);
+        (self.state, self.last_step, self.dead_end) = (*state, *last_step, *dead_end);
         Ok(())
     }
 

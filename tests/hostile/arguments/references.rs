@@ -7,7 +7,7 @@ use crate::invoke::NULL;
 use crate::stage::Stage;
 use slidercrank::fmi::slave::variables::VARIABLES;
 use slidercrank::fmi::v2::lifecycle::Call::{self, *};
-use slidercrank::fmi::v2::lifecycle::Touch;
+use slidercrank::fmi::v2::lifecycle::{State, Touch};
 
 /// A function that takes value references, and the instance to call it on.
 pub struct References<'a> {
@@ -176,9 +176,11 @@ impl<'a> References<'a> {
             (["rod.length", "slider.x"], "rod.length is not a real output"),
             (["slider.x", "solver.steps"], "solver.steps is not a real output"),
         ];
+        let starts = self.stage.state == State::InitializationMode;
         let inputs = [
-            (["slider.load", "slider.x"], "slider.x is not a real input"),
-            (["rod.length", "slider.load"], "rod.length is not a real input"),
+            (["slider.load", "slider.x"], "slider.x is not a real input, nor a real parameter in initialization mode"),
+            (["rod.length", "slider.load"], if starts { "" } else { "rod.length is not a real input" }),
+            (["slider.load", "drive.mode"], "drive.mode is not a real input, nor"),
             (["slider.load", "joint.C.contact"], "joint.C.contact is not a real input"),
             // Named twice it counts twice.
             (["slider.load", "slider.load"], ""),

@@ -9,10 +9,12 @@ impl fmt::Display for Error {
         match self {
             Self::Variable(error) => error.fmt(f),
             Self::Time(error) => error.fmt(f),
-            Self::Category(name) => write!(f, "log category '{name}' is not declared"),
             Self::SavedState(error) => error.fmt(f),
             Self::Scene(error) => error.fmt(f),
             Self::OutputNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
+            Self::NoDerivative(name) => {
+                write!(f, "{name} has no derivative with respect to these start values: it jumps there")
+            }
             Self::Simulation(error) => error.fmt(f),
         }
     }

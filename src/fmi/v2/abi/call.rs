@@ -68,7 +68,7 @@ mod tests {
             resource_location: None,
             logging_on: true,
         };
-        give(Instance::instantiate(&request, Box::new(Silent)).expect("an instance"))
+        give(Instance::instantiate(&request, Box::new(Silent), None).expect("an instance"))
     }
 
     fn ask(c: fmi2Component, function: Call, body: fn(&mut Instance) -> Result<(), Error>) -> Status {

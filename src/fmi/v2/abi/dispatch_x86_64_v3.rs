@@ -2,8 +2,9 @@
 //!
 //! A package for Linux on x86-64 has the library twice: `NAME.so`, which importers look for, runs on every such
 //! processor; `NAME.x86-64-v3.so` needs one of the level v3 (System V ABI, AMD64 supplement, 3.1.1: AVX2, fused
-//! multiplication and addition; usual since 2013 to 2015) and takes a tenth to three fifths less time. Where the
-//! second is missing, damaged or too new for the processor, the first does the work itself.
+//! multiplication and addition; usual since 2013 to 2015) and takes a tenth to three fifths less time. Importers talk to
+//! the first. It has the second compute the motion, unless the scene asks for portable bits; where the second is missing,
+//! damaged or too new for the processor, the first computes the motion, too.
 
 /// Name of the level, as compilers spell it.
 pub const LEVEL: &str = "x86-64-v3";

@@ -17,14 +17,11 @@ use super::borrow::{place, slice, slice_mut, structure, text};
 use super::call::call;
 use super::component::take_back;
 use super::declare::functions;
-use super::dispatch_x86_64_v3::{self, Library};
 use super::host_logger::HostLogger;
 use super::instantiate::instantiate;
 use super::panic_guard::guarded;
 use super::types::*;
-use std::mem::transmute;
 use std::ptr::{null_mut, without_provenance_mut};
-use std::sync::OnceLock;
 
 functions! {
     // The library.
@@ -281,14 +278,6 @@ functions! {
     fmi2GetNominalsOfContinuousStates(c: fmi2Component, x_nominal: *mut fmi2Real, nx: usize) -> fmi2Status {
         call(c, Call::GetNominalsOfContinuousStates, |_| Ok(()))
     }
-}
-
-/// The functions that the exports call: those of the build for newer processors where that can run,
-/// else those of this library. The choice is made once, at the first call, for the whole process.
-fn in_use() -> &'static Functions {
-    static IN_USE: OnceLock<Functions> = OnceLock::new();
-    let choose = || dispatch_x86_64_v3::open().and_then(|library| Functions::of(&library));
-    IN_USE.get_or_init(|| guarded(choose).ok().flatten().unwrap_or(Functions::OWN))
 }
 
 /// Writes a value, if there is one.

@@ -25,9 +25,9 @@ impl HostLogger {
 }
 
 impl Host for HostLogger {
-    fn log(&self, instance_name: &CStr, severity: Severity, category: &CStr, line: &CStr) {
+    fn log(&self, instance_name: &CStr, severity: Option<Severity>, category: &CStr, line: &CStr) {
         if let Some(logger) = self.logger {
-            let status = Status::from(severity) as i32;
+            let status = severity.map_or(Status::Ok, Status::from) as i32;
             let (name, category, line) = (instance_name.as_ptr(), category.as_ptr(), line.as_ptr());
             // SAFETY: `new` was promised that the function may be called; the strings end in zero
             // and outlive the call; the line has no conversions that would ask for more arguments.

@@ -4,6 +4,7 @@ use super::super::error::Error;
 use super::super::instance::{Instance, Request};
 use super::super::lifecycle::Call;
 use super::component::give;
+use super::engine::borrowed::newer;
 use super::host_logger::HostLogger;
 use super::panic_guard::guarded;
 use super::types::fmi2Component;
@@ -13,13 +14,12 @@ use std::ptr::null_mut;
 
 /// Makes an instance whose messages go to `host`; NULL, and one line in the log, if that cannot be.
 pub fn instantiate(request: &Request<'_>, host: HostLogger) -> fmi2Component {
-    let made = guarded(|| Instance::instantiate(request, Box::new(host)));
+    let made = guarded(|| Instance::instantiate(request, Box::new(host), newer()));
     match made.unwrap_or_else(|fault| Err(Error::Panic(fault))) {
         Ok(instance) => give(instance),
         Err(error) => {
-            // There is no instance to ask for the reason, so it is logged whether logging is on or not.
             let name = request.name.map(CString::from).unwrap_or_default();
-            let logger = Logger::new(Box::new(host), name, true);
+            let logger = Logger::new(Box::new(host), name, request.logging_on);
             logger.say(error.severity(), Call::Instantiate.name(), &error);
             null_mut()
         }

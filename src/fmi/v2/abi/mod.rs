@@ -13,6 +13,7 @@ pub mod call;
 pub mod component;
 pub(crate) mod declare;
 pub mod dispatch_x86_64_v3;
+pub mod engine;
 pub mod functions;
 pub mod host_logger;
 pub mod instantiate;

@@ -1,0 +1,88 @@
+//! What computes motions: this library, or another build of it that the processor can run.
+//!
+//! The slave holds settings, saved states and the log whichever engine computes; an engine gets a whole scene and hands
+//! back a run of it, and a snapshot of a run is the same numbers for every engine. So the choice is made anew wherever a
+//! mechanism is assembled: when start values have changed, and when a state is restored.
+
+use crate::model::signals::{Inputs, Outputs};
+use crate::scene::Scene;
+use crate::simulation::{Simulation, SimulationError, Snapshot};
+
+/// Assembles mechanisms.
+pub trait Engine: Sync {
+    /// As [`Simulation::start`].
+    ///
+    /// # Errors
+    /// As there.
+    fn start(&self, scene: &Scene, inputs: Inputs) -> Result<Box<dyn Run>, SimulationError>;
+
+    /// As [`Simulation::restore`].
+    ///
+    /// # Errors
+    /// As there.
+    fn restore(&self, scene: &Scene, snapshot: &Snapshot) -> Result<Box<dyn Run>, SimulationError>;
+}
+
+/// A mechanism at one communication point: what a slave asks of a [`Simulation`]. No method but `snapshot` allocates.
+pub trait Run: Send {
+    /// [s] The communication point reached.
+    fn time(&self) -> f64;
+    /// As [`Simulation::set_inputs`].
+    fn set_inputs(&mut self, inputs: Inputs, rates: Inputs);
+    /// As [`Simulation::advance_to`].
+    ///
+    /// # Errors
+    /// As there.
+    fn advance_to(&mut self, time: f64) -> Result<(), SimulationError>;
+    /// As [`Simulation::outputs`].
+    fn outputs(&mut self) -> Outputs;
+    /// As [`Simulation::output_rates`].
+    fn output_rates(&mut self) -> Outputs;
+    /// As [`Simulation::output_sensitivity`].
+    fn output_sensitivity(&mut self, seed: Inputs) -> Outputs;
+    /// As [`Simulation::snapshot`].
+    fn snapshot(&self) -> Snapshot;
+}
+
+/// This library.
+pub struct Own;
+
+impl Engine for Own {
+    fn start(&self, scene: &Scene, inputs: Inputs) -> Result<Box<dyn Run>, SimulationError> {
+        Ok(Box::new(Simulation::start(scene, inputs)?))
+    }
+
+    fn restore(&self, scene: &Scene, snapshot: &Snapshot) -> Result<Box<dyn Run>, SimulationError> {
+        Ok(Box::new(Simulation::restore(scene, snapshot)?))
+    }
+}
+
+impl Run for Simulation {
+    fn time(&self) -> f64 {
+        self.time()
+    }
+
+    fn set_inputs(&mut self, inputs: Inputs, rates: Inputs) {
+        self.set_inputs(inputs, rates);
+    }
+
+    fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
+        self.advance_to(time)
+    }
+
+    fn outputs(&mut self) -> Outputs {
+        self.outputs()
+    }
+
+    fn output_rates(&mut self) -> Outputs {
+        self.output_rates()
+    }
+
+    fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
+        self.output_sensitivity(seed)
+    }
+
+    fn snapshot(&self) -> Snapshot {
+        self.snapshot()
+    }
+}

@@ -1,0 +1,267 @@
+//! Another build of this library as an engine.
+
+use super::super::dispatch_x86_64_v3::{Library, open};
+use super::super::panic_guard::guarded;
+use super::{Bytes, Failure, OFFER, Offer, Reading, Sink, Table};
+use crate::fmi::slave::engine::{Engine, Run};
+use crate::model::signals::{Inputs, Outputs};
+use crate::scene::Scene;
+use crate::scene::parameter::DECLARATION;
+use crate::simulation::{SimulationError, Snapshot};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::ffi::c_void;
+use std::mem::transmute;
+use std::ptr::NonNull;
+use std::sync::OnceLock;
+
+/// An engine made of a table of functions.
+#[derive(Clone, Copy)]
+pub struct Borrowed {
+    table: &'static Table,
+}
+
+/// The build for newer processors, where it can run. It is looked for once, at the first call, for the whole process.
+pub fn newer() -> Option<&'static dyn Engine> {
+    static NEWER: OnceLock<Option<Borrowed>> = OnceLock::new();
+    let find = || guarded(|| Borrowed::of(&open()?)).ok().flatten();
+    NEWER.get_or_init(find).as_ref().map(|engine| engine as &dyn Engine)
+}
+
+/// A run in the other library.
+struct BorrowedRun {
+    table: &'static Table,
+    run: NonNull<c_void>,
+}
+
+// SAFETY: a run may be used from any thread, one at a time: it is a `Simulation`, which is `Send`.
+unsafe impl Send for BorrowedRun {}
+
+impl Borrowed {
+    /// The engine that a library offers to builds of its own sources, if it does.
+    fn of(library: &Library) -> Option<Self> {
+        let offer = library.find(OFFER)?;
+        // SAFETY: a function of this name has this type.
+        let offer = unsafe { transmute::<*const (), Offer>(offer) };
+        // SAFETY: as many bytes as are asked for; the library stays for as long as the process, and so does its table.
+        let table = unsafe { offer(DECLARATION.as_ptr(), size_of::<Outputs>()).as_ref() }?;
+        Some(Self { table })
+    }
+
+    fn run(self, run: *mut c_void, failure: Letter) -> Result<Box<dyn Run>, SimulationError> {
+        failure.outcome()?;
+        let run = NonNull::new(run).ok_or_else(|| SimulationError::Snapshot("the engine has lost its run".into()))?;
+        Ok(Box::new(BorrowedRun { table: self.table, run }))
+    }
+}
+
+impl Engine for Borrowed {
+    fn start(&self, scene: &Scene, inputs: Inputs) -> Result<Box<dyn Run>, SimulationError> {
+        let (scene, mut letter) = (encoded(scene)?, Letter::default());
+        // SAFETY: bytes, inputs and sink outlive the call.
+        let run = unsafe { (self.table.start)(lend(&scene), &raw const inputs, letter.sink()) };
+        self.run(run, letter)
+    }
+
+    fn restore(&self, scene: &Scene, snapshot: &Snapshot) -> Result<Box<dyn Run>, SimulationError> {
+        let (scene, snapshot, mut letter) = (encoded(scene)?, encoded(snapshot)?, Letter::default());
+        // SAFETY: bytes and sink outlive the call.
+        let run = unsafe { (self.table.restore)(lend(&scene), lend(&snapshot), letter.sink()) };
+        self.run(run, letter)
+    }
+}
+
+impl BorrowedRun {
+    fn read(&mut self, what: Reading, seed: Inputs) -> Outputs {
+        let (mut outputs, mut letter) = (Outputs::default(), Letter::default());
+        // SAFETY: a live run, lent to this call alone; inputs, place and sink outlive the call.
+        unsafe {
+            (self.table.read)(self.run.as_ptr(), what, &raw const seed, &raw mut outputs, letter.sink());
+        }
+        letter.infallible();
+        outputs
+    }
+}
+
+impl Run for BorrowedRun {
+    fn time(&self) -> f64 {
+        // SAFETY: a live run, lent to this call alone.
+        unsafe { (self.table.time)(self.run.as_ptr()) }
+    }
+
+    fn set_inputs(&mut self, inputs: Inputs, rates: Inputs) {
+        let mut letter = Letter::default();
+        // SAFETY: a live run, lent to this call alone; inputs and sink outlive the call.
+        unsafe {
+            (self.table.set_inputs)(self.run.as_ptr(), &raw const inputs, &raw const rates, letter.sink());
+        }
+        letter.infallible();
+    }
+
+    fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
+        let mut letter = Letter::default();
+        // SAFETY: a live run, lent to this call alone; the sink outlives the call.
+        unsafe { (self.table.advance_to)(self.run.as_ptr(), time, letter.sink()) };
+        letter.outcome()
+    }
+
+    fn outputs(&mut self) -> Outputs {
+        self.read(Reading::Values, Inputs::default())
+    }
+
+    fn output_rates(&mut self) -> Outputs {
+        self.read(Reading::Rates, Inputs::default())
+    }
+
+    fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
+        self.read(Reading::Sensitivity, seed)
+    }
+
+    fn snapshot(&self) -> Snapshot {
+        let mut letter = Letter::default();
+        // SAFETY: a live run, lent to this call alone; the sink outlives the call.
+        unsafe { (self.table.snapshot)(self.run.as_ptr(), letter.sink()) };
+        letter.opened().unwrap_or_else(fault)
+    }
+}
+
+impl Drop for BorrowedRun {
+    fn drop(&mut self) {
+        // SAFETY: a live run, which is not used again.
+        unsafe { (self.table.free)(self.run.as_ptr()) }
+    }
+}
+
+/// What the other library has to say at the end of a call; without bytes, nothing.
+#[derive(Default)]
+struct Letter(Option<Vec<u8>>);
+
+impl Letter {
+    /// Where the letter arrives.
+    fn sink(&mut self) -> Sink {
+        unsafe extern "C" fn take(context: *mut c_void, bytes: Bytes) {
+            // SAFETY: the context is the letter below, and the bytes are lent for this call.
+            let (letter, bytes) = unsafe { (&mut *context.cast::<Letter>(), bytes.borrow()) };
+            letter.0 = Some(bytes.to_vec());
+        }
+        Sink { context: (&raw mut *self).cast(), take }
+    }
+
+    /// What it says. A fault of the other library goes on as a panic here, where the call from C catches it.
+    fn opened<T: DeserializeOwned>(self) -> Result<T, SimulationError> {
+        match postcard::from_bytes::<Result<T, Failure>>(&self.0.unwrap_or_default()) {
+            Ok(Ok(content)) => Ok(content),
+            Ok(Err(Failure::Simulation(error))) => Err(error),
+            Ok(Err(Failure::Panic(text))) => std::panic::resume_unwind(Box::new(text)),
+            Err(error) => std::panic::resume_unwind(Box::new(format!("the engine's answer: {error}"))),
+        }
+    }
+
+    /// Whether there is nothing to say.
+    fn outcome(self) -> Result<(), SimulationError> {
+        if self.0.is_none() { Ok(()) } else { self.opened() }
+    }
+
+    /// There is nothing to say, unless something broke.
+    fn infallible(self) {
+        self.outcome().unwrap_or_else(fault);
+    }
+}
+
+fn fault<T>(error: SimulationError) -> T {
+    std::panic::resume_unwind(Box::new(format!("the engine: {error}")))
+}
+
+fn encoded(data: &impl Serialize) -> Result<Vec<u8>, SimulationError> {
+    postcard::to_allocvec(data).map_err(|error| SimulationError::Snapshot(error.to_string()))
+}
+
+fn lend(bytes: &[u8]) -> Bytes {
+    Bytes { data: bytes.as_ptr(), length: bytes.len() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::offered::TABLE;
+    use super::*;
+    use crate::fmi::slave::engine::Own;
+    use crate::scene::JointModel;
+
+    /// This library as a foreign engine.
+    const ACROSS: Borrowed = Borrowed { table: &TABLE };
+
+    fn worn() -> Scene {
+        let mut scene = Scene::default();
+        scene.joint.c.model = JointModel::Clearance;
+        scene.crank.speed_start = 500.0;
+        scene
+    }
+
+    /// All that a run answers, after some steps with inputs that change.
+    fn course(engine: &dyn Engine) -> (Vec<Outputs>, Snapshot) {
+        let mut run = engine.start(&worn(), Inputs::default()).expect("a start");
+        let mut seen = vec![run.outputs()];
+        for point in 1..=20 {
+            let inputs = Inputs { crank_torque: f64::from(point), slider_load: -2.0 };
+            run.set_inputs(inputs, Inputs { crank_torque: 3.0, slider_load: 0.0 });
+            run.advance_to(f64::from(point) * 1e-3).expect("a step");
+            seen.extend([run.outputs(), run.output_rates(), run.output_sensitivity(inputs)]);
+        }
+        assert_eq!(run.time(), 20.0 * 1e-3);
+        (seen, run.snapshot())
+    }
+
+    #[test]
+    fn a_run_across_the_border_is_the_same_run() {
+        assert_eq!(course(&ACROSS), course(&Own));
+    }
+
+    #[test]
+    fn a_snapshot_is_the_same_for_every_engine() {
+        let (_, snapshot) = course(&Own);
+        let ends = [&ACROSS as &dyn Engine, &Own].map(|engine| {
+            let mut run = engine.restore(&worn(), &snapshot).expect("its own snapshot");
+            run.advance_to(0.03).expect("a step");
+            (run.outputs(), run.snapshot())
+        });
+        assert_eq!(ends[0], ends[1]);
+    }
+
+    #[test]
+    fn errors_cross_the_border_as_they_are() {
+        let error = |engine: &dyn Engine, edit: fn(&mut Scene)| {
+            let mut scene = worn();
+            edit(&mut scene);
+            engine.start(&scene, Inputs::default()).map(drop).expect_err("no start")
+        };
+        for edit in [
+            |scene: &mut Scene| scene.guide.offset = 0.3,
+            |scene: &mut Scene| {
+                scene.solver.method = crate::scene::Method::Moreau;
+                scene.energy.audit = true;
+            },
+        ] {
+            assert_eq!(error(&ACROSS, edit), error(&Own, edit));
+        }
+        let broken = |engine: &dyn Engine| engine.restore(&worn(), &Snapshot::default()).map(drop).expect_err("no run");
+        assert_eq!(broken(&ACROSS), broken(&Own));
+        let lost = |engine: &dyn Engine| {
+            let load = Inputs { crank_torque: 0.0, slider_load: 1e308 };
+            let mut run = engine.start(&worn(), load).expect("a start");
+            (run.advance_to(1.0).expect_err("no step"), run.time().to_bits())
+        };
+        assert_eq!(lost(&ACROSS), lost(&Own));
+    }
+
+    #[test]
+    fn a_panic_crosses_the_border_as_a_panic() {
+        unsafe extern "C" fn breaks(_: *mut c_void, _: f64, sink: Sink) {
+            super::super::offered::attempt::<()>(sink, || std::panic::panic_any("a fault on purpose"));
+        }
+        static BROKEN: Table = Table { advance_to: breaks, ..TABLE };
+        let engine = Borrowed { table: &BROKEN };
+        let mut run = engine.start(&worn(), Inputs::default()).expect("a start");
+        let caught = guarded(|| run.advance_to(1.0));
+        assert_eq!(caught, Err("a fault on purpose".into()));
+    }
+}

@@ -1,0 +1,130 @@
+//! This library as an engine of another one.
+
+use super::super::panic_guard::guarded;
+use super::{Bytes, Failure, Reading, Sink, Table};
+use crate::model::signals::{Inputs, Outputs};
+use crate::simulation::{Simulation, SimulationError};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::ffi::c_void;
+use std::ptr::null_mut;
+
+/// The functions of this library.
+pub const TABLE: Table = Table { start, restore, free, time, set_inputs, advance_to, read, snapshot };
+
+/// Exported by the build for newer processors only: the other one is what importers load, and has the functions of the
+/// standard and no others.
+#[cfg(target_feature = "fma")]
+mod export {
+    use super::super::Table;
+    use super::TABLE;
+    use crate::model::signals::Outputs;
+    use crate::scene::parameter::DECLARATION;
+    use std::ptr::null;
+
+    static OFFERED: Table = TABLE;
+
+    #[unsafe(no_mangle)]
+    unsafe extern "C" fn slidercrank_engine(declaration: *const u8, outputs: usize) -> *const Table {
+        // SAFETY: the caller promises so many bytes.
+        let declaration = unsafe { std::slice::from_raw_parts(declaration, DECLARATION.len()) };
+        if declaration == DECLARATION && outputs == size_of::<Outputs>() { &raw const OFFERED } else { null() }
+    }
+}
+
+unsafe extern "C" fn start(scene: Bytes, inputs: *const Inputs, sink: Sink) -> *mut c_void {
+    // SAFETY: the caller lends bytes and inputs for this call.
+    let (scene, inputs) = unsafe { (scene.borrow(), *inputs) };
+    let run = attempt(sink, || Simulation::start(&decoded(scene)?, inputs).map(Box::new));
+    run.map_or(null_mut(), |run| Box::into_raw(run).cast())
+}
+
+unsafe extern "C" fn restore(scene: Bytes, snapshot: Bytes, sink: Sink) -> *mut c_void {
+    // SAFETY: the caller lends bytes for this call.
+    let (scene, snapshot) = unsafe { (scene.borrow(), snapshot.borrow()) };
+    let run = attempt(sink, || Simulation::restore(&decoded(scene)?, &decoded(snapshot)?).map(Box::new));
+    run.map_or(null_mut(), |run| Box::into_raw(run).cast())
+}
+
+unsafe extern "C" fn free(run: *mut c_void) {
+    // SAFETY: the caller gives back what `start` or `restore` made.
+    let run = unsafe { Box::from_raw(run.cast::<Simulation>()) };
+    // What a panic in a destructor leaves behind is a leak at worst.
+    let _ = guarded(|| drop(run));
+}
+
+unsafe extern "C" fn time(run: *mut c_void) -> f64 {
+    // SAFETY: a live run, in no other call.
+    unsafe { lent(run) }.time()
+}
+
+unsafe extern "C" fn set_inputs(run: *mut c_void, inputs: *const Inputs, rates: *const Inputs, sink: Sink) {
+    // SAFETY: a live run, in no other call; the caller lends inputs for this one.
+    let (run, inputs, rates) = unsafe { (lent(run), *inputs, *rates) };
+    attempt(sink, || {
+        run.set_inputs(inputs, rates);
+        Ok(())
+    });
+}
+
+unsafe extern "C" fn advance_to(run: *mut c_void, time: f64, sink: Sink) {
+    // SAFETY: a live run, in no other call.
+    let run = unsafe { lent(run) };
+    attempt(sink, || run.advance_to(time));
+}
+
+unsafe extern "C" fn read(run: *mut c_void, what: Reading, seed: *const Inputs, outputs: *mut Outputs, sink: Sink) {
+    // SAFETY: a live run, in no other call; the caller lends inputs and a place for outputs for this one.
+    let (run, seed, outputs) = unsafe { (lent(run), *seed, &mut *outputs) };
+    attempt(sink, || {
+        *outputs = match what {
+            Reading::Values => run.outputs(),
+            Reading::Rates => run.output_rates(),
+            Reading::Sensitivity => run.output_sensitivity(seed),
+        };
+        Ok(())
+    });
+}
+
+unsafe extern "C" fn snapshot(run: *mut c_void, sink: Sink) {
+    // SAFETY: a live run, in no other call.
+    let run = unsafe { lent(run) };
+    if let Some(snapshot) = attempt(sink, || Ok(run.snapshot())) {
+        sink.send(&Ok::<_, Failure>(snapshot));
+    }
+}
+
+/// Runs a body; what goes wrong in it goes to the sink.
+pub(super) fn attempt<T>(sink: Sink, body: impl FnOnce() -> Result<T, SimulationError>) -> Option<T> {
+    let outcome = guarded(body).map_err(Failure::Panic).and_then(|outcome| outcome.map_err(Failure::Simulation));
+    outcome.map_err(|failure| sink.send(&Err::<(), _>(failure))).ok()
+}
+
+fn decoded<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, SimulationError> {
+    postcard::from_bytes(bytes).map_err(|error| SimulationError::Snapshot(error.to_string()))
+}
+
+/// # Safety
+/// A live run, in no other call.
+unsafe fn lent<'a>(run: *mut c_void) -> &'a mut Simulation {
+    // SAFETY: `start` or `restore` made it; the caller makes no other call on it.
+    unsafe { &mut *run.cast::<Simulation>() }
+}
+
+impl Bytes {
+    /// # Safety
+    /// The bytes are lent for `'a`.
+    pub(super) unsafe fn borrow<'a>(self) -> &'a [u8] {
+        // SAFETY: as promised; made from a slice, so the pointer is never NULL.
+        unsafe { std::slice::from_raw_parts(self.data, self.length) }
+    }
+}
+
+impl Sink {
+    fn send(self, message: &impl Serialize) {
+        // What cannot be written arrives as no bytes, which the receiver takes for a fault.
+        let bytes = postcard::to_allocvec(message).unwrap_or_default();
+        // SAFETY: the sink is the caller's for this call; it copies the bytes.
+        unsafe { (self.take)(self.context, Bytes { data: bytes.as_ptr(), length: bytes.len() }) }
+    }
+}
