@@ -9,6 +9,7 @@ use toml::Spanned;
 pub(super) struct Raw {
     pub model: Model,
     pub capabilities: BTreeMap<String, Flag>,
+    pub model_exchange: BTreeMap<String, Flag>,
     pub experiment: Experiment,
     pub log: Vec<LogCategory>,
     pub unit: Vec<Unit>,

@@ -6,6 +6,8 @@
 mod host;
 
 mod derivatives;
+mod exchange;
+mod hosted;
 mod instantiate;
 mod library;
 mod lifecycle;

@@ -9,6 +9,7 @@ use crate::scenes::Scenario;
 use anyhow::{Context, Result, bail};
 use archive::Part;
 use build::Libraries;
+use slidercrank::fmi::slave::states::exchange;
 use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
 use slidercrank::fmi::v2::description::documentation;
 use slidercrank::model_description::raw::Experiment;
@@ -116,7 +117,8 @@ fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -
     let (stop, step, tolerance) = (run.stop(scene), run.step, scene.solver.tolerance);
     let experiment = Experiment { start: 0.0, stop, tolerance, step };
     let guid = slot::guid(scene);
-    let package = xml::Package { guid: &guid, starts, experiment, written: None };
+    let exchange = exchange(scene);
+    let package = xml::Package { guid: &guid, starts, exchange: exchange.as_ref(), experiment, written: None };
     Ok(xml::write(declaration, &package)?)
 }
 

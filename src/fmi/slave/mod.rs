@@ -12,7 +12,9 @@
 //! A refused call changes nothing: values set together are applied all or none.
 
 pub mod access;
+pub mod course;
 pub mod error;
+mod exchange;
 pub mod experiment;
 pub mod inputs;
 pub mod log;
@@ -20,17 +22,20 @@ pub mod saved_states;
 pub mod sealed;
 pub mod settings;
 pub mod severity;
+pub mod states;
 pub mod variables;
 
 pub use access::{Permission, ValueType};
+pub use course::Interface;
 pub use error::Error;
 pub use settings::Settings;
 pub use severity::Severity;
 
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
-use crate::simulation::{Simulation, Snapshot};
+use crate::simulation::Snapshot;
 use access::{RealInput, check_first_order, finite, finite_output, real_input, real_output, typed, variable};
+use course::{Course, StateValues};
 use error::VariableError;
 use experiment::{Experiment, Limit};
 use inputs::are_finite;
@@ -40,11 +45,12 @@ use variables::{Access, VARIABLES};
 pub struct Slave {
     /// The scene that the FMU was packaged with.
     packaged: Scene,
+    interface: Interface,
     settings: Settings,
     /// Whether initialization is over: parameters are fixed and the simulation is there.
     initialized: bool,
     /// Absent until an output is needed.
-    simulation: Option<Simulation>,
+    course: Option<Course>,
     /// Outputs at this communication point, once they have been asked for.
     outputs: Option<Outputs>,
 }
@@ -53,14 +59,14 @@ impl Slave {
     /// A slave with the start values of the packaged scene.
     pub fn new(packaged: Scene) -> Self {
         let settings = Settings::of(packaged.clone());
-        Self { packaged, settings, initialized: false, simulation: None, outputs: None }
+        Self { packaged, interface: Interface::CoSimulation, settings, initialized: false, course: None, outputs: None }
     }
 
     /// As after [`Slave::new`].
     pub fn reset(&mut self) {
         self.settings = Settings::of(self.packaged.clone());
         self.initialized = false;
-        (self.simulation, self.outputs) = (None, None);
+        (self.course, self.outputs) = (None, None);
     }
 
     /// [s] The communication point reached.
@@ -70,7 +76,7 @@ impl Slave {
 
     /// [s] The same, counted from the start: the simulation's time, which no start time rounds.
     fn elapsed(&self) -> f64 {
-        self.simulation.as_ref().map_or(0.0, Simulation::time)
+        self.course.as_ref().map_or(0.0, Course::time)
     }
 
     /// Sets times and tolerance. A tolerance that the solver cannot meet is limited: that limit.
@@ -99,15 +105,23 @@ impl Slave {
         values: &mut [T],
         convert: fn(f64) -> T,
     ) -> Result<(), Error> {
-        let mut outputs = false;
+        let (mut outputs, mut states) = (false, false);
         for &reference in references {
             let variable = typed(reference, asked)?;
             permission.check_read(variable)?;
-            outputs |= !matches!(variable.access, Access::Input { .. } | Access::Parameter(_));
+            match variable.access {
+                Access::Input { .. } | Access::Parameter(_) => {}
+                Access::State(_) | Access::Derivative(_) => states = true,
+                Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => outputs = true,
+            }
         }
         if outputs {
             self.outputs()?;
         }
+        let states = if states { Some(self.live()?.state_values()) } else { None };
+        let of_state = |place: usize, name, of: fn(&StateValues, usize) -> Option<f64>| {
+            states.as_ref().and_then(|states| of(states, place)).ok_or(VariableError::Absent(name))
+        };
         for (&reference, value) in references.iter().zip(values) {
             let variable = variable(reference)?;
             *value = convert(match &variable.access {
@@ -117,6 +131,12 @@ impl Slave {
                 Access::RealOutput(get) => finite_output(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
+                Access::State(place) => {
+                    finite_output(variable, of_state(*place, variable.name, StateValues::state)?)?
+                }
+                Access::Derivative(place) => {
+                    finite_output(variable, of_state(*place, variable.name, StateValues::rate)?)?
+                }
                 Access::Parameter(parameter) => parameter.value(&self.settings.scene),
             });
         }
@@ -141,10 +161,13 @@ impl Slave {
             match &variable.access {
                 Access::Input { get, set, .. } => inputs.set_value(*set, *get, time, value),
                 Access::Parameter(parameter) => {
-                    parameter.write(scene.get_or_insert_with(|| self.settings.scene.clone()), value)?;
+                    let scene = scene.get_or_insert_with(|| self.settings.scene.clone());
+                    parameter.write(scene, value)?;
+                    self.check_structure(scene, variable.name)?;
                 }
-                // `check_write` lets no write to an output pass.
+                // `check_write` lets no write to an output or a state pass.
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => {}
+                Access::State(_) | Access::Derivative(_) => {}
             }
         }
         self.settings.inputs = inputs;
@@ -235,7 +258,11 @@ impl Slave {
 
     /// Moves the slave to `end`, counted from the start, or as far as it gets.
     pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
-        let outcome = self.live()?.advance_to(end);
+        let outcome = match self.live()? {
+            Course::Own(simulation) => simulation.advance_to(end),
+            // The lifecycle lets no step in here.
+            Course::Hosted(_) => return Err(Error::Interface),
+        };
         self.settings.inputs.move_on();
         self.outputs = None;
         let start = self.settings.experiment.start;
@@ -245,16 +272,17 @@ impl Slave {
     /// Everything that the slave is: what was set, and the simulation once initialization is over.
     pub fn save(&self) -> (Settings, Option<Snapshot>) {
         // While parameters can still change, the simulation is no more than a reading of the scene.
-        let running = if self.initialized { self.simulation.as_ref() } else { None };
-        (self.settings.clone(), running.map(Simulation::snapshot))
+        let running = if self.initialized { self.course.as_ref() } else { None };
+        (self.settings.clone(), running.map(Course::snapshot))
     }
 
     /// Makes the slave what it was when it was saved.
     pub fn restore(&mut self, settings: &Settings, snapshot: Option<&Snapshot>) -> Result<(), Error> {
         // The only part that can fail comes first.
-        self.simulation = match snapshot {
+        self.check_structure(&settings.scene, "a parameter of the saved state")?;
+        self.course = match snapshot {
             None => None,
-            Some(snapshot) => Some(Simulation::restore(&settings.simulated_scene()?, snapshot)?),
+            Some(snapshot) => Some(Course::restore(self.interface, &settings.simulated_scene()?, snapshot)?),
         };
         self.initialized = snapshot.is_some();
         self.outputs = None;
@@ -263,15 +291,15 @@ impl Slave {
     }
 
     /// The simulation, started if need be, with the inputs of this communication point.
-    fn live(&mut self) -> Result<&mut Simulation, Error> {
-        match &mut self.simulation {
-            Some(simulation) => {
-                self.settings.inputs.pass_on(simulation);
-                Ok(simulation)
+    fn live(&mut self) -> Result<&mut Course, Error> {
+        match &mut self.course {
+            Some(course) => {
+                course.take(&mut self.settings.inputs);
+                Ok(course)
             }
             absent => {
                 let scene = self.settings.simulated_scene()?;
-                Ok(absent.insert(self.settings.inputs.start(|inputs| Simulation::start(&scene, inputs))?))
+                Ok(absent.insert(Course::start(self.interface, &scene, &mut self.settings.inputs)?))
             }
         }
     }
@@ -287,7 +315,7 @@ impl Slave {
     fn drop_what_followed_from_settings(&mut self) {
         self.outputs = None;
         if !self.initialized {
-            self.simulation = None;
+            self.course = None;
         }
     }
 }

@@ -14,6 +14,7 @@ impl fmt::Display for Error {
             Self::Scene(error) => error.fmt(f),
             Self::OutputNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
             Self::Simulation(error) => error.fmt(f),
+            Self::Interface => f.write_str("for the other kind of interface: co-simulation or model exchange"),
         }
     }
 }
@@ -32,6 +33,12 @@ impl fmt::Display for VariableError {
                 write!(f, "{name} = {} is out of range; allowed: {allowed}", number(*found))
             }
             Self::Order(name, order) => write!(f, "derivative of order {order} of {name}: only order 1 is known"),
+            Self::Absent(name) => write!(f, "{name}: the scene has fewer states"),
+            Self::Structure(name) => write!(
+                f,
+                "{name}: this value asks for other states or event indicators than modelDescription.xml lists for model \
+                 exchange; co-simulation takes it, and so does a package of a scene that has it"
+            ),
             Self::Kind(name, needed) => write!(f, "{name} is not {needed}"),
         }
     }
@@ -74,6 +81,9 @@ impl fmt::Display for SavedStateError {
             Self::Length { expected, given } => {
                 write!(f, "the state has {given} bytes instead of {expected}")
             }
+            Self::Interface => f.write_str(
+                "the state is of an instance of the other kind of interface: co-simulation or model exchange",
+            ),
             Self::Checksum => write!(f, "the state is damaged: its checksum does not match"),
             Self::Content => write!(f, "the state's content contradicts itself"),
         }
