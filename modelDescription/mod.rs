@@ -3,6 +3,7 @@
 
 mod definitions;
 mod element;
+pub mod exchange;
 mod fault;
 pub mod guid;
 pub mod number;

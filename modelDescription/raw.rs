@@ -10,6 +10,7 @@ use toml::value::Datetime;
 pub(super) struct Raw {
     pub model: Model,
     pub capabilities: BTreeMap<String, Flag>,
+    pub model_exchange: BTreeMap<String, Flag>,
     pub experiment: Experiment,
     pub log: Vec<LogCategory>,
     pub unit: Vec<Unit>,

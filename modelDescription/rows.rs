@@ -12,6 +12,8 @@ pub struct Declaration {
     pub model: Model,
     /// Capability flags by the standard's names.
     pub capabilities: BTreeMap<String, Flag>,
+    /// What the element ModelExchange promises.
+    pub model_exchange: BTreeMap<String, Flag>,
     /// Default experiment.
     pub experiment: Experiment,
     /// Categories of log messages.
@@ -120,6 +122,7 @@ pub fn read(text: &str) -> Result<Declaration, RowError> {
     Ok(Declaration {
         model: raw.model,
         capabilities: raw.capabilities,
+        model_exchange: raw.model_exchange,
         experiment: raw.experiment,
         log: raw.log,
         units: raw.unit,

@@ -1,7 +1,11 @@
 //! Rows → Rust: the scene's enumerations, the scene's parameters, the FMU's variables.
 
+use super::exchange::{FIRST_DERIVATIVE, FIRST_STATE};
 use super::rows::{Declaration, Enumeration, Experiment, Kind, Role, Row};
 use std::fmt::Write;
+
+/// Most continuous states that a scene has.
+const MOST_STATES: usize = 64;
 
 /// The scene's enumerations as `enumeration!` invocations.
 pub fn enumerations(declaration: &Declaration) -> String {
@@ -121,6 +125,20 @@ pub fn variables(declaration: &Declaration) -> String {
         line(&mut out, &format!("    Variable {{ name: {name:?}, access: {access} }},"));
     }
     line(&mut out, "];");
+    for (list, first, of) in [("STATES", FIRST_STATE, ""), ("DERIVATIVES", FIRST_DERIVATIVE, "derivative of ")] {
+        line(
+            &mut out,
+            &format!(
+                "/// Continuous states or their derivatives; the first has the value reference {first}.\npub static {list}: &[Variable] = &["
+            ),
+        );
+        let access = if of.is_empty() { "State" } else { "Derivative" };
+        for place in 0..MOST_STATES {
+            let name = format!("{of}continuous state {}", place + 1);
+            line(&mut out, &format!("    Variable {{ name: {name:?}, access: Access::{access}({place}) }},"));
+        }
+        line(&mut out, "];");
+    }
     line(&mut out, "log_categories! {");
     for category in &declaration.log {
         let doc = sentence(&category.description);

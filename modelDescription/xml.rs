@@ -2,9 +2,11 @@
 
 use super::definitions::{type_definitions, unit_definition};
 use super::element::{Attributes, Xml, date, leaf, parent};
+use super::exchange::{self, Exchange, Places};
 use super::rows::{Declaration, Experiment, Flag, Kind, Role, Row};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
+use std::collections::BTreeMap;
 use std::io;
 
 /// What differs from one package to the next.
@@ -14,6 +16,8 @@ pub struct Package<'a> {
     /// Start values of the parameters, in order; an enumeration's by its item's value, a Boolean's as
     /// 0 or 1.
     pub starts: &'a [f64],
+    /// Model exchange, where the scene's equations can be handed to another integrator.
+    pub exchange: Option<&'a Exchange>,
     /// Default experiment.
     pub experiment: Experiment,
     /// When it was made, as [`made`] tells it; none leaves the date out.
@@ -23,7 +27,7 @@ pub struct Package<'a> {
 impl<'a> Package<'a> {
     /// A package with no guid and the declared experiment: the text that a guid is made from.
     pub fn anonymous(declaration: &Declaration, starts: &'a [f64]) -> Self {
-        Self { guid: "", starts, experiment: declaration.experiment, made: None }
+        Self { guid: "", starts, exchange: None, experiment: declaration.experiment, made: None }
     }
 }
 
@@ -37,7 +41,10 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     parent(&mut xml, "fmiModelDescription", root(declaration, package), |xml| {
-        leaf(xml, "CoSimulation", capabilities(declaration))?;
+        if package.exchange.is_some() {
+            leaf(xml, "ModelExchange", capabilities(declaration, &declaration.model_exchange))?;
+        }
+        leaf(xml, "CoSimulation", capabilities(declaration, &declaration.capabilities))?;
         parent(xml, "UnitDefinitions", vec![], |xml| {
             declaration.units.iter().try_for_each(|unit| unit_definition(xml, unit))
         })?;
@@ -58,12 +65,20 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
                     Role::Parameter { start } => Some(starts.next().unwrap_or(start)),
                 };
                 variable(xml, declaration, reference, row, start)
-            })
+            })?;
+            package.exchange.map_or(Ok(()), |exchange| exchange::variables(xml, declaration, exchange))
         })?;
         parent(xml, "ModelStructure", vec![], |xml| {
-            parent(xml, "Outputs", vec![], |xml| unknowns(xml, declaration, |depends, _| Some(depends.to_vec())))?;
+            parent(xml, "Outputs", vec![], |xml| {
+                let states = |kind: &Kind| package.exchange.filter(|_| matches!(kind, Kind::Real { .. }));
+                unknowns(xml, declaration, |kind, depends, _| Some((depends.to_vec(), states(kind))))
+            })?;
+            if let Some(exchange) = package.exchange {
+                parent(xml, "Derivatives", vec![], |xml| exchange::derivatives(xml, declaration, exchange))?;
+            }
             parent(xml, "InitialUnknowns", vec![], |xml| {
-                unknowns(xml, declaration, |_, at_start| at_start.map(<[usize]>::to_vec))
+                unknowns(xml, declaration, |_, _, at_start| Some((at_start?.to_vec(), None)))?;
+                package.exchange.map_or(Ok(()), |exchange| exchange::initial_unknowns(xml, declaration, exchange))
             })
         })
     })?;
@@ -87,16 +102,18 @@ fn root(declaration: &Declaration, package: &Package) -> Attributes<'static> {
     ];
     attributes.extend(package.made.map(|made| ("generationDateAndTime", made.into())));
     attributes.push(("variableNamingConvention", "structured".into()));
+    let indicators = package.exchange.map(|exchange| exchange.indicators.to_string());
+    attributes.extend(indicators.map(|count| ("numberOfEventIndicators", count)));
     attributes
 }
 
-fn capabilities(declaration: &Declaration) -> Attributes<'_> {
+fn capabilities<'a>(declaration: &'a Declaration, flags: &'a BTreeMap<String, Flag>) -> Attributes<'a> {
     let value = |flag: &Flag| match flag {
         Flag::Boolean(can) => can.to_string(),
         Flag::Order(order) => order.to_string(),
     };
     let mut attributes = vec![("modelIdentifier", declaration.model.identifier.clone())];
-    attributes.extend(declaration.capabilities.iter().map(|(name, flag)| (name.as_str(), value(flag))));
+    attributes.extend(flags.iter().map(|(name, flag)| (name.as_str(), value(flag))));
     attributes
 }
 
@@ -176,23 +193,28 @@ fn type_and_range<'a>(declaration: &'a Declaration, kind: &Kind, start: Option<f
     (name, attributes)
 }
 
-type Rows<'a> = Option<&'a [usize]>;
+/// Rows that an output depends on at the start.
+type AtStart<'a> = Option<&'a [usize]>;
+/// Rows that an output depends on, and whether it depends on all of the states, too.
+type Chosen<'a> = Option<(Vec<usize>, Option<&'a Exchange>)>;
 
 /// One entry for each output; `choose` picks from what it depends on at communication points and
 /// at the start. An entry without the attribute depends on everything.
-fn unknowns(
+fn unknowns<'a>(
     xml: &mut Xml,
     declaration: &Declaration,
-    choose: impl Fn(&[usize], Rows) -> Option<Vec<usize>>,
+    choose: impl Fn(&Kind, &[usize], AtStart) -> Chosen<'a>,
 ) -> io::Result<()> {
-    for (row, Row { role, .. }) in declaration.rows.iter().enumerate() {
+    for (row, Row { role, kind, .. }) in declaration.rows.iter().enumerate() {
         let Role::Output { depends, at_start, .. } = role else {
             continue;
         };
         let mut attributes = vec![("index", (row + 1).to_string())];
-        let indices = |rows: Vec<usize>| rows.iter().map(|row| (row + 1).to_string()).collect::<Vec<_>>().join(" ");
-        let chosen = choose(depends, at_start.as_deref());
-        attributes.extend(chosen.map(|rows| ("dependencies", indices(rows))));
+        let chosen = choose(kind, depends, at_start.as_deref()).map(|(rows, exchange)| {
+            let states = exchange.into_iter().flat_map(|exchange| Places::of(declaration, exchange).states());
+            rows.iter().map(|row| row + 1).chain(states).map(|index| index.to_string()).collect::<Vec<_>>().join(" ")
+        });
+        attributes.extend(chosen.map(|indices| ("dependencies", indices)));
         leaf(xml, "Unknown", attributes)?;
     }
     Ok(())

@@ -16,6 +16,7 @@ pub mod clearances;
 pub mod compiled;
 mod condensation;
 pub mod contact;
+pub mod coordinates;
 pub mod drive;
 pub mod dynamics;
 pub mod friction;

@@ -15,12 +15,15 @@ use crate::scene::{Method, Scene};
 /// Integrators are compiled once and call the mechanism through a table of functions. Only the loop over the stages of
 /// a step is compiled together with some mechanisms; see [`Ode::stages`](crate::integrator::Ode::stages).
 pub fn start(scene: &Scene, pose: &StartPose, inputs: InputSignal) -> Box<dyn Motion> {
-    let mut model: Box<dyn MechanismModel> = Box::new(Model::assemble(scene));
-    if scene.energy.audit {
-        model = Box::new(Audited::new(scene, model));
-    }
+    let model = model(scene);
     match scene.solver.method {
         Method::Moreau => Box::new(TimeStepping::start(scene, pose, inputs, model)),
         _ => Box::new(Run::start(scene, pose, inputs, model)),
     }
+}
+
+/// The equations of the mechanism of `scene`, with an audit where the scene asks for one.
+pub fn model(scene: &Scene) -> Box<dyn MechanismModel> {
+    let model: Box<dyn MechanismModel> = Box::new(Model::assemble(scene));
+    if scene.energy.audit { Box::new(Audited::new(scene, model)) } else { model }
 }

@@ -4,6 +4,7 @@ mod assemble;
 mod derivatives;
 mod equations;
 mod error;
+mod hosted;
 mod linearization;
 mod motion;
 mod observation;
@@ -18,11 +19,12 @@ mod time_stepping;
 pub use crate::integrator::Snapshot;
 pub use equations::Size;
 pub use error::SimulationError;
+pub use hosted::{Direction, HostedMechanism, Update, nominals};
 pub use linearization::Linearization;
 pub use phase::{Phase, PhaseScales};
 pub use system::System;
 
-use crate::integrator::{IntegrationError, Reader};
+use crate::integrator::{IntegrationError, MAX_STATES, Reader};
 use crate::math::PORTABLE;
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
@@ -124,6 +126,11 @@ impl Simulation {
     /// and Booleans are meaningless.
     pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.motion.output_sensitivity(self.time, seed)
+    }
+
+    /// Writes the states at the communication point and their rates; how many there are.
+    pub fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {
+        self.motion.write_states(self.time, states, rates)
     }
 
     /// Size of the equations of motion.

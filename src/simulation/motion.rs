@@ -3,7 +3,7 @@
 use super::equations::{Equations, Size};
 use super::linearization::Linearization;
 use super::phase::{Phase, PhaseScales};
-use crate::integrator::{IntegrationError, Reader, Snapshot};
+use crate::integrator::{IntegrationError, MAX_STATES, Reader, Snapshot};
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 
@@ -28,6 +28,8 @@ pub trait Motion: Send {
     fn output_rates(&mut self, t: f64) -> Outputs;
     /// Derivatives of the outputs at `t` with respect to the inputs, in the direction `seed`.
     fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs;
+    /// Writes the states at `t` in the last step and their rates; how many there are.
+    fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize;
     /// Size of the equations of motion.
     fn size(&self) -> Size;
     /// Evaluates the right-hand side `times` times at the start of the next step.

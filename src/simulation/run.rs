@@ -115,6 +115,13 @@ impl Motion for Run {
         sensitivity(seed, |inputs| self.observe_under(t, inputs))
     }
 
+    fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {
+        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
+        states[..y.len()].copy_from_slice(y);
+        self.model.rates(&conditions, t, y, &mut rates[..y.len()]);
+        y.len()
+    }
+
     fn size(&self) -> Size {
         let StateLayout { positions, states, .. } = self.model.layout();
         Size { degrees_of_freedom: positions, states, event_functions: self.model.event_count() }

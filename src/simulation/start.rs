@@ -13,9 +13,17 @@ use crate::scene::Scene;
 /// # Errors
 /// `Scene` if the loop does not close in the start pose.
 pub fn start(scene: &Scene, inputs: Inputs) -> Result<Box<dyn Motion>, SimulationError> {
-    let pose = StartPose::of(scene).ok_or_else(|| {
-        SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
-    })?;
+    let pose = pose(scene)?;
     let signal = InputSignal { at: 0.0, value: inputs, rate: Inputs::default() };
     Ok(assemble::start(scene, &pose, signal))
+}
+
+/// Where the scene's mechanism starts.
+///
+/// # Errors
+/// `Scene` if the start position does not close the loop.
+pub fn pose(scene: &Scene) -> Result<StartPose, SimulationError> {
+    StartPose::of(scene).ok_or_else(|| {
+        SimulationError::Scene("crank.angle_start: the rod is too short to close the loop at the start".into())
+    })
 }

@@ -121,6 +121,14 @@ impl Motion for TimeStepping {
         sensitivity(seed, |inputs| self.observe_under(t, inputs))
     }
 
+    fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {
+        let inputs = self.inputs();
+        let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
+        states[..y.len()].copy_from_slice(y);
+        self.model.rates_under(&impulses, &inputs, t, y, &mut rates[..y.len()]);
+        y.len()
+    }
+
     fn size(&self) -> Size {
         let StateLayout { positions, states, .. } = self.model.layout();
         Size { degrees_of_freedom: positions, states, event_functions: self.model.event_count() }

@@ -12,20 +12,48 @@ const WRITING: &[Call] = &[SetReal, SetInteger, SetBoolean, SetString];
 const ANY_TIME: &[Call] = &[GetTypesPlatform, GetVersion];
 const ALIVE: &[Call] = &[GetTypesPlatform, GetVersion, SetDebugLogging, FreeInstance, Reset];
 
-/// FMI 2.0.4, table in 4.2.4, a column at a time. Reading while instantiated is our addition, for
+const ENDED: &[Call] =
+    &[GetDirectionalDerivative, GetRealOutputDerivatives, GetDerivatives, GetNominalsOfContinuousStates];
+const LOOKING: &[Call] = &[GetContinuousStates, GetEventIndicators];
+
+/// FMI 2.0.4, tables in 3.2.3 and 4.2.4, a column at a time. Reading while instantiated is our addition, for
 /// inputs and parameters.
 fn allowed(state: State) -> Vec<&'static [Call]> {
     match state {
         State::StartAndEnd => vec![ANY_TIME, &[Instantiate]],
         State::Instantiated => {
-            vec![ALIVE, SAVING, WRITING, READING, &[SetupExperiment, EnterInitializationMode, SetRealInputDerivatives]]
+            vec![
+                ALIVE,
+                SAVING,
+                WRITING,
+                READING,
+                &[SetupExperiment, EnterInitializationMode, SetRealInputDerivatives, GetNominalsOfContinuousStates],
+            ]
         }
         State::InitializationMode => vec![
             ALIVE,
             SAVING,
             WRITING,
             READING,
+            LOOKING,
             &[ExitInitializationMode, GetDirectionalDerivative, SetRealInputDerivatives],
+        ],
+        State::EventMode => vec![
+            ALIVE,
+            SAVING,
+            WRITING,
+            READING,
+            LOOKING,
+            &[Terminate, EnterEventMode, NewDiscreteStates, EnterContinuousTimeMode, SetTime],
+            &[GetDerivatives, GetNominalsOfContinuousStates, GetDirectionalDerivative],
+        ],
+        State::ContinuousTimeMode => vec![
+            ALIVE,
+            SAVING,
+            READING,
+            LOOKING,
+            &[Terminate, EnterEventMode, CompletedIntegratorStep, SetTime, SetContinuousStates, SetReal],
+            &[GetDerivatives, GetNominalsOfContinuousStates, GetDirectionalDerivative],
         ],
         State::StepComplete => vec![
             ALIVE,
@@ -40,12 +68,11 @@ fn allowed(state: State) -> Vec<&'static [Call]> {
         State::StepFailed => {
             vec![ALIVE, SAVING, READING, QUERIES, &[Terminate, GetDirectionalDerivative, GetRealOutputDerivatives]]
         }
-        State::StepCanceled | State::Error => {
+        State::StepCanceled => {
             vec![ALIVE, SAVING, READING, &[GetDirectionalDerivative, GetRealOutputDerivatives]]
         }
-        State::Terminated => {
-            vec![ALIVE, SAVING, READING, QUERIES, &[GetDirectionalDerivative, GetRealOutputDerivatives]]
-        }
+        State::Error => vec![ALIVE, SAVING, READING, LOOKING, ENDED],
+        State::Terminated => vec![ALIVE, SAVING, READING, QUERIES, LOOKING, ENDED],
         State::Fatal => vec![&[FreeInstance]],
     }
 }
@@ -69,7 +96,8 @@ fn variables_are_touched_as_the_footnotes_say() {
         assert_eq!(Touch::GetParameter.allowed(state), reading);
         assert_eq!(Touch::GetOutput.allowed(state), reading && state != State::Instantiated);
         assert_eq!(Touch::SetParameter.allowed(state), setting.contains(&state));
-        let inputs = setting.contains(&state) || state == State::StepComplete;
+        let running = [State::EventMode, State::ContinuousTimeMode, State::StepComplete];
+        let inputs = setting.contains(&state) || running.contains(&state);
         assert_eq!(Touch::SetInput.allowed(state), inputs);
         assert!(!Touch::SetOutput.allowed(state));
     }

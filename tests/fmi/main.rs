@@ -7,6 +7,8 @@ mod host;
 
 mod dead_ends;
 mod derivatives;
+mod exchange;
+mod hosted;
 mod instantiate;
 mod library;
 mod lifecycle;

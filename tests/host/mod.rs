@@ -3,6 +3,7 @@
 
 #[macro_use]
 pub mod api;
+pub mod exchange;
 pub mod log;
 
 use api::Api;
@@ -79,15 +80,20 @@ impl Slave {
         Self::of(Api::linked(), "slave", true)
     }
 
-    /// An instance.
+    /// An instance for co-simulation.
     pub fn of(api: Api, name: &str, logging_on: bool) -> Self {
+        Self::of_type(api, name, FMI2_CO_SIMULATION, logging_on)
+    }
+
+    /// An instance of this type.
+    pub fn of_type(api: Api, name: &str, fmu_type: fmi2Type, logging_on: bool) -> Self {
         let (log, name) = (Box::<Log>::default(), CString::new(name).expect("no zero"));
         let callbacks = log.callbacks();
         // SAFETY: all strings and the callbacks are valid; the log lives as long as the slave.
         let c = unsafe {
             (api.Instantiate)(
                 name.as_ptr(),
-                FMI2_CO_SIMULATION,
+                fmu_type,
                 guid().as_ptr(),
                 null(),
                 &raw const callbacks,

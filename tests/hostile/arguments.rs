@@ -3,9 +3,10 @@
 mod numbers;
 mod references;
 
+use crate::host::exchange::STATES;
 use crate::invoke::{NULL, Word};
 use crate::stage::{Stage, odd};
-use numbers::{communication, experiment};
+use numbers::{NOT_FINITE, communication, experiment, time};
 use references::References;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::lifecycle::Call;
@@ -98,10 +99,6 @@ pub fn flag(value: i32) -> Argument {
     [value, 1 - value, -1, i32::MIN, i32::MAX].map(|value| good(Word::Integer(value))).to_vec().into()
 }
 
-fn anything(words: &[Word]) -> Argument {
-    words.iter().map(|&word| good(word)).collect::<Vec<_>>().into()
-}
-
 fn component(stage: &Stage) -> Argument {
     let c = Word::Pointer(stage.slave.c);
     let silent = |word| Value { word, fault: Some(Fault { status: Status::Error, words: vec![] }) };
@@ -134,20 +131,31 @@ pub fn arguments(call: Call, stage: &Stage) -> Vec<Argument> {
         GetBooleanStatus => query(Some(3), place(stage, "value", 0_i32)),
         GetIntegerStatus => query(None, place(stage, "value", 0_i32)),
         GetStringStatus => query(None, place(stage, "value", 0_usize)),
-        NewDiscreteStates => vec![anything(&[stage.array(vec![0_u64; 5]), NULL])],
-        CompletedIntegratorStep => vec![flag(1), anything(&[NULL]), anything(&[NULL])],
-        SetTime => vec![anything(&[0.0, f64::NAN, f64::INFINITY, f64::MAX].map(Word::Real))],
-        SetContinuousStates
-        | GetDerivatives
-        | GetEventIndicators
-        | GetContinuousStates
-        | GetNominalsOfContinuousStates => {
-            let lengths = [0, 1].into_iter().chain(HUGE).map(Word::Size).collect::<Vec<_>>();
-            vec![anything(&[stage.array(vec![0.0]), NULL]), anything(&lengths)]
+        // As many bytes as an fmi2EventInfo.
+        NewDiscreteStates => vec![place(stage, "fmi2EventInfo", [0_u64; 4])],
+        CompletedIntegratorStep => {
+            vec![flag(1), place(stage, "enterEventMode", 0_i32), place(stage, "terminateSimulation", 0_i32)]
         }
+        SetTime => vec![time()],
+        SetContinuousStates => {
+            let faulty = NOT_FINITE.map(|number| (vec![1.0, number], "continuous state 2 = "));
+            sized(array(stage, "x", vec![1.0; STATES], faulty.to_vec()), "nx", STATES)
+        }
+        GetContinuousStates => sized(array(stage, "x", vec![0.0; STATES], vec![]), "nx", STATES),
+        GetDerivatives => sized(array(stage, "derivatives", vec![0.0; STATES], vec![]), "nx", STATES),
+        GetNominalsOfContinuousStates => sized(array(stage, "x_nominal", vec![0.0; STATES], vec![]), "nx", STATES),
+        GetEventIndicators => sized(array(stage, "eventIndicators", vec![0.0; STATES], vec![]), "ni", 1),
         _ => vec![],
     });
     list
+}
+
+/// An array, and its length, which has to be `length`.
+fn sized(entries: Argument, name: &str, length: usize) -> Vec<Argument> {
+    let mut lengths = vec![good(Word::Size(length))];
+    lengths.extend([0, length + 1].map(|other| bad(Word::Size(other), format!("'{name}' is {other}, not {length}"))));
+    lengths.extend(HUGE.map(|length| bad(Word::Size(length), format!("{length} elements"))));
+    vec![entries.counted_by(2), lengths.into()]
 }
 
 fn categories(stage: &Stage) -> Vec<Argument> {

@@ -6,6 +6,7 @@ use crate::brief;
 use crate::host::{Slave, log::Line};
 use crate::invoke::{Word, invoke};
 use crate::stage::{STATES, Stage};
+use slidercrank::fmi::slave::Interface;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
 use slidercrank::fmi::v2::lifecycle::{Call, State};
@@ -27,8 +28,16 @@ impl Verdict {
         if faults.first().is_some_and(Option::is_some) {
             return Self::refused(&[]);
         }
-        if call.is_model_exchange() {
-            return Self::refused(&["of model exchange"]);
+        // Instances in states of both kinds are for co-simulation here.
+        let kind = state.interface().unwrap_or(Interface::CoSimulation);
+        match call.interface() {
+            Some(Interface::ModelExchange) if kind == Interface::CoSimulation => {
+                return Self::refused(&["of model exchange"]);
+            }
+            Some(Interface::CoSimulation) if kind == Interface::ModelExchange => {
+                return Self::refused(&["of co-simulation"]);
+            }
+            _ => {}
         }
         if !call.allowed(state) {
             return Self::refused(&[&format!("not allowed in state '{state}'")]);

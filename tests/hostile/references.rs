@@ -27,7 +27,7 @@ fn nature(variable: &Variable) -> Nature {
         Access::Input { start, .. } => {
             Nature { get: GetReal, set: SetReal, reading: Touch::GetInput, writing: Touch::SetInput, value: start }
         }
-        Access::RealOutput(_) => output(GetReal, SetReal),
+        Access::RealOutput(_) | Access::State(_) | Access::Derivative(_) => output(GetReal, SetReal),
         Access::IntegerOutput(_) => output(GetInteger, SetInteger),
         Access::BooleanOutput(_) => output(GetBoolean, SetBoolean),
         Access::Parameter(parameter_of) => {
@@ -95,6 +95,7 @@ fn judge(call: Call, variable: &Variable, stage: &Stage, status: Status, wanted:
     assert_eq!(lines.len(), usize::from(!wanted), "{what}");
     for line in lines {
         let named = line.text.contains(variable.name) || line.text.contains(&format!("'{state}'"));
+        let named = named || line.text.contains("of co-simulation");
         assert!(line.text.starts_with(call.name()) && named, "{what}");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::host::Slave;
 use crate::invoke::{NULL, Word};
+use slidercrank::fmi::slave::Interface;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
 use slidercrank::fmi::v2::fmu_state::FmuState;
@@ -11,9 +12,11 @@ use std::cell::RefCell;
 use std::ffi::CString;
 
 /// Every state in which a call can meet an instance but the fatal one, which needs a fault of the library.
-pub const STATES: [State; 7] = [
+pub const STATES: [State; 9] = [
     State::Instantiated,
     State::InitializationMode,
+    State::EventMode,
+    State::ContinuousTimeMode,
     State::StepComplete,
     State::StepFailed,
     State::StepCanceled,
@@ -48,9 +51,14 @@ struct Held {
 impl Stage {
     /// A new instance in this state, with inputs set where it takes some.
     pub fn reach(state: State, theirs: fmi2FMUstate) -> Self {
-        let slave = Slave::new();
+        let exchanging = state.interface() == Some(Interface::ModelExchange);
+        let slave = if exchanging { Slave::exchanging() } else { Slave::new() };
         assert_eq!(slave.setup_raw(1, 1e-6, 0.0, 1, STOP), Status::Ok);
-        slave.wear();
+        if exchanging {
+            assert_eq!(slave.set("crank.speed_start", 500.0), Status::Ok);
+        } else {
+            slave.wear();
+        }
         // Away from the dead centre, where no load could turn the crank.
         assert_eq!(slave.set("crank.angle_start", 1.0), Status::Ok);
         let saved = slave.save();
@@ -70,6 +78,12 @@ impl Stage {
             return;
         }
         assert_eq!(slave.exit(), Status::Ok);
+        if self.state == State::ContinuousTimeMode {
+            assert_eq!(slave.enter_continuous_time_mode(), Status::Ok);
+        }
+        if matches!(self.state, State::EventMode | State::ContinuousTimeMode) {
+            return;
+        }
         self.now = slave.steps(0.0, 1e-3, 2);
         assert_eq!(slave.set_rate("slider.load", 1, 7.0), Status::Ok);
         match self.state {

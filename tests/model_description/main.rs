@@ -5,8 +5,10 @@ mod dependencies;
 mod rules;
 
 use rules::problems;
+use slidercrank::fmi::slave::states::{self, exchange};
 use slidercrank::fmi::slave::variables::{Access, LogCategory, VARIABLES};
 use slidercrank::fmi::v2::description::{declared_experiment, documentation, model_description};
+use slidercrank::model_description::exchange::{FIRST_DERIVATIVE, FIRST_STATE};
 use slidercrank::model_description::rows::read;
 use slidercrank::scene::parameter::Kind;
 use slidercrank::scene::{PARAMETERS, Scene, slot};
@@ -49,7 +51,7 @@ fn the_description_breaks_no_rule() {
 }
 
 /// What stands in the description, what replaces it, and a word of the complaint.
-const SEEDS: [(&str, &str, &str); 25] = [
+const SEEDS: [(&str, &str, &str); 29] = [
     ("unit=\"N.m\" nominal", "unit=\"N.mm\" nominal", "unit"),
     ("<Unit name=\"rad\">", "<Unit name=\"m\">", "twice"),
     ("displayUnit=\"mm\" nominal", "displayUnit=\"inch\" nominal", "displayUnit"),
@@ -66,12 +68,20 @@ const SEEDS: [(&str, &str, &str); 25] = [
     ("<Boolean start=\"true\"/>", "<Boolean/>", "start"),
     ("name=\"slider.y\"", "name=\"slider.x\"", "twice"),
     ("name=\"slider.y\"", "name=\"slider.2y\"", "structured"),
-    ("dependencies=\"1 2\"", "dependencies=\"1 2000\"", "dependencies"),
-    ("dependencies=\"1 2\"", "dependencies=\"2 1\"", "dependencies"),
-    ("dependencies=\"1 2\"", "dependencies=\"1 5\"", "dependencies"),
+    ("dependencies=\"1 2 ", "dependencies=\"1 2000 ", "dependencies"),
+    ("dependencies=\"1 2 ", "dependencies=\"2 1 ", "dependencies"),
+    ("dependencies=\"1 2 ", "dependencies=\"1 5 ", "dependencies"),
+    ("numberOfEventIndicators=\"1\"", "", "numberOfEventIndicators"),
+    ("<Derivatives>", "<Derivatives><Unknown index=\"1\"/>", "Derivatives"),
+    ("name=\"der(state.crank.angle)\"", "name=\"der(state.crank.angle\"", "structured"),
+    (
+        "unit=\"rad/s\" displayUnit=\"rpm\" derivative=\"",
+        "unit=\"rad/s\" displayUnit=\"rpm\" derivative=\"1",
+        "derivatives",
+    ),
     ("T00:00:00Z\"", "T00:00:00+00:00\"", "date"),
     ("declaredType=\"Torque\"", "declaredType=\"Torc\"", "declaredType"),
-    ("<Outputs>\n      <Unknown index=\"3\" dependencies=\"\"/>", "<Outputs>", "Outputs"),
+    ("<Outputs>\n      <Unknown index=\"3\"", "<Outputs>\n      <Unknown index=\"4\"", "Outputs"),
     ("nominal=\"100.0\" start=\"0.0\"", "nominal=\"100.0\"", "start"),
     (
         "variability=\"continuous\" initial=\"calculated\"",
@@ -100,7 +110,14 @@ fn value_references_and_tables_are_those_of_the_description() {
     let xml = made();
     let document = roxmltree::Document::parse(&xml).expect("well-formed XML");
     let scalars: Vec<_> = document.descendants().filter(|node| node.has_tag_name("ScalarVariable")).collect();
-    assert_eq!(scalars.len(), VARIABLES.len());
+    let exchange = exchange(&Scene::default()).expect("model exchange");
+    assert_eq!(scalars.len(), VARIABLES.len() + 2 * exchange.states.len());
+    let references = |first: u32| (first..).take(exchange.states.len());
+    let exchanged = references(FIRST_STATE).chain(references(FIRST_DERIVATIVE));
+    for (scalar, reference) in scalars[VARIABLES.len()..].iter().zip(exchanged) {
+        assert_eq!(scalar.attribute("valueReference"), Some(reference.to_string().as_str()));
+        assert!(states::variable(reference).is_some() && VARIABLES.get(reference as usize).is_none());
+    }
     for (index, (scalar, variable)) in scalars.iter().zip(VARIABLES).enumerate() {
         assert_eq!(scalar.attribute("valueReference"), Some(index.to_string().as_str()));
         assert_eq!(scalar.attribute("name"), Some(variable.name));
@@ -170,7 +187,9 @@ fn modes_and_energies_feel_no_input_at_once() {
     let names: Vec<&str> = energies.map(|row| row.name).chain(["rod.deflection", "rod.stretch"]).collect();
     assert_eq!(names.len(), 16);
     for name in names {
-        assert_eq!(entry("Outputs", name), Vec::<String>::new(), "{name}");
+        assert!(
+            entry("Outputs", name).iter().all(|known| ![index("crank.torque"), index("slider.load")].contains(known))
+        );
         let at_start = entry("InitialUnknowns", name);
         let counts = ["energy.kinetic", "energy.potential", "energy.gravity", "energy.contact"].contains(&name);
         assert_eq!(at_start.contains(&index("energy.audit")), counts, "{name}");

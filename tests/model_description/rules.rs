@@ -1,4 +1,4 @@
-//! Rules of FMI 2.0 for a co-simulation description, found from the text alone.
+//! Rules of FMI 2.0 for a description, found from the text alone.
 
 use roxmltree::{Document, Node};
 use std::collections::{HashMap, HashSet};
@@ -36,10 +36,14 @@ fn header(root: Node) -> Vec<String> {
     if root.attribute("fmiVersion") != Some("2.0") {
         problems.push("fmiVersion".to_owned());
     }
-    let identifiers = below(root, "CoSimulation");
-    let identifier = identifiers.first().and_then(|node| node.attribute("modelIdentifier"));
-    if !identifier.is_some_and(is_identifier) {
-        problems.push(format!("modelIdentifier {identifier:?} is no C identifier"));
+    for kind in [below(root, "CoSimulation"), below(root, "ModelExchange")] {
+        let identifier = kind.first().and_then(|node| node.attribute("modelIdentifier"));
+        if !identifier.is_some_and(is_identifier) {
+            problems.push(format!("modelIdentifier {identifier:?} is no C identifier"));
+        }
+    }
+    if !number(root, "numberOfEventIndicators").is_some_and(|count| count >= 0.0) {
+        problems.push("numberOfEventIndicators".to_owned());
     }
     // The standard's example of a date: 2009-12-08T14:33:22Z.
     let date_form = |date: &str| {
@@ -99,7 +103,7 @@ fn declared(root: Node, variable: Node) -> Vec<String> {
     let name = variable.attribute("name").unwrap_or_default();
     let mut problems = vec![];
     let mut complain = |what: &str| problems.push(format!("{name}: {what}"));
-    if !name.split('.').all(is_identifier) {
+    if !is_structured(name) {
         complain("not a structured name");
     }
     let Some(kind) = variable.first_element_child() else {
@@ -113,12 +117,14 @@ fn declared(root: Node, variable: Node) -> Vec<String> {
         [Some("output"), Some("continuous"), Some("calculated")] => tag == "Real",
         [Some("output"), Some("discrete"), Some("calculated")] => tag != "Enumeration",
         [Some("parameter"), Some("fixed"), Some("exact")] => true,
+        // A state or a derivative.
+        [Some("local"), Some("continuous"), Some("calculated")] => tag == "Real",
         _ => false,
     };
     if !legal {
         complain("causality, variability and initial do not go together");
     }
-    let wants_start = triple[0] != Some("output");
+    let wants_start = !matches!(triple[0], Some("output" | "local"));
     if wants_start != kind.attribute("start").is_some() {
         complain("start is missing or has no meaning");
     }
@@ -148,29 +154,47 @@ fn declared(root: Node, variable: Node) -> Vec<String> {
     problems
 }
 
-/// Outputs and initial unknowns: complete, in order, with dependencies that exist.
+/// Outputs, derivatives and initial unknowns: complete, in order, with dependencies that exist.
 fn structure(root: Node, variables: &[Node]) -> Vec<String> {
     let causality: HashMap<usize, &str> =
         (1..).zip(variables.iter().filter_map(|node| node.attribute("causality"))).collect();
-    let mut outputs: Vec<usize> =
-        causality.iter().filter(|(_, of)| **of == "output").map(|(index, _)| *index).collect();
-    outputs.sort_unstable();
+    let of = |kinds: &[&str]| -> Vec<usize> {
+        (1..=variables.len()).filter(|index| causality.get(index).is_some_and(|of| kinds.contains(of))).collect()
+    };
+    let state_of = |index: &usize| number(variables[index - 1].first_element_child()?, "derivative");
+    let derivatives: Vec<usize> = of(&["local"]).into_iter().filter(|index| state_of(index).is_some()).collect();
+    let states: Vec<usize> = of(&["local"]).into_iter().filter(|index| state_of(index).is_none()).collect();
     let mut problems = vec![];
-    for (list, knowns) in [("Outputs", &["input"][..]), ("InitialUnknowns", &["input", "parameter"][..])] {
+    if derivatives.iter().filter_map(state_of).map(|state| state as usize).collect::<Vec<_>>() != states {
+        problems.push("the derivatives are not of the states in order".to_owned());
+    }
+    for (list, unknown, known) in [
+        ("Outputs", of(&["output"]), [of(&["input"]), states.clone()].concat()),
+        ("Derivatives", derivatives, [of(&["input"]), states].concat()),
+        ("InitialUnknowns", of(&["output", "local"]), of(&["input", "parameter"])),
+    ] {
         let unknowns: Vec<Node> = below(root, list).into_iter().flat_map(|list| below(list, "Unknown")).collect();
         let index = |node: &Node| node.attribute("index").and_then(|index| index.parse().ok());
-        if unknowns.iter().filter_map(index).collect::<Vec<usize>>() != outputs {
-            problems.push(format!("{list} is not the list of outputs in order"));
+        if unknowns.iter().filter_map(index).collect::<Vec<usize>>() != unknown {
+            problems.push(format!("{list} is not the list of its unknowns in order"));
         }
         for dependencies in unknowns.iter().filter_map(|node| node.attribute("dependencies")) {
             let indices: Vec<usize> = dependencies.split_whitespace().filter_map(|index| index.parse().ok()).collect();
-            let known = |index| causality.get(index).is_some_and(|of| knowns.contains(of));
-            if !indices.iter().all(known) || !indices.is_sorted_by(|a, b| a < b) {
+            if !indices.iter().all(|index| known.contains(index)) || !indices.is_sorted_by(|a, b| a < b) {
                 problems.push(format!("{list}: dependencies {dependencies}"));
             }
         }
     }
     problems
+}
+
+/// The structured convention: parts joined by dots, each with an index or without, and `der(…)` around such a name.
+fn is_structured(name: &str) -> bool {
+    let inner = name.strip_prefix("der(").and_then(|rest| rest.strip_suffix(')')).unwrap_or(name);
+    inner.split('.').all(|part| match part.strip_suffix(']').and_then(|part| part.split_once('[')) {
+        Some((word, index)) => is_identifier(word) && index.bytes().all(|byte| byte.is_ascii_digit()),
+        None => is_identifier(part),
+    })
 }
 
 fn is_identifier(name: &str) -> bool {

@@ -9,6 +9,7 @@ use crate::scenes::Scenario;
 use anyhow::{Context, Result, bail};
 use archive::Part;
 use build::Libraries;
+use slidercrank::fmi::slave::states::exchange;
 use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
 use slidercrank::fmi::v2::description::documentation;
 use slidercrank::model_description::raw::Experiment;
@@ -119,8 +120,9 @@ fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -
     let (stop, step, tolerance) = (run.stop(scene), run.step, scene.solver.tolerance);
     let experiment = Experiment { start: 0.0, stop, tolerance, step };
     let guid = slot::guid(scene);
+    let exchange = exchange(scene);
     let made = xml::made(declaration, epoch()?);
-    let package = xml::Package { guid: &guid, starts, experiment, made: Some(&made) };
+    let package = xml::Package { guid: &guid, starts, exchange: exchange.as_ref(), experiment, made: Some(&made) };
     Ok(xml::write(declaration, &package)?)
 }
 

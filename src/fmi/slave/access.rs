@@ -1,6 +1,7 @@
 //! Which variable a value reference means, and whether a call may read or write it.
 
 use super::error::{Error, VariableError};
+use super::states;
 use super::variables::{Access, VARIABLES, Variable};
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::parameter::{Kind, Parameter};
@@ -22,7 +23,7 @@ impl ValueType {
     /// The type of a variable.
     pub fn of(variable: &Variable) -> Self {
         match &variable.access {
-            Access::Input { .. } | Access::RealOutput(_) => Self::Real,
+            Access::Input { .. } | Access::RealOutput(_) | Access::State(_) | Access::Derivative(_) => Self::Real,
             Access::IntegerOutput(_) => Self::Integer,
             Access::BooleanOutput(_) => Self::Boolean,
             Access::Parameter(Parameter { kind, .. }) => match kind {
@@ -77,6 +78,7 @@ impl Permission {
             Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => {
                 ("output", outputs && !write)
             }
+            Access::State(_) | Access::Derivative(_) => ("local variable", outputs && !write),
         };
         if allowed { Ok(()) } else { Err(VariableError::Moment { name: variable.name, write, causality, state }) }
     }
@@ -85,7 +87,7 @@ impl Permission {
 /// The variable of this value reference.
 pub fn variable(reference: u32) -> Result<&'static Variable, VariableError> {
     let found = usize::try_from(reference).ok().and_then(|index| VARIABLES.get(index));
-    found.ok_or(VariableError::Unknown(reference))
+    found.or_else(|| states::variable(reference)).ok_or(VariableError::Unknown(reference))
 }
 
 /// The variable of this value reference, which must be of the type asked for; an enumeration passes

@@ -4,6 +4,7 @@
 //! back a run of it, and a snapshot of a run is the same numbers for every engine. So the choice is made anew wherever a
 //! mechanism is assembled: when start values have changed, and when a state is restored.
 
+use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::simulation::{Simulation, SimulationError, Snapshot};
@@ -40,6 +41,8 @@ pub trait Run: Send {
     fn output_rates(&mut self) -> Outputs;
     /// As [`Simulation::output_sensitivity`].
     fn output_sensitivity(&mut self, seed: Inputs) -> Outputs;
+    /// As [`Simulation::write_states`].
+    fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize;
     /// As [`Simulation::snapshot`].
     fn snapshot(&self) -> Snapshot;
 }
@@ -80,6 +83,10 @@ impl Run for Simulation {
 
     fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.output_sensitivity(seed)
+    }
+
+    fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {
+        self.write_states(states, rates)
     }
 
     fn snapshot(&self) -> Snapshot {

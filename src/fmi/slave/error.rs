@@ -25,6 +25,8 @@ pub enum Error {
     NoDerivative(&'static str),
     /// The mechanism cannot start or go on.
     Simulation(SimulationError),
+    /// The call is for a slave of the other kind of interface.
+    Interface,
 }
 
 impl Error {
@@ -35,6 +37,7 @@ impl Error {
             | Self::Time(_)
             | Self::SavedState(_)
             | Self::Scene(_)
+            | Self::Interface
             | Self::Simulation(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => Severity::Error,
             Self::OutputNotFinite(..)
             | Self::NoDerivative(_)
@@ -75,6 +78,10 @@ pub enum VariableError {
     Refused(Refusal),
     /// Derivatives are of order 1 only.
     Order(&'static str, i32),
+    /// The scene has not so many continuous states.
+    Absent(&'static str),
+    /// This parameter's value would change the states or event indicators of model exchange.
+    Structure(&'static str),
     /// The function is for another kind of variable. The last field says which it needs.
     Kind(&'static str, &'static str),
 }
@@ -143,6 +150,8 @@ pub enum SavedStateError {
         /// Bytes given.
         given: usize,
     },
+    /// Of an instance of the other kind: co-simulation or model exchange.
+    Interface,
     /// Checksum does not match.
     Checksum,
     /// The checksum matches but the content makes no sense.

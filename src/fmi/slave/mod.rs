@@ -12,9 +12,11 @@
 //! A refused call changes nothing: values set together are applied all or none.
 
 pub mod access;
+pub mod course;
 pub mod difference;
 pub mod engine;
 pub mod error;
+mod exchange;
 pub mod experiment;
 pub mod inputs;
 pub mod log;
@@ -23,9 +25,11 @@ pub mod sealed;
 pub mod settings;
 pub mod severity;
 pub mod start_sensitivity;
+pub mod states;
 pub mod variables;
 
 pub use access::{Permission, ValueType};
+pub use course::Interface;
 pub use error::Error;
 pub use settings::Settings;
 pub use severity::Severity;
@@ -37,7 +41,8 @@ use access::{
     RealInput, check_first_order, finite, finite_output, known_input, real_input, real_output, real_parameter, typed,
     variable,
 };
-use engine::{Engine, Own, Run};
+use course::{Course, StateValues};
+use engine::{Engine, Own};
 use error::VariableError;
 use experiment::{Experiment, LeftAside, Limit};
 use inputs::are_finite;
@@ -53,11 +58,12 @@ pub struct Slave {
     packaged: Scene,
     /// Computes the motion of scenes that do not ask for portable bits, if there is such an engine.
     newer: Option<&'static dyn Engine>,
+    interface: Interface,
     settings: Settings,
     /// Whether initialization is over: parameters are fixed and the simulation is there.
     initialized: bool,
     /// Absent until an output is needed.
-    simulation: Option<Box<dyn Run>>,
+    course: Option<Course>,
     /// Outputs at this communication point, once they have been asked for.
     outputs: Option<Outputs>,
 }
@@ -67,14 +73,15 @@ impl Slave {
     /// engine and the scene does not ask for portable bits.
     pub fn new(packaged: Scene, newer: Option<&'static dyn Engine>) -> Self {
         let settings = Settings::of(packaged.clone());
-        Self { packaged, newer, settings, initialized: false, simulation: None, outputs: None }
+        let interface = Interface::CoSimulation;
+        Self { packaged, newer, interface, settings, initialized: false, course: None, outputs: None }
     }
 
     /// As after [`Slave::new`].
     pub fn reset(&mut self) {
         self.settings = Settings::of(self.packaged.clone());
         self.initialized = false;
-        (self.simulation, self.outputs) = (None, None);
+        (self.course, self.outputs) = (None, None);
     }
 
     /// [s] The communication point reached.
@@ -84,7 +91,7 @@ impl Slave {
 
     /// [s] The same, counted from the start: the simulation's time, which no start time rounds.
     fn elapsed(&self) -> f64 {
-        self.simulation.as_ref().map_or(0.0, |run| run.time())
+        self.course.as_ref().map_or(0.0, Course::time)
     }
 
     /// Sets times and tolerance. A tolerance that the solver cannot meet is limited: that limit.
@@ -118,15 +125,23 @@ impl Slave {
         values: &mut [T],
         convert: fn(f64) -> T,
     ) -> Result<(), Error> {
-        let mut outputs = false;
+        let (mut outputs, mut states) = (false, false);
         for &reference in references {
             let variable = typed(reference, asked)?;
             permission.check_read(variable)?;
-            outputs |= !matches!(variable.access, Access::Input { .. } | Access::Parameter(_));
+            match variable.access {
+                Access::Input { .. } | Access::Parameter(_) => {}
+                Access::State(_) | Access::Derivative(_) => states = true,
+                Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => outputs = true,
+            }
         }
         if outputs {
             self.outputs()?;
         }
+        let states = if states { Some(self.live()?.state_values()) } else { None };
+        let of_state = |place: usize, name, of: fn(&StateValues, usize) -> Option<f64>| {
+            states.as_ref().and_then(|states| of(states, place)).ok_or(VariableError::Absent(name))
+        };
         for (&reference, value) in references.iter().zip(values) {
             let variable = variable(reference)?;
             *value = convert(match &variable.access {
@@ -136,6 +151,10 @@ impl Slave {
                 Access::RealOutput(get) => finite_output(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
+                Access::State(place) => finite_output(variable, of_state(*place, variable.name, StateValues::state)?)?,
+                Access::Derivative(place) => {
+                    finite_output(variable, of_state(*place, variable.name, StateValues::rate)?)?
+                }
                 Access::Parameter(parameter) => parameter.value(&self.settings.scene),
             });
         }
@@ -161,11 +180,14 @@ impl Slave {
             match &variable.access {
                 Access::Input { get, set, .. } => inputs.set_value(*set, *get, time, value),
                 Access::Parameter(parameter) => {
-                    parameter.write(scene.get_or_insert_with(|| self.settings.scene.clone()), value)?;
+                    let scene = scene.get_or_insert_with(|| self.settings.scene.clone());
+                    parameter.write(scene, value)?;
+                    self.check_structure(scene, variable.name)?;
                     tolerance_set |= parameter.name == TOLERANCE;
                 }
-                // `check_write` lets no write to an output pass.
+                // `check_write` lets no write to an output or a state pass.
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => {}
+                Access::State(_) | Access::Derivative(_) => {}
             }
         }
         self.settings.inputs = inputs;
@@ -267,7 +289,9 @@ impl Slave {
             Ok((variable.name, real_output(variable)?))
         };
         let outputs = unknowns.iter().map(reading).collect::<Result<Vec<_>, _>>()?;
-        along(direction, &self.settings, &outputs, |mut settings| Ok(started(&mut settings, self.newer)?.outputs()))
+        along(direction, &self.settings, &outputs, |mut settings| {
+            Ok(started(self.interface, self.newer, &mut settings)?.outputs())
+        })
     }
 
     /// [s] Where a step of `size` from the importer's `point` ends, counted from the start. A refusal changes nothing.
@@ -286,7 +310,11 @@ impl Slave {
 
     /// Moves the slave to `end`, counted from the start, or as far as it gets.
     pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
-        let outcome = self.live()?.advance_to(end);
+        let outcome = match self.live()? {
+            Course::Own(simulation) => simulation.advance_to(end),
+            // The lifecycle lets no step in here.
+            Course::Hosted(_) => return Err(Error::Interface),
+        };
         self.settings.inputs.move_on();
         self.outputs = None;
         let start = self.settings.experiment.start;
@@ -296,18 +324,19 @@ impl Slave {
     /// Everything that the slave is: what was set, and the simulation once initialization is over.
     pub fn save(&self) -> (Settings, Option<Snapshot>) {
         // While parameters can still change, the simulation is no more than a reading of the scene.
-        let running = if self.initialized { self.simulation.as_ref() } else { None };
-        (self.settings.clone(), running.map(|run| run.snapshot()))
+        let running = if self.initialized { self.course.as_ref() } else { None };
+        (self.settings.clone(), running.map(Course::snapshot))
     }
 
     /// Makes the slave what it was when it was saved.
     pub fn restore(&mut self, settings: &Settings, snapshot: Option<&Snapshot>) -> Result<(), Error> {
         // The only part that can fail comes first.
-        self.simulation = match snapshot {
+        self.check_structure(&settings.scene, "a parameter of the saved state")?;
+        self.course = match snapshot {
             None => None,
             Some(snapshot) => {
                 let scene = settings.simulated_scene()?;
-                Some(engine_of(self.newer, &scene).restore(&scene, snapshot)?)
+                Some(Course::restore(self.interface, engine_of(self.newer, &scene), &scene, snapshot)?)
             }
         };
         self.initialized = snapshot.is_some();
@@ -317,14 +346,14 @@ impl Slave {
     }
 
     /// The simulation, started if need be, with the inputs of this communication point.
-    fn live(&mut self) -> Result<&mut dyn Run, Error> {
-        let newer = self.newer;
-        match &mut self.simulation {
-            Some(simulation) => {
-                self.settings.inputs.pass_on(simulation.as_mut());
-                Ok(simulation.as_mut())
+    fn live(&mut self) -> Result<&mut Course, Error> {
+        let (interface, newer) = (self.interface, self.newer);
+        match &mut self.course {
+            Some(course) => {
+                course.take(&mut self.settings.inputs);
+                Ok(course)
             }
-            absent => Ok(absent.insert(started(&mut self.settings, newer)?).as_mut()),
+            absent => Ok(absent.insert(started(interface, newer, &mut self.settings)?)),
         }
     }
 
@@ -339,15 +368,15 @@ impl Slave {
     fn drop_what_followed_from_settings(&mut self) {
         self.outputs = None;
         if !self.initialized {
-            self.simulation = None;
+            self.course = None;
         }
     }
 }
 
 /// The mechanism of these settings at its start, with the inputs wanted there in force.
-fn started(settings: &mut Settings, newer: Option<&'static dyn Engine>) -> Result<Box<dyn Run>, Error> {
+fn started(interface: Interface, newer: Option<&'static dyn Engine>, settings: &mut Settings) -> Result<Course, Error> {
     let scene = settings.simulated_scene()?;
-    Ok(settings.inputs.start(|inputs| engine_of(newer, &scene).start(&scene, inputs))?)
+    Course::start(interface, engine_of(newer, &scene), &scene, &mut settings.inputs)
 }
 
 /// What computes the motion of `scene`.

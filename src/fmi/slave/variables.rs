@@ -28,6 +28,10 @@ pub enum Access {
     IntegerOutput(fn(&Outputs) -> i32),
     /// A Boolean output.
     BooleanOutput(fn(&Outputs) -> bool),
+    /// The continuous state at this place; not every scene has one there.
+    State(usize),
+    /// The derivative of the state at this place.
+    Derivative(usize),
     /// A fixed parameter of any type; an enumeration passes as an integer.
     Parameter(&'static Parameter),
 }

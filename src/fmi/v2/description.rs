@@ -1,5 +1,6 @@
 //! What a package says of itself beside its binary: `modelDescription.xml` and the documentation.
 
+use crate::fmi::slave::states::exchange;
 use crate::model_description::rows::{Experiment, RowError};
 use crate::model_description::{self, page, xml};
 use crate::scene::check::LEAST_RESTITUTION;
@@ -48,8 +49,10 @@ pub fn model_description(
 ) -> Result<String, DescriptionError> {
     let declaration = model_description::load()?;
     let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
+    let exchange = exchange(scene);
     let package = xml::Package {
         guid: &slot::guid(scene),
+        exchange: exchange.as_ref(),
         starts: &starts,
         experiment: experiment.unwrap_or(declaration.experiment),
         made: Some(&xml::made(&declaration, made)),

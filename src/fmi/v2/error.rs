@@ -3,8 +3,8 @@
 use super::lifecycle::State;
 use super::status_kind::StatusKind;
 use crate::fmi::slave;
-use crate::fmi::slave::Severity;
 use crate::fmi::slave::error::SavedStateError;
+use crate::fmi::slave::{Interface, Severity};
 use crate::scene::slot::SlotError;
 use std::fmt;
 
@@ -18,8 +18,8 @@ pub enum Error {
     Argument(ArgumentError),
     /// The call does not belong in this state.
     CallOrder(State),
-    /// The function belongs to model exchange.
-    ModelExchange,
+    /// The function belongs to this kind of interface, and the instance is of the other.
+    Interface(Interface),
     /// The importer asks for something else than this FMU.
     Instantiate(InstantiateError),
     /// The status asked for is not known here.
@@ -39,7 +39,7 @@ impl Error {
             Self::CallOrder(State::Fatal) | Self::Panic(_) => Severity::Fatal,
             Self::Argument(_)
             | Self::CallOrder(_)
-            | Self::ModelExchange
+            | Self::Interface(_)
             | Self::Instantiate(_)
             | Self::NotAStatusKind(_) => Severity::Error,
         }
@@ -56,13 +56,22 @@ pub enum ArgumentError {
     Misaligned(&'static str),
     /// More elements than any sensible call has.
     TooLong(&'static str, usize),
+    /// Not as many elements as there are states or event indicators.
+    Count {
+        /// The argument.
+        argument: &'static str,
+        /// What it says.
+        given: usize,
+        /// What it has to be.
+        expected: usize,
+    },
 }
 
 /// Why there is no instance.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InstantiateError {
-    /// Not co-simulation.
+    /// Neither model exchange nor co-simulation.
     Type(i32),
     /// NULL or empty.
     Name,
@@ -109,7 +118,12 @@ impl fmt::Display for Error {
             Self::Slave(error) => error.fmt(f),
             Self::Argument(error) => error.fmt(f),
             Self::CallOrder(state) => write!(f, "not allowed in state '{state}'"),
-            Self::ModelExchange => f.write_str("of model exchange, and this FMU is for co-simulation"),
+            Self::Interface(Interface::ModelExchange) => {
+                f.write_str("of model exchange, and this instance is for co-simulation")
+            }
+            Self::Interface(Interface::CoSimulation) => {
+                f.write_str("of co-simulation, and this instance is for model exchange")
+            }
             Self::Instantiate(error) => error.fmt(f),
             Self::StatusKind(kind) => write!(f, "there is no {} to tell here", kind.name()),
             Self::NotAStatusKind(value) => write!(f, "{value} is not an fmi2StatusKind"),
@@ -128,6 +142,7 @@ impl fmt::Display for ArgumentError {
             Self::TooLong(argument, length) => {
                 write!(f, "argument '{argument}' cannot have {length} elements")
             }
+            Self::Count { argument, given, expected } => write!(f, "argument '{argument}' is {given}, not {expected}"),
         }
     }
 }
@@ -135,7 +150,7 @@ impl fmt::Display for ArgumentError {
 impl fmt::Display for InstantiateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Type(kind) => write!(f, "fmuType {kind}: only fmi2CoSimulation (1) can be instantiated"),
+            Self::Type(kind) => write!(f, "fmuType {kind}: neither fmi2ModelExchange (0) nor fmi2CoSimulation (1)"),
             Self::Name => write!(f, "instanceName is NULL or empty"),
             Self::Slot(error) => error.fmt(f),
             Self::Guid { expected, given: Some(given) } => {

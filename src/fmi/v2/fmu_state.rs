@@ -8,7 +8,7 @@ use crate::simulation::Snapshot;
 use serde::{Deserialize, Serialize};
 
 /// To be raised with every change of [`FmuState`] or of what it holds.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 /// Everything that an instance is, its name and its logging aside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

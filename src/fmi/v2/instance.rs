@@ -11,12 +11,14 @@ use crate::fmi::slave::engine::Engine;
 use crate::fmi::slave::error::SavedStateError;
 use crate::fmi::slave::log::{Host, Logger};
 use crate::fmi::slave::saved_states::SavedStates;
-use crate::fmi::slave::{Severity, Slave, ValueType};
-use crate::scene::slot;
+use crate::fmi::slave::{Interface, Severity, Slave, ValueType};
+use crate::scene::{Scene, slot};
 use crate::simulation::SimulationError;
 use std::ffi::{CStr, CString};
 use std::fmt::Display;
 
+/// `fmi2ModelExchange`
+pub const MODEL_EXCHANGE: i32 = 0;
 /// `fmi2CoSimulation`
 pub const CO_SIMULATION: i32 = 1;
 
@@ -25,7 +27,7 @@ pub const CO_SIMULATION: i32 = 1;
 pub struct Request<'a> {
     /// Name for the log; needed.
     pub name: Option<&'a CStr>,
-    /// [`CO_SIMULATION`]; anything else is refused.
+    /// [`MODEL_EXCHANGE`] or [`CO_SIMULATION`]; anything else is refused.
     pub fmu_type: i32,
     /// The guid in the XML that the importer read.
     pub guid: Option<&'a CStr>,
@@ -37,8 +39,8 @@ pub struct Request<'a> {
 
 /// A slave with its place in the lifecycle of FMI 2.0, its saved states and its log.
 pub struct Instance {
-    state: State,
-    slave: Slave,
+    pub(super) state: State,
+    pub(super) slave: Slave,
     last_step: Status,
     /// Whether the last step came to where no step leads on.
     dead_end: bool,
@@ -56,9 +58,11 @@ impl Instance {
     ) -> Result<Self, Error> {
         let Request { name, fmu_type, guid, resource_location, logging_on } = *request;
         let name = name.filter(|name| !name.is_empty()).ok_or(InstantiateError::Name)?;
-        if fmu_type != CO_SIMULATION {
-            return Err(InstantiateError::Type(fmu_type).into());
-        }
+        let make: fn(Scene, Option<&'static dyn Engine>) -> Result<Slave, slave::Error> = match fmu_type {
+            MODEL_EXCHANGE => |scene, _| Slave::for_exchange(scene),
+            CO_SIMULATION => |scene, newer| Ok(Slave::new(scene, newer)),
+            _ => return Err(InstantiateError::Type(fmu_type).into()),
+        };
         let (packaged, expected) = slot::read().map_err(InstantiateError::Slot)?;
         if guid.map(CStr::to_bytes) != Some(expected.as_bytes()) {
             let given = guid.map(|guid| guid.to_string_lossy().into_owned());
@@ -71,7 +75,7 @@ impl Instance {
         }
         Ok(Self {
             state: State::Instantiated,
-            slave: Slave::new(packaged, newer),
+            slave: make(packaged, newer)?,
             last_step: Status::Ok,
             dead_end: false,
             saved: SavedStates::default(),
@@ -96,11 +100,11 @@ impl Instance {
 
     /// Lets a call in, if it is allowed in this state.
     pub fn admit(&self, call: Call) -> Result<(), Error> {
-        match self.state {
-            state if call.allowed(state) => Ok(()),
-            State::Fatal => Err(Error::CallOrder(State::Fatal)),
-            _ if call.is_model_exchange() => Err(Error::ModelExchange),
-            state => Err(Error::CallOrder(state)),
+        match (self.state, call.interface()) {
+            (State::Fatal, _) if !call.allowed(State::Fatal) => Err(Error::CallOrder(State::Fatal)),
+            (_, Some(interface)) if interface != self.slave.interface() => Err(Error::Interface(interface)),
+            (state, _) if call.allowed(state) => Ok(()),
+            (state, _) => Err(Error::CallOrder(state)),
         }
     }
 
@@ -147,7 +151,10 @@ impl Instance {
     /// initialization mode, where the importer may correct it.
     pub fn exit_initialization_mode(&mut self) -> Result<(), Error> {
         self.slave.initialize()?;
-        self.state = State::StepComplete;
+        self.state = match self.slave.interface() {
+            Interface::CoSimulation => State::StepComplete,
+            Interface::ModelExchange => State::EventMode,
+        };
         if let Some(left_aside) = self.slave.tolerance_left_aside() {
             self.logger.remark(Call::ExitInitializationMode.name(), &left_aside);
         }
@@ -220,7 +227,8 @@ impl Instance {
     }
 
     /// `fmi2GetDirectionalDerivative` of real outputs along a direction of real inputs and, in initialization mode, of
-    /// real parameters: the standard's knowns there are all variables whose start value is exact.
+    /// real parameters: the standard's knowns there are all variables whose start value is exact. In model exchange of
+    /// derivatives of states and along states, too.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
@@ -228,7 +236,12 @@ impl Instance {
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        Ok(self.slave.directional_derivative(self.state.writing(), unknowns, knowns, seeds, values)?)
+        Ok(match self.slave.interface() {
+            Interface::CoSimulation => {
+                self.slave.directional_derivative(self.state.writing(), unknowns, knowns, seeds, values)?
+            }
+            Interface::ModelExchange => self.slave.exchange_derivative(unknowns, knowns, seeds, values)?,
+        })
     }
 
     /// `fmi2DoStep`
@@ -315,7 +328,11 @@ impl Instance {
 
     /// `fmi2DeSerializeFMUstate`: keeps under `handle`, or under a new one if that is 0.
     pub fn deserialize(&mut self, bytes: &[u8], handle: usize) -> Result<usize, Error> {
-        Ok(self.saved.keep(handle, FmuState::from_bytes(bytes)?)?)
+        let saved = FmuState::from_bytes(bytes)?;
+        if saved.state.interface().is_some_and(|interface| interface != self.slave.interface()) {
+            return Err(SavedStateError::Interface.into());
+        }
+        Ok(self.saved.keep(handle, saved)?)
     }
 }
 

@@ -1,11 +1,11 @@
-//! Which call is allowed in which state: the table of FMI 2.0 §4.2.4, one row a call.
+//! Which call is allowed in which state: the tables of FMI 2.0 §3.2.3 and §4.2.4 as one, one row a call.
 //!
 //! Two deviations, both towards the importer. `fmi2FreeInstance` works in the fatal state too, since
 //! nothing of ours is lost by giving memory back. Reading inputs and parameters back works from
 //! instantiation on, as hosts do; so the rows of `fmi2Get…` are open there, and the rows of
 //! [`Touch`] say which variables they reach.
 
-use crate::fmi::slave::Permission;
+use crate::fmi::slave::{Interface, Permission};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -19,6 +19,10 @@ pub enum State {
     Instantiated,
     /// Start values may be set and outputs follow them.
     InitializationMode,
+    /// At an event, or right after initialization (model exchange).
+    EventMode,
+    /// The importer integrates (model exchange).
+    ContinuousTimeMode,
     /// At a communication point.
     StepComplete,
     /// Inside an asynchronous step.
@@ -37,10 +41,12 @@ pub enum State {
 
 impl State {
     /// All states, in the order of the table's columns.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::StartAndEnd,
         Self::Instantiated,
         Self::InitializationMode,
+        Self::EventMode,
+        Self::ContinuousTimeMode,
         Self::StepComplete,
         Self::StepInProgress,
         Self::StepFailed,
@@ -56,6 +62,8 @@ impl State {
             Self::StartAndEnd => "not instantiated",
             Self::Instantiated => "instantiated",
             Self::InitializationMode => "initialization mode",
+            Self::EventMode => "event mode",
+            Self::ContinuousTimeMode => "continuous-time mode",
             Self::StepComplete => "step complete",
             Self::StepInProgress => "step in progress",
             Self::StepFailed => "step failed",
@@ -63,6 +71,17 @@ impl State {
             Self::Terminated => "terminated",
             Self::Error => "error",
             Self::Fatal => "fatal",
+        }
+    }
+
+    /// The kind of interface of instances in this state, if only one kind comes there.
+    pub fn interface(self) -> Option<Interface> {
+        match self {
+            Self::EventMode | Self::ContinuousTimeMode => Some(Interface::ModelExchange),
+            Self::StepComplete | Self::StepInProgress | Self::StepFailed | Self::StepCanceled => {
+                Some(Interface::CoSimulation)
+            }
+            _ => None,
         }
     }
 
@@ -144,70 +163,77 @@ macro_rules! table {
 table! {
     /// A function of the standard.
     Call, "fmi2";
-    //                         start   initialization mode   in progress   canceled   error
-    //                         |  instantiated   complete    |   failed    |  terminated  fatal
-    //                         |    |    |    |    |    |    |    |    |    |
-    GetTypesPlatform          "x    x    x    x    x    x    x    x    x    ."
-    GetVersion                "x    x    x    x    x    x    x    x    x    ."
-    SetDebugLogging           ".    x    x    x    x    x    x    x    x    ."
-    Instantiate               "x    .    .    .    .    .    .    .    .    ."
-    FreeInstance              ".    x    x    x    .    x    x    x    x    x"
-    SetupExperiment           ".    x    .    .    .    .    .    .    .    ."
-    EnterInitializationMode   ".    x    .    .    .    .    .    .    .    ."
-    ExitInitializationMode    ".    .    x    .    .    .    .    .    .    ."
-    Terminate                 ".    .    .    x    .    x    .    .    .    ."
-    Reset                     ".    x    x    x    .    x    x    x    x    ."
-    GetReal                   ".    x    x    x    .    x    x    x    x    ."
-    GetInteger                ".    x    x    x    .    x    x    x    x    ."
-    GetBoolean                ".    x    x    x    .    x    x    x    x    ."
-    GetString                 ".    x    x    x    .    x    x    x    x    ."
-    SetReal                   ".    x    x    x    .    .    .    .    .    ."
-    SetInteger                ".    x    x    x    .    .    .    .    .    ."
-    SetBoolean                ".    x    x    x    .    .    .    .    .    ."
-    SetString                 ".    x    x    x    .    .    .    .    .    ."
-    GetFMUstate               ".    x    x    x    .    x    x    x    x    ."
-    SetFMUstate               ".    x    x    x    .    x    x    x    x    ."
-    FreeFMUstate              ".    x    x    x    .    x    x    x    x    ."
-    SerializedFMUstateSize    ".    x    x    x    .    x    x    x    x    ."
-    SerializeFMUstate         ".    x    x    x    .    x    x    x    x    ."
-    DeSerializeFMUstate       ".    x    x    x    .    x    x    x    x    ."
-    GetDirectionalDerivative  ".    .    x    x    .    x    x    x    x    ."
-    SetRealInputDerivatives   ".    x    x    x    .    .    .    .    .    ."
-    GetRealOutputDerivatives  ".    .    .    x    .    x    x    x    x    ."
-    DoStep                    ".    .    .    x    .    .    .    .    .    ."
-    CancelStep                ".    .    .    .    x    .    .    .    .    ."
-    GetStatus                 ".    .    .    x    x    x    .    x    .    ."
-    GetRealStatus             ".    .    .    x    x    x    .    x    .    ."
-    GetIntegerStatus          ".    .    .    x    x    x    .    x    .    ."
-    GetBooleanStatus          ".    .    .    x    x    x    .    x    .    ."
-    GetStringStatus           ".    .    .    x    x    x    .    x    .    ."
-    // Model exchange, which this unit does not do.
-    EnterEventMode            ".    .    .    .    .    .    .    .    .    ."
-    NewDiscreteStates         ".    .    .    .    .    .    .    .    .    ."
-    EnterContinuousTimeMode   ".    .    .    .    .    .    .    .    .    ."
-    CompletedIntegratorStep   ".    .    .    .    .    .    .    .    .    ."
-    SetTime                   ".    .    .    .    .    .    .    .    .    ."
-    SetContinuousStates       ".    .    .    .    .    .    .    .    .    ."
-    GetDerivatives            ".    .    .    .    .    .    .    .    .    ."
-    GetEventIndicators        ".    .    .    .    .    .    .    .    .    ."
-    GetContinuousStates       ".    .    .    .    .    .    .    .    .    ."
-    GetNominalsOfContinuousStates ". .  .    .    .    .    .    .    .    ."
+    //                         start   initialization   continuous    progress    canceled  error
+    //                         |  instantiated   event mode  |  complete  |  failed  |  terminated  fatal
+    //                         |    |    |    |    |    |    |    |    |    |    |    |
+    GetTypesPlatform          "x    x    x    x    x    x    x    x    x    x    x    ."
+    GetVersion                "x    x    x    x    x    x    x    x    x    x    x    ."
+    SetDebugLogging           ".    x    x    x    x    x    x    x    x    x    x    ."
+    Instantiate               "x    .    .    .    .    .    .    .    .    .    .    ."
+    FreeInstance              ".    x    x    x    x    x    .    x    x    x    x    x"
+    SetupExperiment           ".    x    .    .    .    .    .    .    .    .    .    ."
+    EnterInitializationMode   ".    x    .    .    .    .    .    .    .    .    .    ."
+    ExitInitializationMode    ".    .    x    .    .    .    .    .    .    .    .    ."
+    Terminate                 ".    .    .    x    x    x    .    x    .    .    .    ."
+    Reset                     ".    x    x    x    x    x    .    x    x    x    x    ."
+    GetReal                   ".    x    x    x    x    x    .    x    x    x    x    ."
+    GetInteger                ".    x    x    x    x    x    .    x    x    x    x    ."
+    GetBoolean                ".    x    x    x    x    x    .    x    x    x    x    ."
+    GetString                 ".    x    x    x    x    x    .    x    x    x    x    ."
+    SetReal                   ".    x    x    x    x    x    .    .    .    .    .    ."
+    SetInteger                ".    x    x    x    .    x    .    .    .    .    .    ."
+    SetBoolean                ".    x    x    x    .    x    .    .    .    .    .    ."
+    SetString                 ".    x    x    x    .    x    .    .    .    .    .    ."
+    GetFMUstate               ".    x    x    x    x    x    .    x    x    x    x    ."
+    SetFMUstate               ".    x    x    x    x    x    .    x    x    x    x    ."
+    FreeFMUstate              ".    x    x    x    x    x    .    x    x    x    x    ."
+    SerializedFMUstateSize    ".    x    x    x    x    x    .    x    x    x    x    ."
+    SerializeFMUstate         ".    x    x    x    x    x    .    x    x    x    x    ."
+    DeSerializeFMUstate       ".    x    x    x    x    x    .    x    x    x    x    ."
+    GetDirectionalDerivative  ".    .    x    x    x    x    .    x    x    x    x    ."
+    SetRealInputDerivatives   ".    x    x    .    .    x    .    .    .    .    .    ."
+    GetRealOutputDerivatives  ".    .    .    .    .    x    .    x    x    x    x    ."
+    DoStep                    ".    .    .    .    .    x    .    .    .    .    .    ."
+    CancelStep                ".    .    .    .    .    .    x    .    .    .    .    ."
+    GetStatus                 ".    .    .    .    .    x    x    x    .    x    .    ."
+    GetRealStatus             ".    .    .    .    .    x    x    x    .    x    .    ."
+    GetIntegerStatus          ".    .    .    .    .    x    x    x    .    x    .    ."
+    GetBooleanStatus          ".    .    .    .    .    x    x    x    .    x    .    ."
+    GetStringStatus           ".    .    .    .    .    x    x    x    .    x    .    ."
+    // Model exchange.
+    EnterEventMode            ".    .    .    x    x    .    .    .    .    .    .    ."
+    NewDiscreteStates         ".    .    .    x    .    .    .    .    .    .    .    ."
+    EnterContinuousTimeMode   ".    .    .    x    .    .    .    .    .    .    .    ."
+    CompletedIntegratorStep   ".    .    .    .    x    .    .    .    .    .    .    ."
+    SetTime                   ".    .    .    x    x    .    .    .    .    .    .    ."
+    SetContinuousStates       ".    .    .    .    x    .    .    .    .    .    .    ."
+    GetDerivatives            ".    .    .    x    x    .    .    .    .    x    x    ."
+    GetEventIndicators        ".    .    x    x    x    .    .    .    .    x    x    ."
+    GetContinuousStates       ".    .    x    x    x    .    .    .    .    x    x    ."
+    GetNominalsOfContinuousStates ". x   .    x    x    .    .    .    .    x    x    ."
 }
 
 table! {
     /// What a call does to one variable: the footnotes under the standard's table.
     Touch, "";
-    GetOutput                 ".    .    x    x    .    x    x    x    x    ."
-    GetInput                  ".    x    x    x    .    x    x    x    x    ."
-    GetParameter              ".    x    x    x    .    x    x    x    x    ."
-    SetOutput                 ".    .    .    .    .    .    .    .    .    ."
-    SetInput                  ".    x    x    x    .    .    .    .    .    ."
-    SetParameter              ".    x    x    .    .    .    .    .    .    ."
+    GetOutput                 ".    .    x    x    x    x    .    x    x    x    x    ."
+    GetInput                  ".    x    x    x    x    x    .    x    x    x    x    ."
+    GetParameter              ".    x    x    x    x    x    .    x    x    x    x    ."
+    SetOutput                 ".    .    .    .    .    .    .    .    .    .    .    ."
+    SetInput                  ".    x    x    x    x    x    .    .    .    .    .    ."
+    SetParameter              ".    x    x    .    .    .    .    .    .    .    .    ."
 }
 
 impl Call {
-    /// Whether the function belongs to model exchange.
-    pub fn is_model_exchange(self) -> bool {
-        self as usize >= Self::EnterEventMode as usize
+    /// The kind of interface that the function belongs to, if not to both.
+    pub fn interface(self) -> Option<Interface> {
+        let place = self as usize;
+        if place >= Self::EnterEventMode as usize {
+            Some(Interface::ModelExchange)
+        } else if place >= Self::SetRealInputDerivatives as usize {
+            Some(Interface::CoSimulation)
+        } else {
+            None
+        }
     }
 }

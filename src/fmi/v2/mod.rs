@@ -12,6 +12,7 @@
 pub mod abi;
 pub mod description;
 pub mod error;
+pub mod exchange;
 pub mod fmu_state;
 pub mod instance;
 pub mod lifecycle;

@@ -27,6 +27,11 @@ pub fn experiment() -> Vec<Argument> {
     vec![flag(1), tolerance.counted_by(1), start, flag(1), stop.counted_by(4)]
 }
 
+/// Of `fmi2SetTime`; an integrator's trial may lie anywhere.
+pub fn time() -> Argument {
+    number(&[0.0, -1.0, STOP, 1e300, 5e-324], &[], "time")
+}
+
 /// Of `fmi2DoStep`.
 pub fn communication(stage: &Stage) -> Vec<Argument> {
     let now = stage.now;

@@ -16,6 +16,7 @@ impl fmt::Display for Error {
                 write!(f, "{name} has no derivative with respect to these start values: it jumps there")
             }
             Self::Simulation(error) => error.fmt(f),
+            Self::Interface => f.write_str("for the other kind of interface: co-simulation or model exchange"),
         }
     }
 }
@@ -34,6 +35,12 @@ impl fmt::Display for VariableError {
                 write!(f, "{name} = {} is out of range; allowed: {allowed}", number(*found))
             }
             Self::Order(name, order) => write!(f, "derivative of order {order} of {name}: only order 1 is known"),
+            Self::Absent(name) => write!(f, "{name}: the scene has fewer states"),
+            Self::Structure(name) => write!(
+                f,
+                "{name}: this value asks for other states or event indicators than modelDescription.xml lists for model \
+                 exchange; co-simulation takes it, and so does a package of a scene that has it"
+            ),
             Self::Kind(name, needed) => write!(f, "{name} is not {needed}"),
         }
     }
@@ -76,6 +83,9 @@ impl fmt::Display for SavedStateError {
             Self::Length { expected, given } => {
                 write!(f, "the state has {given} bytes instead of {expected}")
             }
+            Self::Interface => f.write_str(
+                "the state is of an instance of the other kind of interface: co-simulation or model exchange",
+            ),
             Self::Checksum => write!(f, "the state is damaged: its checksum does not match"),
             Self::Content => write!(f, "the state's content contradicts itself"),
         }

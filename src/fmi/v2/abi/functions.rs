@@ -249,34 +249,59 @@ functions! {
         })
     }
 
-    // Model exchange. Some importers bind these functions blindly, so the library exports them; the lifecycle refuses
-    // them in every state.
-    fmi2EnterEventMode(c: fmi2Component) -> fmi2Status { call(c, Call::EnterEventMode, |_| Ok(())) }
+    // Model exchange.
+    /// From now on discrete states may change.
+    fmi2EnterEventMode(c: fmi2Component) -> fmi2Status { call(c, Call::EnterEventMode, Instance::enter_event_mode) }
+    /// Closes and opens contacts as the event indicators say.
     fmi2NewDiscreteStates(c: fmi2Component, event_info: *mut fmi2EventInfo) -> fmi2Status {
-        call(c, Call::NewDiscreteStates, |_| Ok(()))
+        call(c, Call::NewDiscreteStates, |instance| {
+            put(place("fmi2EventInfo", event_info)?, instance.new_discrete_states().map(fmi2EventInfo::from))
+        })
     }
-    fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2Status { call(c, Call::EnterContinuousTimeMode, |_| Ok(())) }
+    /// From now on the importer integrates.
+    fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2Status {
+        call(c, Call::EnterContinuousTimeMode, Instance::enter_continuous_time_mode)
+    }
+    /// Whether an event has been passed over.
     fmi2CompletedIntegratorStep(
         c: fmi2Component, no_set_fmu_state_prior_to_current_point: fmi2Boolean,
         enter_event_mode: *mut fmi2Boolean, terminate_simulation: *mut fmi2Boolean,
     ) -> fmi2Status {
-        call(c, Call::CompletedIntegratorStep, |_| Ok(()))
+        call(c, Call::CompletedIntegratorStep, |instance| {
+            let enter = place("enterEventMode", enter_event_mode)?;
+            let terminate = place("terminateSimulation", terminate_simulation)?;
+            let outcome = instance.completed_integrator_step()?;
+            (*enter, *terminate) = (outcome.enter_event_mode.into(), FMI2_FALSE);
+            Ok(())
+        })
     }
-    fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2Status { call(c, Call::SetTime, |_| Ok(())) }
+    /// Sets the importer's time.
+    fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2Status {
+        call(c, Call::SetTime, |instance| instance.set_time(time))
+    }
+    /// Sets the continuous states.
     fmi2SetContinuousStates(c: fmi2Component, x: *const fmi2Real, nx: usize) -> fmi2Status {
-        call(c, Call::SetContinuousStates, |_| Ok(()))
+        call(c, Call::SetContinuousStates, |instance| instance.set_continuous_states(slice("x", x, nx)?))
     }
+    /// Reads the derivatives of the continuous states.
     fmi2GetDerivatives(c: fmi2Component, derivatives: *mut fmi2Real, nx: usize) -> fmi2Status {
-        call(c, Call::GetDerivatives, |_| Ok(()))
+        call(c, Call::GetDerivatives, |instance| instance.get_derivatives(slice_mut("derivatives", derivatives, nx)?))
     }
+    /// Reads the event indicators.
     fmi2GetEventIndicators(c: fmi2Component, event_indicators: *mut fmi2Real, ni: usize) -> fmi2Status {
-        call(c, Call::GetEventIndicators, |_| Ok(()))
+        call(c, Call::GetEventIndicators, |instance| {
+            instance.get_event_indicators(slice_mut("eventIndicators", event_indicators, ni)?)
+        })
     }
+    /// Reads the continuous states.
     fmi2GetContinuousStates(c: fmi2Component, x: *mut fmi2Real, nx: usize) -> fmi2Status {
-        call(c, Call::GetContinuousStates, |_| Ok(()))
+        call(c, Call::GetContinuousStates, |instance| instance.get_continuous_states(slice_mut("x", x, nx)?))
     }
+    /// Reads the nominal values of the continuous states.
     fmi2GetNominalsOfContinuousStates(c: fmi2Component, x_nominal: *mut fmi2Real, nx: usize) -> fmi2Status {
-        call(c, Call::GetNominalsOfContinuousStates, |_| Ok(()))
+        call(c, Call::GetNominalsOfContinuousStates, |instance| {
+            instance.get_nominals(slice_mut("x_nominal", x_nominal, nx)?)
+        })
     }
 }
 

@@ -1,6 +1,8 @@
 //! The C types of `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h`, platform "default".
 #![allow(non_camel_case_types, reason = "the names are the standard's")]
 
+use super::super::exchange::EventOutcome;
+use super::borrow::AnyBits;
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
 /// An instance of ours, opaque to the importer.
@@ -32,6 +34,8 @@ pub type fmi2StatusKind = c_int;
 pub const FMI2_TRUE: fmi2Boolean = 1;
 /// `fmi2False`.
 pub const FMI2_FALSE: fmi2Boolean = 0;
+/// `fmi2ModelExchange`.
+pub const FMI2_MODEL_EXCHANGE: fmi2Type = super::super::instance::MODEL_EXCHANGE;
 /// `fmi2CoSimulation`.
 pub const FMI2_CO_SIMULATION: fmi2Type = super::super::instance::CO_SIMULATION;
 
@@ -67,8 +71,9 @@ pub struct fmi2CallbackFunctions {
     pub component_environment: fmi2ComponentEnvironment,
 }
 
-/// Of model exchange; never filled in.
+/// What an event came to.
 #[repr(C)]
+#[derive(Clone, Copy, Debug)]
 #[allow(missing_docs, reason = "the names are the standard's")]
 pub struct fmi2EventInfo {
     pub new_discrete_states_needed: fmi2Boolean,
@@ -78,3 +83,19 @@ pub struct fmi2EventInfo {
     pub next_event_time_defined: fmi2Boolean,
     pub next_event_time: fmi2Real,
 }
+
+impl From<EventOutcome> for fmi2EventInfo {
+    fn from(EventOutcome { terminate, states_changed }: EventOutcome) -> Self {
+        Self {
+            new_discrete_states_needed: FMI2_FALSE,
+            terminate_simulation: terminate.into(),
+            nominals_of_continuous_states_changed: FMI2_FALSE,
+            values_of_continuous_states_changed: states_changed.into(),
+            next_event_time_defined: FMI2_FALSE,
+            next_event_time: 0.0,
+        }
+    }
+}
+
+// SAFETY: integers and a floating-point number.
+unsafe impl AnyBits for fmi2EventInfo {}

@@ -4,6 +4,7 @@ use super::super::dispatch_x86_64_v3::{Library, open};
 use super::super::panic_guard::guarded;
 use super::{Bytes, Failure, OFFER, Offer, Reading, Sink, Table};
 use crate::fmi::slave::engine::{Engine, Run};
+use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::scene::parameter::DECLARATION;
@@ -115,6 +116,16 @@ impl Run for BorrowedRun {
 
     fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.read(Reading::Sensitivity, seed)
+    }
+
+    fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {
+        let mut letter = Letter::default();
+        // SAFETY: a live run, lent to this call alone; both arrays and the sink outlive the call.
+        let count = unsafe {
+            (self.table.write_states)(self.run.as_ptr(), states.as_mut_ptr(), rates.as_mut_ptr(), letter.sink())
+        };
+        letter.infallible();
+        count.min(MAX_STATES)
     }
 
     fn snapshot(&self) -> Snapshot {

@@ -61,6 +61,8 @@ pub struct Table {
     set_inputs: unsafe extern "C" fn(run: *mut c_void, inputs: *const Inputs, rates: *const Inputs, sink: Sink),
     advance_to: unsafe extern "C" fn(run: *mut c_void, time: f64, sink: Sink),
     read: unsafe extern "C" fn(run: *mut c_void, what: Reading, seed: *const Inputs, outputs: *mut Outputs, sink: Sink),
+    /// Writes states and rates, each of which have room for `MAX_STATES`, and returns their number.
+    write_states: unsafe extern "C" fn(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize,
     snapshot: unsafe extern "C" fn(run: *mut c_void, sink: Sink),
 }
 

@@ -10,7 +10,7 @@ use std::ffi::c_void;
 use std::ptr::null_mut;
 
 /// The functions of this library.
-pub const TABLE: Table = Table { start, restore, free, time, set_inputs, advance_to, read, snapshot };
+pub const TABLE: Table = Table { start, restore, free, time, set_inputs, advance_to, read, write_states, snapshot };
 
 /// Exported by the build for newer processors only: the other one is what importers load, and has the functions of the
 /// standard and no others.
@@ -84,6 +84,12 @@ unsafe extern "C" fn read(run: *mut c_void, what: Reading, seed: *const Inputs, 
         };
         Ok(())
     });
+}
+
+unsafe extern "C" fn write_states(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize {
+    // SAFETY: a live run, in no other call; the caller lends two arrays of this length for this one.
+    let (run, states, rates) = unsafe { (lent(run), &mut *states.cast(), &mut *rates.cast()) };
+    attempt(sink, || Ok(run.write_states(states, rates))).unwrap_or_default()
 }
 
 unsafe extern "C" fn snapshot(run: *mut c_void, sink: Sink) {

@@ -1,0 +1,136 @@
+//! What a slave's time course is made by: an integrator of ours, or the importer's.
+
+use super::engine::{Engine, Run};
+use super::error::Error;
+use super::inputs::InputLines;
+use crate::integrator::MAX_STATES;
+use crate::model::signals::{Inputs, Outputs};
+use crate::scene::Scene;
+use crate::simulation::{HostedMechanism, Snapshot};
+
+/// Kind of interface between a slave and its importer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interface {
+    /// The slave integrates.
+    CoSimulation,
+    /// The importer integrates.
+    ModelExchange,
+}
+
+/// A mechanism in motion.
+pub enum Course {
+    /// By an integrator of ours.
+    Own(Box<dyn Run>),
+    /// By the importer's.
+    Hosted(HostedMechanism),
+}
+
+/// States and their rates.
+pub struct StateValues {
+    count: usize,
+    states: [f64; MAX_STATES],
+    rates: [f64; MAX_STATES],
+}
+
+impl StateValues {
+    /// A state, if there are so many.
+    pub fn state(&self, place: usize) -> Option<f64> {
+        self.states[..self.count].get(place).copied()
+    }
+
+    /// Its rate.
+    pub fn rate(&self, place: usize) -> Option<f64> {
+        self.rates[..self.count].get(place).copied()
+    }
+}
+
+impl Course {
+    /// The scene's mechanism at the start.
+    pub fn start(
+        interface: Interface,
+        engine: &dyn Engine,
+        scene: &Scene,
+        inputs: &mut InputLines,
+    ) -> Result<Self, Error> {
+        Ok(match interface {
+            Interface::CoSimulation => Self::Own(inputs.start(|inputs| engine.start(scene, inputs))?),
+            Interface::ModelExchange => Self::Hosted(HostedMechanism::start(scene, inputs.values(0.0))?),
+        })
+    }
+
+    /// Where `snapshot` was taken.
+    pub fn restore(
+        interface: Interface,
+        engine: &dyn Engine,
+        scene: &Scene,
+        snapshot: &Snapshot,
+    ) -> Result<Self, Error> {
+        Ok(match interface {
+            Interface::CoSimulation => Self::Own(engine.restore(scene, snapshot)?),
+            Interface::ModelExchange => Self::Hosted(HostedMechanism::restore(scene, snapshot)?),
+        })
+    }
+
+    /// All that is needed to go on from here.
+    pub fn snapshot(&self) -> Snapshot {
+        match self {
+            Self::Own(simulation) => simulation.snapshot(),
+            Self::Hosted(mechanism) => mechanism.snapshot(),
+        }
+    }
+
+    /// [s] Time, counted from the start.
+    pub fn time(&self) -> f64 {
+        match self {
+            Self::Own(simulation) => simulation.time(),
+            Self::Hosted(mechanism) => mechanism.time(),
+        }
+    }
+
+    /// Passes on the inputs of this moment.
+    pub fn take(&mut self, inputs: &mut InputLines) {
+        match self {
+            Self::Own(simulation) => inputs.pass_on(simulation.as_mut()),
+            Self::Hosted(mechanism) => mechanism.set_inputs(inputs.values(mechanism.time())),
+        }
+    }
+
+    /// Outputs.
+    pub fn outputs(&mut self) -> Outputs {
+        match self {
+            Self::Own(simulation) => simulation.outputs(),
+            Self::Hosted(mechanism) => mechanism.outputs(),
+        }
+    }
+
+    /// Their time derivatives.
+    pub fn output_rates(&mut self) -> Outputs {
+        match self {
+            Self::Own(simulation) => simulation.output_rates(),
+            Self::Hosted(mechanism) => mechanism.output_rates(),
+        }
+    }
+
+    /// Their derivatives with respect to the inputs, along `seed`.
+    pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
+        match self {
+            Self::Own(simulation) => simulation.output_sensitivity(seed),
+            Self::Hosted(mechanism) => mechanism.output_sensitivity(seed),
+        }
+    }
+
+    /// States and their rates.
+    pub fn state_values(&mut self) -> StateValues {
+        let mut values = StateValues { count: 0, states: [0.0; MAX_STATES], rates: [0.0; MAX_STATES] };
+        match self {
+            Self::Own(simulation) => values.count = simulation.write_states(&mut values.states, &mut values.rates),
+            Self::Hosted(mechanism) => {
+                let states = mechanism.states();
+                values.count = states.len();
+                values.states[..states.len()].copy_from_slice(states);
+                mechanism.write_rates(&mut values.rates[..values.count]);
+            }
+        }
+        values
+    }
+}

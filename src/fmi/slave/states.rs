@@ -1,0 +1,72 @@
+//! Continuous states on the FMU's face: their variables, and which parameters decide how many there are.
+
+use super::error::VariableError;
+use super::variables::{DERIVATIVES, STATES, Variable};
+use crate::integrator::MAX_STATES;
+use crate::model::coordinates::{Quantity, Role, StateVariable, event_count, state_variables};
+use crate::model_description::exchange::{Exchange, FIRST_DERIVATIVE, FIRST_STATE, State};
+use crate::scene::{Method, Scene};
+use crate::simulation::nominals;
+
+const _: () = assert!(STATES.len() == MAX_STATES && DERIVATIVES.len() == MAX_STATES, "a variable for every state");
+
+/// The state or derivative of this value reference, if it is one's.
+pub fn variable(reference: u32) -> Option<&'static Variable> {
+    let of = |list: &'static [Variable], first: u32| {
+        reference.checked_sub(first).and_then(|place| list.get(usize::try_from(place).ok()?))
+    };
+    of(STATES, FIRST_STATE).or_else(|| of(DERIVATIVES, FIRST_DERIVATIVE))
+}
+
+/// Whether another integrator can have the scene's equations: rigid contacts have none.
+pub fn can_be_exchanged(scene: &Scene) -> bool {
+    scene.solver.method != Method::Moreau
+}
+
+/// What the description of a package of this scene says for model exchange, if it offers that.
+pub fn exchange(scene: &Scene) -> Option<Exchange> {
+    can_be_exchanged(scene).then(|| {
+        let variables = state_variables(scene);
+        let states = variables.iter().enumerate().zip(nominals(scene));
+        let states = states.map(|((place, variable), nominal)| state(&variables, place, variable, nominal));
+        Exchange { states: states.collect(), indicators: event_count(scene) }
+    })
+}
+
+/// Refuses a scene whose states or event indicators are not those of the packaged one; `name` is the parameter that made
+/// the difference.
+pub fn check_structure(packaged: &Scene, scene: &Scene, name: &'static str) -> Result<(), VariableError> {
+    let names = |scene| state_variables(scene).into_iter().map(|state| state.name);
+    let same = names(packaged).eq(names(scene)) && event_count(packaged) == event_count(scene);
+    if same && can_be_exchanged(scene) { Ok(()) } else { Err(VariableError::Structure(name)) }
+}
+
+fn state(all: &[StateVariable], place: usize, variable: &StateVariable, nominal: f64) -> State {
+    let StateVariable { name, description, quantity, role } = variable;
+    let (of_type, rate_type) = match quantity {
+        Quantity::Length => ("Length", "Velocity"),
+        Quantity::Angle => ("Angle", "RotationalSpeed"),
+        Quantity::Velocity => ("Velocity", "Acceleration"),
+        Quantity::AngularVelocity => ("RotationalSpeed", "AngularAcceleration"),
+        Quantity::Energy => ("Energy", "Power"),
+    };
+    let places_of = |wanted: fn(Role) -> bool| {
+        all.iter().enumerate().filter(move |(_, state)| wanted(state.role)).map(|(place, _)| place)
+    };
+    let moving = |role: Role| matches!(role, Role::Position(_) | Role::Rate);
+    let (feels, feels_inputs) = match *role {
+        Role::Position(rate) => (vec![rate], false),
+        Role::Rate | Role::Sum => (places_of(|role| role != Role::Sum).collect(), true),
+        Role::Bristle => (places_of(moving).chain([place]).collect(), false),
+    };
+    State {
+        name: format!("state.{name}"),
+        description: description.clone(),
+        of_type,
+        rate_type,
+        nominal,
+        unbounded: *quantity == Quantity::Angle,
+        feels,
+        feels_inputs,
+    }
+}
