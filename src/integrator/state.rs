@@ -133,15 +133,17 @@ impl<D: Copy> SolverState<D> {
     pub fn ends(&mut self) -> (&StepPoint<D>, &mut StepPoint<D>) {
         let free = self.free();
         let [start, end] =
-            self.points.get_disjoint_mut([self.start, free]).expect("the attempt has a place of its own");
+            self.points.get_disjoint_mut([self.start, free]).expect("the attempt is not the start of the step");
         (start, end)
     }
 
     /// Start and end of the last step, and the point to which an attempt writes its end. The step must have a length.
     pub fn all_ends(&mut self) -> (&StepPoint<D>, &StepPoint<D>, &mut StepPoint<D>) {
         let free = self.free();
-        let [start, end, attempt] =
-            self.points.get_disjoint_mut([self.start, self.end, free]).expect("a step that has a length has two ends");
+        let [start, end, attempt] = self
+            .points
+            .get_disjoint_mut([self.start, self.end, free])
+            .expect("start and end of a step with a length differ");
         (start, end, attempt)
     }
 
@@ -149,8 +151,7 @@ impl<D: Copy> SolverState<D> {
     pub fn front_mut(&mut self) -> &mut StepPoint<D> {
         if self.front == self.end || self.front == self.start {
             let free = self.free();
-            let [front, own] =
-                self.points.get_disjoint_mut([self.front, free]).expect("the front gets a place of its own");
+            let [front, own] = self.points.get_disjoint_mut([self.front, free]).expect("a free point is not the front");
             own.copy_from(front);
             self.front = free;
         }

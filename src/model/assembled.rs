@@ -40,7 +40,7 @@ impl Model {
     pub fn assemble(scene: &Scene) -> Self {
         let mechanism = Mechanism::assemble(scene);
         let (structure, states) = (mechanism.structure, mechanism.states());
-        assert!(states <= MAX_STATES, "room for every state");
+        assert!(states <= MAX_STATES, "a model has at most MAX_STATES states");
         let scale = Scale::of(scene);
         let p = mechanism.positions();
         let mut scales = vec![0.0; states];

@@ -67,7 +67,7 @@ impl fmt::Display for SlotError {
                 write!(f, "the library's scene is of version {version}, not {VERSION}")
             }
             Self::Length(length) => {
-                write!(f, "the library's scene has {length} bytes, not {PAYLOAD} and a table's")
+                write!(f, "the library's scene has {length} bytes, not {PAYLOAD} and those of a modal table")
             }
             Self::Checksum => f.write_str("the library's scene is damaged"),
             Self::Value(refusal) => write!(f, "the library's scene: {refusal}"),

@@ -38,7 +38,7 @@ impl Run {
         let mut y = vec![0.0; n];
         model.write_start(pose, &mut y);
         let conditions = Conditions { contacts: model.start_contacts(0.0, &y), inputs };
-        let method = named(scene.solver.method.name(), n).expect("every declared method is made");
+        let method = named(scene.solver.method.name(), n).expect("every declared method is implemented");
         let integrator = Integrator::start(model.as_ref(), method, settings, 0.0, &y, conditions);
         let Scale { length, frequency, .. } = Scale::of(scene);
         Self { model, integrator, observer: Observer::new(scene), approach_scale: length * frequency }

@@ -99,7 +99,7 @@ impl Modes {
 fn array<const N: usize>(list: &[f64]) -> &[f64; N] {
     match list.first_chunk() {
         Some(array) => array,
-        None => unreachable!("a rod's lists are read in the arrays of their room"),
+        None => unreachable!("a rod's lists have the sizes of its capacity"),
     }
 }
 

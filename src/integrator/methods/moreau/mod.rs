@@ -59,7 +59,10 @@ pub struct Moreau<D> {
 impl<D: Copy> Moreau<D> {
     /// Starts from the state `y` at `t`; `open` is the discrete state of the system with every contact open.
     pub fn start(settings: Settings, t: f64, y: &[f64], open: D) -> Self {
-        assert!(y.len() <= MAX_RIGID_CONTACT_STATES, "at most as many states as a rigid mechanism has");
+        assert!(
+            y.len() <= MAX_RIGID_CONTACT_STATES,
+            "a system with rigid contacts has at most MAX_RIGID_CONTACT_STATES states"
+        );
         // The method does not use rates.
         let point = StepPoint::new(t, y, Impulses::none(t, y));
         let mut state = SolverState::new(&point, settings.fixed_step);
