@@ -101,7 +101,7 @@ fn instance() -> Instance {
     let (name, guid) = (CString::new("fuzz").expect("no zero"), CString::new(guid).expect("no zero"));
     let request =
         Request { name: Some(&name), fmu_type: 1, guid: Some(&guid), resource_location: None, logging_on: false };
-    Instance::instantiate(&request, Box::new(Silent)).expect("an instance")
+    Instance::instantiate(&request, Box::new(Silent), None).expect("an instance")
 }
 
 /// The bytes of an instance with joints, drive, method and rod by the bits of `kind`, after some steps.
