@@ -6,6 +6,9 @@ use slidercrank::fmi::v2::Status;
 const USED: &str = "solver.tolerance_used";
 const PACKAGED: f64 = 1e-6;
 
+/// Calls of an importer.
+type Calls = fn(&Slave);
+
 fn set_up(slave: &Slave, tolerance: Option<f64>) {
     let defined = i32::from(tolerance.is_some());
     assert_eq!(slave.setup_raw(defined, tolerance.unwrap_or(1e-2), 0.0, 0, 0.0), Status::Ok);
@@ -35,7 +38,7 @@ fn a_tolerance_that_the_importer_sets_wins_whenever_it_is_set() {
     let nothing = |_: &Slave| ();
     let tight = run(|slave| own(slave, 1e-9), nothing);
     assert_eq!(tight.0, 1e-9);
-    let orders: [(fn(&Slave), fn(&Slave)); 4] = [
+    let orders: [(Calls, Calls); 4] = [
         // FMPy, whose experiment always has the model description's tolerance.
         (
             |slave| {

@@ -192,6 +192,7 @@ fn lend(bytes: &[u8]) -> Bytes {
 }
 
 #[cfg(test)]
+#[allow(clippy::panic, reason = "a fault on purpose")]
 mod tests {
     use super::super::offered::TABLE;
     use super::*;
