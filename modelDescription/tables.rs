@@ -125,13 +125,12 @@ pub fn variables(declaration: &Declaration) -> String {
         line(&mut out, &format!("    Variable {{ name: {name:?}, access: {access} }},"));
     }
     line(&mut out, "];");
-    for (list, first, of) in [
-        ("STATES", FIRST_STATE, ""),
-        ("DERIVATIVES", FIRST_DERIVATIVE, "derivative of "),
-    ] {
+    for (list, first, of) in [("STATES", FIRST_STATE, ""), ("DERIVATIVES", FIRST_DERIVATIVE, "derivative of ")] {
         line(
             &mut out,
-            &format!("/// Continuous states or their derivatives; the first has the value reference {first}.\npub static {list}: &[Variable] = &["),
+            &format!(
+                "/// Continuous states or their derivatives; the first has the value reference {first}.\npub static {list}: &[Variable] = &["
+            ),
         );
         let access = if of.is_empty() { "State" } else { "Derivative" };
         for place in 0..MOST_STATES {

@@ -18,9 +18,7 @@ use super::error::SimulationError;
 use super::observation::observe;
 use super::record::Discrete;
 use super::start::pose;
-use crate::integrator::{
-    EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, Reader, Snapshot, Triggered,
-};
+use crate::integrator::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, Reader, Snapshot, Triggered};
 use crate::math::Real;
 use crate::model::coordinates::event_count;
 use crate::model::drive::InputSignal;
@@ -93,7 +91,8 @@ impl HostedMechanism {
     pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
         if scene.solver.method == Method::Moreau {
             return Err(SimulationError::Scene(
-                "solver.method = moreau steps over rigid contacts, which have no equations for another integrator".into(),
+                "solver.method = moreau steps over rigid contacts, which have no equations for another integrator"
+                    .into(),
             ));
         }
         let (pose, model) = (pose(scene)?, model(scene));
@@ -198,9 +197,8 @@ impl HostedMechanism {
         let mut rates = [0.0; MAX_STATES];
         let rates = &mut rates[..states.len()];
         self.write_rates(rates);
-        let mut slopes = slopes(model.as_ref(), *time, states, rates, |t, y| {
-            observe(model.as_ref(), observer, conditions, t, y)
-        });
+        let mut slopes =
+            slopes(model.as_ref(), *time, states, rates, |t, y| observe(model.as_ref(), observer, conditions, t, y));
         observer.set_known_rates(&model.evaluation(conditions, *time, states), &mut slopes);
         slopes
     }

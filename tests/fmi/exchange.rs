@@ -67,6 +67,13 @@ fn states_and_their_derivatives_are_variables_too() {
     let derivatives = slave.derivatives(STATES);
     assert_eq!(derivatives, [real(&slave, FIRST_DERIVATIVE), real(&slave, FIRST_DERIVATIVE + 1)]);
     assert_eq!(derivatives, [-30.0, slave.get("crank.acceleration")]);
+    let set = |reference: u32, value: f64| {
+        // SAFETY: live component, arrays of one entry.
+        unsafe { (slave.api.SetReal)(slave.c, &reference, 1, &value) }
+    };
+    assert_eq!([set(FIRST_STATE + 1, -40.0), set(FIRST_DERIVATIVE, 1.0)], [Status::Ok, Status::Error]);
+    assert_eq!((slave.states(STATES), slave.get("crank.speed")), (vec![1.25, -40.0], -40.0));
+    slave.log.take();
     assert_eq!(slave.indicators(1), [1.0], "no rod of this length comes across the guide");
     // One more than there are is none.
     let mut value = 0.0;
@@ -80,7 +87,8 @@ fn co_simulation_tells_states_and_derivatives_as_well() {
     let slave = Slave::running();
     slave.steps(0.0, 1e-4, 7);
     // With a worn slider pin: the slider's place, then angles of crank and rod.
-    for (state, output) in [(0, "slider.x"), (1, "crank.angle"), (2, "rod.angle"), (3, "slider.v"), (4, "crank.speed")] {
+    for (state, output) in [(0, "slider.x"), (1, "crank.angle"), (2, "rod.angle"), (3, "slider.v"), (4, "crank.speed")]
+    {
         let (told, seen) = (real(&slave, FIRST_STATE + state), slave.get(output));
         assert!((told - seen).abs() <= 1e-12 * seen.abs(), "{output}: {told} for {seen}");
     }

@@ -59,8 +59,7 @@ impl Host {
     /// The state after a step of `h`.
     fn stepped(&mut self, h: f64) -> Vec<f64> {
         let (t, y) = (self.t, self.y.clone());
-        let along =
-            |k: &[f64], part: f64| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + part * h * k).collect() };
+        let along = |k: &[f64], part: f64| -> Vec<f64> { y.iter().zip(k).map(|(y, k)| y + part * h * k).collect() };
         let k1 = self.rates(t, &y);
         let k2 = self.rates(t + 0.5 * h, &along(&k1, 0.5));
         let k3 = self.rates(t + 0.5 * h, &along(&k2, 0.5));
@@ -233,8 +232,15 @@ fn derivatives_along_states_are_differences_and_declared() {
                 let difference = (after[i] - before[i]) / (2.0 * half);
                 let scale = nominals[i] / nominals[known] * 1e4 + before[i].abs() * 1e-9 / half;
                 let error = (along[i] - difference).abs();
-                assert!(error <= 1e-5 * difference.abs() + 1e-4 * scale, "{name}: {i} by {known}: {} {difference}", along[i]);
-                assert!(along[i] == 0.0 || exchange.states[i].feels.contains(&known), "{name}: {i} by {known} undeclared");
+                assert!(
+                    error <= 1e-5 * difference.abs() + 1e-4 * scale,
+                    "{name}: {i} by {known}: {} {difference}",
+                    along[i]
+                );
+                assert!(
+                    along[i] == 0.0 || exchange.states[i].feels.contains(&known),
+                    "{name}: {i} by {known} undeclared"
+                );
                 compared += usize::from(along[i] != 0.0);
             }
         }

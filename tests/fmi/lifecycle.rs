@@ -22,7 +22,13 @@ fn allowed(state: State) -> Vec<&'static [Call]> {
     match state {
         State::StartAndEnd => vec![ANY_TIME, &[Instantiate]],
         State::Instantiated => {
-            vec![ALIVE, SAVING, WRITING, READING, &[SetupExperiment, EnterInitializationMode, SetRealInputDerivatives, GetNominalsOfContinuousStates]]
+            vec![
+                ALIVE,
+                SAVING,
+                WRITING,
+                READING,
+                &[SetupExperiment, EnterInitializationMode, SetRealInputDerivatives, GetNominalsOfContinuousStates],
+            ]
         }
         State::InitializationMode => vec![
             ALIVE,

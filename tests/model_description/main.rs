@@ -73,7 +73,11 @@ const SEEDS: [(&str, &str, &str); 29] = [
     ("numberOfEventIndicators=\"1\"", "", "numberOfEventIndicators"),
     ("<Derivatives>", "<Derivatives><Unknown index=\"1\"/>", "Derivatives"),
     ("name=\"der(state.crank.angle)\"", "name=\"der(state.crank.angle\"", "structured"),
-    ("unit=\"rad/s\" displayUnit=\"rpm\" derivative=\"", "unit=\"rad/s\" displayUnit=\"rpm\" derivative=\"1", "derivatives"),
+    (
+        "unit=\"rad/s\" displayUnit=\"rpm\" derivative=\"",
+        "unit=\"rad/s\" displayUnit=\"rpm\" derivative=\"1",
+        "derivatives",
+    ),
     ("variableNaming", "generationDateAndTime=\"2026-01-01T00:00:00+00:00\" variableNaming", "date"),
     ("declaredType=\"Torque\"", "declaredType=\"Torc\"", "declaredType"),
     ("<Outputs>\n      <Unknown index=\"3\"", "<Outputs>\n      <Unknown index=\"4\"", "Outputs"),
@@ -147,7 +151,9 @@ fn modes_and_energies_feel_no_input_at_once() {
     let names: Vec<&str> = energies.map(|row| row.name).chain(["rod.deflection", "rod.stretch"]).collect();
     assert_eq!(names.len(), 16);
     for name in names {
-        assert!(entry("Outputs", name).iter().all(|known| ![index("crank.torque"), index("slider.load")].contains(known)));
+        assert!(
+            entry("Outputs", name).iter().all(|known| ![index("crank.torque"), index("slider.load")].contains(known))
+        );
         let at_start = entry("InitialUnknowns", name);
         let counts = ["energy.kinetic", "energy.potential", "energy.gravity", "energy.contact"].contains(&name);
         assert_eq!(at_start.contains(&index("energy.audit")), counts, "{name}");

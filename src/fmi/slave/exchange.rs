@@ -1,11 +1,11 @@
 //! Model exchange: what a slave does for an importer that integrates. Nothing here allocates but a directional derivative.
 
 use super::Slave;
-use super::access::{finite, finite_output, real_input, real_output, variable};
+use super::access::{Permission, finite, finite_output, real_input, real_output, variable};
 use super::course::{Course, Interface};
 use super::error::{Error, TimeError, VariableError};
 use super::states::{can_be_exchanged, check_structure};
-use super::variables::{Access, DERIVATIVES, STATES};
+use super::variables::{Access, DERIVATIVES, STATES, Variable};
 use crate::integrator::MAX_STATES;
 use crate::model::signals::Inputs;
 use crate::scene::Scene;
@@ -68,6 +68,26 @@ impl Slave {
         Ok(())
     }
 
+    /// The place of a state that may be set by its value reference: where the importer integrates, once initialization is
+    /// over. The standard has another function for that, which some importers leave aside.
+    pub(super) fn settable_state(&self, variable: &Variable, permission: Permission) -> Option<usize> {
+        match (&variable.access, &self.course) {
+            (Access::State(place), Some(Course::Hosted(mechanism))) if self.initialized && permission.inputs => {
+                Some(*place).filter(|place| *place < mechanism.states().len())
+            }
+            _ => None,
+        }
+    }
+
+    /// Sets those states that have a new value.
+    pub(super) fn take_states(&mut self, states: &[Option<f64>; MAX_STATES]) {
+        if let Some(Course::Hosted(mechanism)) = &mut self.course {
+            for (state, new) in mechanism.states_mut().iter_mut().zip(states) {
+                *state = new.unwrap_or(*state);
+            }
+        }
+    }
+
     /// Writes the continuous states, of which there are as many.
     pub fn write_states(&mut self, states: &mut [f64]) -> Result<(), Error> {
         states.copy_from_slice(self.hosted()?.states());
@@ -125,7 +145,9 @@ impl Slave {
             let variable = variable(known)?;
             finite(variable, seed)?;
             match variable.access {
-                Access::State(place) => *direction.states.get_mut(place).ok_or(VariableError::Absent(variable.name))? += seed,
+                Access::State(place) => {
+                    *direction.states.get_mut(place).ok_or(VariableError::Absent(variable.name))? += seed
+                }
                 Access::Input { .. } => {
                     let input = real_input(variable)?;
                     let sum = (input.get)(&direction.inputs) + seed;

@@ -31,6 +31,7 @@ pub use error::Error;
 pub use settings::Settings;
 pub use severity::Severity;
 
+use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::simulation::Snapshot;
@@ -131,9 +132,7 @@ impl Slave {
                 Access::RealOutput(get) => finite_output(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
-                Access::State(place) => {
-                    finite_output(variable, of_state(*place, variable.name, StateValues::state)?)?
-                }
+                Access::State(place) => finite_output(variable, of_state(*place, variable.name, StateValues::state)?)?,
                 Access::Derivative(place) => {
                     finite_output(variable, of_state(*place, variable.name, StateValues::rate)?)?
                 }
@@ -154,8 +153,13 @@ impl Slave {
     ) -> Result<(), Error> {
         // Inputs are set every step: the scene is copied only where one of its parameters is set.
         let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.elapsed());
+        let mut states = [None; MAX_STATES];
         for (&reference, &value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;
+            if let Some(place) = self.settable_state(variable, permission) {
+                states[place] = Some(finite(variable, convert(value))?);
+                continue;
+            }
             permission.check_write(variable)?;
             let value = finite(variable, convert(value))?;
             match &variable.access {
@@ -174,6 +178,7 @@ impl Slave {
         if let Some(scene) = scene {
             self.settings.scene = scene;
         }
+        self.take_states(&states);
         self.drop_what_followed_from_settings();
         Ok(())
     }

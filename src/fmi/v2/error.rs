@@ -3,8 +3,8 @@
 use super::lifecycle::State;
 use super::status_kind::StatusKind;
 use crate::fmi::slave;
-use crate::fmi::slave::{Interface, Severity};
 use crate::fmi::slave::error::SavedStateError;
+use crate::fmi::slave::{Interface, Severity};
 use crate::scene::slot::SlotError;
 use std::fmt;
 
