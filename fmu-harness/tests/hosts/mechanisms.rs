@@ -55,6 +55,8 @@ fn texts() -> Vec<(String, String)> {
         ("bristles", format!("{BODIES}{}", with("CT", "friction = { law = \"lugre\" }"))),
         ("faces", format!("{BODIES}{}", with("T", "surface = \"foundation\"\nwidth = \"20 mm\""))),
         ("flexible", format!("{bar}{modes}{}", with("C", ""))),
+        // Without any state.
+        ("prescribed", BODIES.replace("\"torque\"", "\"speed\"")),
         ("driven", format!("{}{}", BODIES.replace("\"torque\"", "\"speed\""), with("C", ""))),
         ("rigid", format!("{BODIES}[solver]\nmethod = \"moreau\"\n{}", with("C", ""))),
     ] {

@@ -17,7 +17,7 @@ from pathsim_fmi import ModelExchangeFMU
 
 MECHANISMS = Path(os.environ["SLIDERCRANK_FMUS"]) / "mechanisms"
 SIXTEEN = ["".join(c for bit, c in enumerate("ABCT") if bits >> bit & 1) for bits in range(16)]
-NAMES = [f"joints-{letters}" for letters in SIXTEEN] + ["bristles", "faces", "flexible", "driven"]
+NAMES = [f"joints-{letters}" for letters in SIXTEEN] + ["bristles", "faces", "flexible", "driven", "prescribed"]
 
 STOP, STEP = 1e-3, 1e-5  # some impacts, too few for motions that began alike to part
 OUTPUTS = ["slider.x", "slider.v", "crank.angle", "crank.speed"]

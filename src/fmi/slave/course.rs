@@ -21,7 +21,7 @@ pub enum Course {
     /// By an integrator of ours.
     Own(Simulation),
     /// By the importer's.
-    Hosted(HostedMechanism),
+    Hosted(Box<HostedMechanism>),
 }
 
 /// States and their rates.
@@ -48,7 +48,7 @@ impl Course {
     pub fn start(interface: Interface, scene: &Scene, inputs: &mut InputLines) -> Result<Self, Error> {
         Ok(match interface {
             Interface::CoSimulation => Self::Own(inputs.start(|inputs| Simulation::start(scene, inputs))?),
-            Interface::ModelExchange => Self::Hosted(HostedMechanism::start(scene, inputs.values(0.0))?),
+            Interface::ModelExchange => Self::Hosted(Box::new(HostedMechanism::start(scene, inputs.values(0.0))?)),
         })
     }
 
@@ -56,7 +56,7 @@ impl Course {
     pub fn restore(interface: Interface, scene: &Scene, snapshot: &Snapshot) -> Result<Self, Error> {
         Ok(match interface {
             Interface::CoSimulation => Self::Own(Simulation::restore(scene, snapshot)?),
-            Interface::ModelExchange => Self::Hosted(HostedMechanism::restore(scene, snapshot)?),
+            Interface::ModelExchange => Self::Hosted(Box::new(HostedMechanism::restore(scene, snapshot)?)),
         })
     }
 

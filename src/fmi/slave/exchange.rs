@@ -7,7 +7,7 @@ use super::error::{Error, TimeError, VariableError};
 use super::states::{can_be_exchanged, check_structure};
 use super::variables::{Access, DERIVATIVES, STATES, Variable};
 use crate::integrator::MAX_STATES;
-use crate::model::signals::Inputs;
+use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::simulation::{Direction, HostedMechanism, Update};
 
@@ -167,7 +167,7 @@ impl Slave {
             }
         }
         let mechanism = self.hosted()?;
-        let outputs = of_outputs.then(|| mechanism.outputs_along(&direction)).unwrap_or_default();
+        let outputs = if of_outputs { mechanism.outputs_along(&direction) } else { Outputs::default() };
         let mut rates = [0.0; MAX_STATES];
         if of_rates {
             mechanism.write_rates_along(&direction, &mut rates[..states]);
