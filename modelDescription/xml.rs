@@ -73,7 +73,8 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
                 let states = |kind: &Kind| package.exchange.filter(|_| matches!(kind, Kind::Real { .. }));
                 unknowns(xml, declaration, |kind, depends, _| Some((depends.to_vec(), states(kind))))
             })?;
-            if let Some(exchange) = package.exchange {
+            // The schema takes no list without entries: an ideal mechanism at a prescribed speed has no states.
+            if let Some(exchange) = package.exchange.filter(|exchange| !exchange.states.is_empty()) {
                 parent(xml, "Derivatives", vec![], |xml| exchange::derivatives(xml, declaration, exchange))?;
             }
             parent(xml, "InitialUnknowns", vec![], |xml| {

@@ -16,8 +16,8 @@
 //!   a component is lent to one call at a time by [`v2::abi::component`], and panics end in
 //!   [`v2::abi::panic_guard`].
 //!
-//! A new kind of interface within FMI 2.0, such as model exchange, has its rows in `v2/lifecycle.rs`
-//! and its entries in `v2/abi/functions.rs` already; what it computes belongs to the slave.
+//! A slave serves co-simulation or model exchange ([`slave::Interface`]): an integrator of ours moves its mechanism, or the
+//! importer's does ([`slave::course`]). The rows of both kinds are in one table, `v2/lifecycle.rs`.
 //!
 //! Dependencies point one way: a version imports [`slave`], and [`slave`] imports no version.
 //! `unsafe` lives in `abi` alone, and no panic crosses it.

@@ -67,6 +67,13 @@ fn states_and_their_derivatives_are_variables_too() {
     let derivatives = slave.derivatives(STATES);
     assert_eq!(derivatives, [real(&slave, FIRST_DERIVATIVE), real(&slave, FIRST_DERIVATIVE + 1)]);
     assert_eq!(derivatives, [-30.0, slave.get("crank.acceleration")]);
+    let set = |reference: u32, value: f64| {
+        // SAFETY: live component, arrays of one entry.
+        unsafe { (slave.api.SetReal)(slave.c, &reference, 1, &value) }
+    };
+    assert_eq!([set(FIRST_STATE + 1, -40.0), set(FIRST_DERIVATIVE, 1.0)], [Status::Ok, Status::Error]);
+    assert_eq!((slave.states(STATES), slave.get("crank.speed")), (vec![1.25, -40.0], -40.0));
+    slave.log.take();
     assert_eq!(slave.indicators(1), [1.0], "no rod of this length comes across the guide");
     // One more than there are is none.
     let mut value = 0.0;

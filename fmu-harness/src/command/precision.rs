@@ -4,6 +4,7 @@ use super::{out_directory, shown};
 use crate::host::Fmu;
 use crate::package::Stock;
 use crate::precision::diagram::{Budget, Diagram};
+use crate::precision::exchange::{self, ExchangePoint};
 use crate::precision::hosts::{self, HostPoint};
 use crate::precision::ladder::{methods, rungs};
 use crate::precision::reference::Reference;
@@ -30,7 +31,7 @@ const DURATIONS: RangeInclusive<f64> = 1e-4..=1e4;
 /// Every scene is packaged and the packaged file is run in this process, on one thread; the fastest of several runs
 /// counts. An error is the largest position error over the clearance, against a reference solution that two methods of
 /// different orders agree on. Runs that fail or are too dear are drawn too. Where there is a Python environment, FMPy
-/// runs the same files at three communication steps. Writes precision.csv, precision.md and precision-SCENE.svg.
+/// runs the same files at three communication steps, and its CVode in model exchange. Writes precision.csv, precision.md and precision-SCENE.svg.
 #[derive(Args)]
 pub struct Precision {
     /// One scene in place of six: the name of a shipped one, or a .toml file
@@ -80,15 +81,17 @@ impl Precision {
         let runs: usize = methods().0.into_iter().map(|method| rungs(method, self.quick).len()).sum();
         let style = ProgressStyle::with_template("{msg:34} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4}")?;
         let bar = ProgressBar::new((scenes.len() * (runs + 1)) as u64).with_style(style);
-        let (mut diagrams, mut points) = (Vec::new(), Vec::new());
+        let (mut diagrams, mut points, mut exchanged) = (Vec::new(), Vec::new(), Vec::new());
         for scene in &scenes {
             let scenario = Scenario::find(scene)?;
-            let (diagram, more) = self.scene(&scenario, &stock, &python, &out, &bar).with_context(|| scene.clone())?;
+            let (diagram, more, exchange) =
+                self.scene(&scenario, &stock, &python, &out, &bar).with_context(|| scene.clone())?;
             diagrams.push(diagram);
             points.extend(more);
+            exchanged.extend(exchange);
         }
         bar.finish_and_clear();
-        write(&diagrams, &points, &out, section)
+        write(&diagrams, &points, &exchanged, &out, section)
     }
 
     fn scene(
@@ -98,7 +101,7 @@ impl Precision {
         python: &Result<PathBuf>,
         out: &Path,
         bar: &ProgressBar,
-    ) -> Result<(Diagram, Vec<HostPoint>)> {
+    ) -> Result<(Diagram, Vec<HostPoint>, Vec<ExchangePoint>)> {
         let file = out.join(format!("{}.fmu", scenario.name));
         stock.package(scenario)?.save(&file)?;
         let fmu = Fmu::open(&file)?;
@@ -113,25 +116,40 @@ impl Precision {
             bar.inc(1);
         })?;
         bar.set_message(format!("{} FMPy", scenario.name));
-        let points = match python {
-            Err(_) if !self.host => vec![],
-            _ => hosts::measure(python, &subject, &file, &ruler, &reference, diagram.span),
+        let (points, exchanged) = match python {
+            Err(_) if !self.host => (vec![], vec![]),
+            _ => (
+                hosts::measure(python, &subject, &file, &ruler, &reference, diagram.span),
+                exchange::measure(python, &subject, &file, &ruler, &reference),
+            ),
         };
         bar.inc(1);
-        Ok((diagram, points))
+        Ok((diagram, points, exchanged))
     }
 }
 
 /// Figures, tables and the CSV.
-fn write(diagrams: &[Diagram], points: &[HostPoint], out: &Path, section: Option<Section>) -> Result<()> {
+fn write(
+    diagrams: &[Diagram],
+    points: &[HostPoint],
+    exchanged: &[ExchangePoint],
+    out: &Path,
+    section: Option<Section>,
+) -> Result<()> {
     let mut written = Vec::new();
     for diagram in diagrams {
         let file = out.join(format!("precision-{}.svg", diagram.scene));
-        fs::write(&file, report::sheet(diagram).svg()?).with_context(|| format!("cannot write {}", file.display()))?;
+        fs::write(&file, report::sheet_with(diagram, exchanged).svg()?)
+            .with_context(|| format!("cannot write {}", file.display()))?;
         written.push(file);
     }
-    let tables =
-        [report::cheapest(diagrams), report::between(diagrams), report::tolerances(diagrams), report::hosts(points)];
+    let tables = [
+        report::cheapest(diagrams),
+        report::between(diagrams),
+        report::tolerances(diagrams),
+        report::hosts(points),
+        report::exchange(exchanged),
+    ];
     tables.iter().for_each(|table| println!("{}", table.print()));
     let sentences: Vec<String> = diagrams.iter().map(report::sentence).collect();
     println!("{}\n", sentences.join("\n"));

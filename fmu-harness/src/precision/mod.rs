@@ -2,10 +2,12 @@
 //!
 //! All runs go through the packaged FMU, by its C interface, in this process: what is timed is the machine code that is
 //! shipped. Errors are taken on a grid of communication points; costs at long communication steps, so that they are
-//! those of the integration alone. [`hosts`] tells what a host's communication steps add.
+//! those of the integration alone. [`hosts`] tells what a host's communication steps add,
+//! [`exchange`] what a host's own integrator makes of the same equations.
 
 pub mod choice;
 pub mod diagram;
+pub mod exchange;
 pub mod hosts;
 pub mod ladder;
 pub mod reference;

@@ -6,12 +6,15 @@ use super::table::Table;
 use super::units::three_digits;
 use crate::precision::choice::Price;
 use crate::precision::diagram::{Diagram, Point, Verdict};
+use crate::precision::exchange::ExchangePoint;
 use crate::precision::hosts::{HostPoint, METHOD, TOLERANCE};
 use crate::precision::ladder::{Rung, told};
 use anyhow::Result;
 use slidercrank::scene::Method;
 use std::path::Path;
 
+/// Model exchange under a host.
+const CVODE: &str = "CVode under FMPy";
 /// Errors that somebody may want.
 pub const ERRORS: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// Tolerances whose errors are told.
@@ -43,6 +46,24 @@ pub fn sheet(diagram: &Diagram) -> Sheet<LogLog> {
         columns: 1,
         panel_size: (920, 600),
     }
+}
+
+/// The same with what a host's own integrator made of the scene in model exchange.
+pub fn sheet_with(diagram: &Diagram, exchange: &[ExchangePoint]) -> Sheet<LogLog> {
+    let mut sheet = sheet(diagram);
+    let of_scene = exchange.iter().filter(|point| point.scene == diagram.scene);
+    let points: Vec<(f64, f64)> = of_scene
+        .filter_map(|point| point.outcome.as_ref().ok())
+        .map(|found| (found.error.max(f64::EPSILON), found.cost))
+        .collect();
+    if !points.is_empty() {
+        let role = Role::Member(sheet.legend.len());
+        sheet.legend.push((role, CVODE.into()));
+        sheet.panels.iter_mut().for_each(|panel| {
+            panel.series.push(Series { role, points: points.clone(), dots: true, odd: vec![] });
+        });
+    }
+    sheet
 }
 
 /// Where a run that reached its end is drawn; an error of 0 stands far below any reference's.
@@ -180,6 +201,26 @@ pub fn hosts(points: &[HostPoint]) -> Table {
                 three_digits(1.0 / found.total),
             ]),
             Err(why) => table.gap(vec![name, format!("not measured: {why}")], why),
+        }
+    }
+    table
+}
+
+/// What a host's own integrator makes of model exchange.
+pub fn exchange(points: &[ExchangePoint]) -> Table {
+    let mut table = Table::default();
+    table.row([CVODE, "tolerance", "error", "CPU s/s", "× real time"]);
+    for ExchangePoint { scene, tolerance, outcome } in points {
+        let name = scene.clone();
+        match outcome {
+            Ok(found) => table.row([
+                name,
+                format!("{tolerance:e}"),
+                format!("{:.0e}", found.error),
+                three_digits(found.cost),
+                three_digits(1.0 / found.cost),
+            ]),
+            Err(why) => table.line(vec![name, format!("{tolerance:e}"), why.clone(), "–".into(), "–".into()]),
         }
     }
     table

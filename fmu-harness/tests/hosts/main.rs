@@ -6,6 +6,7 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
+mod mechanisms;
 mod packages;
 mod price;
 #[macro_use]
@@ -36,6 +37,7 @@ fn python() -> &'static Path {
 files! { HOSTS:
     every_validator_accepts_the_package             "test_description.py"
     fmpy_runs_it_as_the_harness_does                "test_simulate.py"
+    importers_that_integrate_get_the_same_motion    "test_exchange.py"
     a_restored_run_is_the_run                       "test_states.py"
     no_split_of_time_changes_the_result             "test_steps.py"
     instances_know_nothing_of_each_other            "test_instances.py"

@@ -1,6 +1,7 @@
 //! All shipped scenes as FMUs, the press with its companions as an SSP package, and a run of one scene by the harness
 //! itself, made once for all tests.
 
+use crate::mechanisms::packages;
 use crate::python;
 use anyhow::Result;
 use fmu_harness::host::Fmu;
@@ -14,6 +15,8 @@ use std::sync::OnceLock;
 
 /// The scene that the harness runs, as `test_simulate.py` does.
 const RUN: &str = "wornpin";
+/// Folder of the mechanisms.
+const MECHANISMS: &str = "mechanisms";
 const STOP: f64 = 0.024;
 const STEP: f64 = 1e-5;
 
@@ -26,6 +29,9 @@ pub fn directory() -> &'static Path {
             if let Err(error) = package(&scene, &directory) {
                 eprintln!("{scene} cannot be packaged: {error:#}");
             }
+        }
+        if let Err(error) = mechanisms(&directory.join(MECHANISMS)) {
+            eprintln!("the mechanisms cannot be packaged: {error:#}");
         }
         if let Err(error) = couple(&directory) {
             eprintln!("{PRESS} cannot be packaged with its companions: {error:#}");
@@ -40,6 +46,15 @@ pub fn directory() -> &'static Path {
 fn package(scene: &str, directory: &Path) -> Result<()> {
     let package = Scenario::find(scene).and_then(|scenario| Package::make(&scenario));
     replace(&directory.join(format!("{scene}.fmu")), |file| package?.save(file))
+}
+
+/// As portable packages, which are half as large.
+fn mechanisms(directory: &Path) -> Result<()> {
+    fs::create_dir_all(directory)?;
+    for (name, bytes) in packages(&Stock::build()?.portable()) {
+        replace(&directory.join(format!("{name}.fmu")), |file| Ok(fs::write(file, bytes?)?))?;
+    }
+    Ok(())
 }
 
 fn couple(directory: &Path) -> Result<()> {

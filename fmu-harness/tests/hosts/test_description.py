@@ -32,7 +32,7 @@ def test_fmpy_has_no_complaint(every_fmu):
 def test_fmpy_validate_and_info_say_so_on_the_command_line(every_fmu):
     assert "No problems found." in printed(BIN / "fmpy", "validate", every_fmu)
     info = printed(BIN / "fmpy", "info", every_fmu)
-    assert re.search(r"FMI Type +Co-Simulation", info)
+    assert re.search(r"FMI Type +Model Exchange, Co-Simulation", info)
     assert re.search(r"Platforms .*linux64", info)
 
 

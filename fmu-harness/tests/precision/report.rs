@@ -2,9 +2,12 @@
 
 use crate::{diagram, point};
 use fmu_harness::precision::diagram::{Diagram, Point, Verdict};
+use fmu_harness::precision::exchange::{self, ExchangePoint};
 use fmu_harness::precision::hosts::{Found, HostPoint};
 use fmu_harness::report::loglog::Mark;
-use fmu_harness::report::precision::{cheapest, hosts, sentence, sheet, tolerances, write_csv};
+use fmu_harness::report::precision::{
+    cheapest, exchange as exchange_table, hosts, sentence, sheet, sheet_with, tolerances, write_csv,
+};
 use slidercrank::scene::Method;
 
 /// Runs that ended well, one that failed with its cost, one that was stopped at once.
@@ -101,4 +104,22 @@ fn the_csv_holds_every_run_in_full() {
         (cell(5, "host"), cell(5, "communication_step_s"), cell(6, "error")),
         ("FMPy".into(), "1e-4".into(), "".into())
     );
+}
+
+#[test]
+fn a_hosts_own_integrator_is_drawn_beside_the_methods() {
+    let of = |tolerance: f64, outcome: Result<exchange::Found, String>| ExchangePoint {
+        scene: "own".into(),
+        tolerance,
+        outcome,
+    };
+    let found = exchange::Found { error: 2e-4, cost: 0.5 };
+    let points = [of(1e-7, Ok(found)), of(1e-9, Err("it gave up".into()))];
+    let (alone, with) = (sheet(&mixed()), sheet_with(&mixed(), &points));
+    assert_eq!(with.panels[0].series.len(), alone.panels[0].series.len() + 1);
+    assert_eq!(with.panels[0].series.last().expect("a series").points, [(2e-4, 0.5)]);
+    assert_eq!(with.legend.len(), alone.legend.len() + 1);
+    let table = exchange_table(&points).markdown();
+    assert!(table.contains("| own | 1e-7 | 2e-4 | 0.500 | 2.00 |"), "{table}");
+    assert!(table.contains("it gave up"), "{table}");
 }

@@ -22,7 +22,7 @@ pub enum Course {
     /// By an integrator of ours.
     Own(Box<dyn Run>),
     /// By the importer's.
-    Hosted(HostedMechanism),
+    Hosted(Box<HostedMechanism>),
 }
 
 /// States and their rates.
@@ -54,7 +54,7 @@ impl Course {
     ) -> Result<Self, Error> {
         Ok(match interface {
             Interface::CoSimulation => Self::Own(inputs.start(|inputs| engine.start(scene, inputs))?),
-            Interface::ModelExchange => Self::Hosted(HostedMechanism::start(scene, inputs.values(0.0))?),
+            Interface::ModelExchange => Self::Hosted(Box::new(HostedMechanism::start(scene, inputs.values(0.0))?)),
         })
     }
 
@@ -67,7 +67,7 @@ impl Course {
     ) -> Result<Self, Error> {
         Ok(match interface {
             Interface::CoSimulation => Self::Own(engine.restore(scene, snapshot)?),
-            Interface::ModelExchange => Self::Hosted(HostedMechanism::restore(scene, snapshot)?),
+            Interface::ModelExchange => Self::Hosted(Box::new(HostedMechanism::restore(scene, snapshot)?)),
         })
     }
 

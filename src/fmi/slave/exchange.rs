@@ -1,13 +1,13 @@
 //! Model exchange: what a slave does for an importer that integrates. Nothing here allocates but a directional derivative.
 
 use super::Slave;
-use super::access::{finite, finite_output, real_input, real_output, variable};
+use super::access::{Permission, finite, finite_output, real_input, real_output, variable};
 use super::course::{Course, Interface};
 use super::error::{Error, TimeError, VariableError};
 use super::states::{can_be_exchanged, check_structure};
-use super::variables::{Access, DERIVATIVES, STATES};
+use super::variables::{Access, DERIVATIVES, STATES, Variable};
 use crate::integrator::MAX_STATES;
-use crate::model::signals::Inputs;
+use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::simulation::{Direction, HostedMechanism, Update};
 
@@ -66,6 +66,26 @@ impl Slave {
         self.hosted()?.states_mut().copy_from_slice(states);
         self.outputs = None;
         Ok(())
+    }
+
+    /// The place of a state that may be set by its value reference: where the importer integrates, once initialization is
+    /// over. The standard has another function for that, which some importers leave aside.
+    pub(super) fn settable_state(&self, variable: &Variable, permission: Permission) -> Option<usize> {
+        match (&variable.access, &self.course) {
+            (Access::State(place), Some(Course::Hosted(mechanism))) if self.initialized && permission.inputs => {
+                Some(*place).filter(|place| *place < mechanism.states().len())
+            }
+            _ => None,
+        }
+    }
+
+    /// Sets those states that have a new value.
+    pub(super) fn take_states(&mut self, states: &[Option<f64>; MAX_STATES]) {
+        if let Some(Course::Hosted(mechanism)) = &mut self.course {
+            for (state, new) in mechanism.states_mut().iter_mut().zip(states) {
+                *state = new.unwrap_or(*state);
+            }
+        }
     }
 
     /// Writes the continuous states, of which there are as many.
@@ -147,7 +167,7 @@ impl Slave {
             }
         }
         let mechanism = self.hosted()?;
-        let outputs = of_outputs.then(|| mechanism.outputs_along(&direction)).unwrap_or_default();
+        let outputs = if of_outputs { mechanism.outputs_along(&direction) } else { Outputs::default() };
         let mut rates = [0.0; MAX_STATES];
         if of_rates {
             mechanism.write_rates_along(&direction, &mut rates[..states]);

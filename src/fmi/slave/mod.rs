@@ -34,6 +34,7 @@ pub use error::Error;
 pub use settings::Settings;
 pub use severity::Severity;
 
+use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::simulation::Snapshot;
@@ -173,8 +174,13 @@ impl Slave {
         // Inputs are set every step: the scene is copied only where one of its parameters is set.
         let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.elapsed());
         let mut tolerance_set = self.settings.tolerance_set;
+        let mut states = [None; MAX_STATES];
         for (&reference, &value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;
+            if let Some(place) = self.settable_state(variable, permission) {
+                states[place] = Some(finite(variable, convert(value))?);
+                continue;
+            }
             permission.check_write(variable)?;
             let value = finite(variable, convert(value))?;
             match &variable.access {
@@ -195,6 +201,7 @@ impl Slave {
             self.settings.scene = scene;
         }
         self.settings.tolerance_set = tolerance_set;
+        self.take_states(&states);
         self.drop_what_followed_from_settings();
         Ok(())
     }

@@ -236,12 +236,13 @@ impl Instance {
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        Ok(match self.slave.interface() {
+        match self.slave.interface() {
             Interface::CoSimulation => {
                 self.slave.directional_derivative(self.state.writing(), unknowns, knowns, seeds, values)?
             }
             Interface::ModelExchange => self.slave.exchange_derivative(unknowns, knowns, seeds, values)?,
-        })
+        }
+        Ok(())
     }
 
     /// `fmi2DoStep`

@@ -1,9 +1,10 @@
 //! Which call is allowed in which state: the tables of FMI 2.0 §3.2.3 and §4.2.4 as one, one row a call.
 //!
-//! Two deviations, both towards the importer. `fmi2FreeInstance` works in the fatal state too, since
+//! Three deviations, all towards the importer. `fmi2FreeInstance` works in the fatal state too, since
 //! nothing of ours is lost by giving memory back. Reading inputs and parameters back works from
 //! instantiation on, as hosts do; so the rows of `fmi2Get…` are open there, and the rows of
-//! [`Touch`] say which variables they reach.
+//! [`Touch`] say which variables they reach. And where inputs may be set in model exchange, `fmi2SetReal` sets continuous
+//! states as `fmi2SetContinuousStates` does, which CasADi takes for granted.
 
 use crate::fmi::slave::{Interface, Permission};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! FMI 2.0 for co-simulation: the lifecycle, the statuses and the C interface around a
+//! FMI 2.0 for co-simulation and model exchange: the lifecycle, the statuses and the C interface around a
 //! [`Slave`](crate::fmi::slave::Slave).
 //!
 //! `abi` turns pointers into borrows, [`lifecycle`] says which call is allowed when, the [`Instance`]

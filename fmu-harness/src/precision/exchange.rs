@@ -1,0 +1,104 @@
+//! What an importer's own integrator makes of model exchange: error and cost of CVode under FMPy.
+//!
+//! What is timed is a host in Python, which calls the FMU for every evaluation: of its cost, the calls are the greater part.
+
+use super::Subject;
+use super::reference::Reference;
+use super::ruler::Ruler;
+use crate::inputs;
+use crate::python::{output, script};
+use crate::trajectory::Trajectory;
+use anyhow::{Context, Result, bail};
+use serde_json::{Map, Value, json};
+use slidercrank::scene::Method;
+use slidercrank::scene::profile::Profile;
+use std::fs;
+use std::path::Path;
+
+/// Relative tolerances of the host.
+pub const TOLERANCES: [f64; 4] = [1e-5, 1e-7, 1e-9, 1e-11];
+/// [s] Interval of outputs.
+const STEP: f64 = 1e-5;
+
+/// One scene at one tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExchangePoint {
+    /// The scene.
+    pub scene: String,
+    /// The host's relative tolerance.
+    pub tolerance: f64,
+    /// What was found, or why nothing was.
+    pub outcome: Result<Found, String>,
+}
+
+/// What CVode found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// The largest error in the window.
+    pub error: f64,
+    /// [s/s] CPU time of the host's process per simulated second.
+    pub cost: f64,
+}
+
+/// Runs the scene in `file` under the FMPy of the interpreter `python`.
+pub fn measure(
+    python: &Result<std::path::PathBuf>,
+    subject: &Subject,
+    file: &Path,
+    ruler: &Ruler,
+    reference: &Reference,
+) -> Vec<ExchangePoint> {
+    let found = match python {
+        Ok(python) => found(python, subject, file, ruler, reference).map_err(|error| format!("{error:#}")),
+        Err(error) => Err(format!("{error:#}")),
+    };
+    let outcome = |place: usize| match &found {
+        // One line of it is enough.
+        Err(why) => Err(why.lines().last().unwrap_or_default().to_owned()),
+        Ok(found) => found.get(place).cloned().unwrap_or_else(|| Err("the host left it out".to_owned())),
+    };
+    let scene = &subject.file.name;
+    let point = |(place, tolerance)| ExchangePoint { scene: scene.clone(), tolerance, outcome: outcome(place) };
+    TOLERANCES.into_iter().enumerate().map(point).collect()
+}
+
+fn found(
+    python: &Path,
+    subject: &Subject,
+    file: &Path,
+    ruler: &Ruler,
+    reference: &Reference,
+) -> Result<Vec<Result<Found, String>>> {
+    let mut constant = Map::new();
+    for input in inputs::of_scene(&subject.file.inputs) {
+        let Profile::Constant(value) = input.profile else { bail!("its inputs change, and the host has none that do") };
+        constant.insert(input.name, value.into());
+    }
+    if subject.file.scene.solver.method == Method::Moreau {
+        bail!("rigid contacts have no equations for another integrator");
+    }
+    let folder = tempfile::tempdir()?;
+    let job = json!({
+        "fmu": file,
+        "folder": folder.path(),
+        "settings": {},
+        "inputs": constant,
+        "tolerances": TOLERANCES,
+        "window": reference.window,
+        "step": STEP,
+        "kept": ruler.outputs(),
+    });
+    let order = folder.path().join("job.json");
+    fs::write(&order, job.to_string())?;
+    let answer: Value = serde_json::from_str(&output(script(python, "exchange.py").arg(&order))?)?;
+    let list = answer.as_array().context("the host's answer is no list")?;
+    let entry = |(place, entry): (usize, &Value)| -> Result<Result<Found, String>> {
+        if let Some(why) = entry["failed"].as_str() {
+            return Ok(Err(why.to_owned()));
+        }
+        let cost = entry["cost"].as_f64().context("the host does not tell `cost`")?;
+        let run = Trajectory::read_csv(&folder.path().join(format!("{place}.csv")))?;
+        Ok(Ok(Found { error: ruler.error(&run, &reference.trajectory, reference.window)?, cost }))
+    };
+    list.iter().enumerate().map(entry).collect()
+}
