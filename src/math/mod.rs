@@ -16,6 +16,7 @@ mod vec2;
 pub use dual::Dual;
 pub(crate) use each::each;
 pub use fused::Fused;
+pub(crate) use lanes::larger;
 pub use lanes::{LANES, Lanes};
 pub use real::Real;
 pub use row::{ROW, Row};
