@@ -1,6 +1,7 @@
 //! `package`: a scene as an FMU.
 
 use super::{out_directory, shown};
+use crate::package::build::Levels;
 use crate::package::platform::Platform;
 use crate::package::{self, Stock};
 use crate::scenes::Scenario;
@@ -36,7 +37,6 @@ impl Package {
         let file = self.output.clone().unwrap_or_else(|| out_directory().join(format!("{}.fmu", scenario.name)));
         let mut packages = vec![];
         for (ending, stock) in self.stocks()? {
-            let stock = if self.portable { stock.portable() } else { stock };
             packages.push((ended(&file, ending), stock.package(&scenario)?));
         }
         packages.iter().try_for_each(|(file, package)| save(package, file))
@@ -48,10 +48,11 @@ impl Package {
             if self.all_platforms { Platform::value_variants().to_vec() } else { self.platforms.clone() };
         platforms.sort();
         platforms.dedup();
+        let levels = if self.portable { Levels::Portable } else { Levels::All };
         if platforms.is_empty() {
-            Ok(vec![("", Stock::build_for_old_linux_if_ready()?)])
+            Ok(vec![("", Stock::build_for_old_linux_if_ready(levels)?)])
         } else {
-            Stock::build_for(&platforms)
+            Stock::build_for(&platforms, levels)
         }
     }
 }

@@ -58,27 +58,36 @@ pub struct Library {
     pub file: PathBuf,
 }
 
+/// Which libraries of a platform are built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Levels {
+    /// That for every processor, and that for newer ones where the platform has levels of them.
+    All,
+    /// That for every processor alone.
+    Portable,
+}
+
 /// Builds the libraries of this machine with the machine's own linker. cargo's own words go to standard error.
-pub fn own() -> Result<Vec<Library>> {
-    build(&[own_target(Platform::here()?)])
+pub fn own(levels: Levels) -> Result<Vec<Library>> {
+    build(&[own_target(Platform::here()?)], levels)
 }
 
 /// Builds the libraries of this machine, on Linux for an old one if zig is there already.
-pub fn own_for_old_linux_if_ready() -> Result<Vec<Library>> {
+pub fn own_for_old_linux_if_ready(levels: Levels) -> Result<Vec<Library>> {
     let zig = if links_for_old_linux() { tools::zig(Missing::Refuse).ok() } else { None };
     match zig {
-        Some(zig) => build(&[zig_target(Platform::here()?, zig)]),
-        None => own(),
+        Some(zig) => build(&[zig_target(Platform::here()?, zig)], levels),
+        None => own(levels),
     }
 }
 
 /// Builds the libraries of these platforms. What that takes is set up before; nothing is built if something is missing.
-pub fn of(platforms: &[Platform]) -> Result<Vec<Library>> {
+pub fn of(platforms: &[Platform], levels: Levels) -> Result<Vec<Library>> {
     let targets: Result<Vec<Target>> = platforms
         .iter()
         .map(|platform| target(*platform).with_context(|| format!("no library for {}", platform.name())))
         .collect();
-    build(&targets?)
+    build(&targets?, levels)
 }
 
 /// Sets up what it takes to build for a platform.
@@ -139,14 +148,15 @@ fn zig_target(platform: Platform, zig: PathBuf) -> Target {
 
 /// Builds all libraries of all targets. Those that one call of cargo can build are built by one; as many calls run at a time
 /// as there are processors.
-fn build(targets: &[Target]) -> Result<Vec<Library>> {
+fn build(targets: &[Target], levels: Levels) -> Result<Vec<Library>> {
     let workspace = workspace();
     let manifest = workspace.join("Cargo.toml");
     ensure!(manifest.is_file(), "the sources are gone: no {}", manifest.display());
     let mut calls: Vec<Call> = Vec::new();
     for target in targets {
         // The level is that of Linux on x86-64 alone, whose library for every processor looks for the other one.
-        let newer = (target.platform == Platform::Linux64).then_some(Some(dispatch_x86_64_v3::LEVEL));
+        let has_newer = levels == Levels::All && target.platform == Platform::Linux64;
+        let newer = has_newer.then_some(Some(dispatch_x86_64_v3::LEVEL));
         for level in [None].into_iter().chain(newer) {
             let products = target.triples.iter().map(|triple| (target.platform, *triple));
             match calls.iter_mut().find(|call| call.linker == target.linker && call.level == level) {

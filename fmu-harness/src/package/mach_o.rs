@@ -103,3 +103,46 @@ fn little(bytes: &[u8], at: usize) -> Result<u32> {
 fn big(bytes: &[u8], at: usize) -> Result<u32> {
     Ok(u32::from_be_bytes(word(bytes, at)?))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two pages of code, the second not full, and a signature of them without digests yet.
+    fn library() -> Vec<u8> {
+        const CODE: u32 = 5000;
+        let header = [MAGIC_64, 7, 3, 6, 1, 16, 0, 0, CODE_SIGNATURE, 16, CODE, 20 + 44 + 64];
+        let mut library: Vec<u8> = header.into_iter().flat_map(u32::to_le_bytes).collect();
+        library.resize(CODE as usize, 0xAB);
+        let blob = [SUPER_BLOB, 20 + 44 + 64, 1, 0, 20];
+        let directory = [CODE_DIRECTORY, 44 + 64, 0x2_0400, 2, 44, 0, 0, 2, CODE];
+        library.extend(blob.into_iter().chain(directory).flat_map(u32::to_be_bytes));
+        library.extend([32, HASH_SHA256, 0, 12, 0, 0, 0, 0]);
+        library.resize(library.len() + 64, 0);
+        library
+    }
+
+    #[test]
+    fn a_signature_has_the_digest_of_every_page_after_a_change() {
+        let mut library = library();
+        library[4500] = 1;
+        sign(&mut library).expect("a signed library");
+        let [first, second] = [&library[..4096], &library[4096..5000]].map(|page| Sha256::digest(page).to_vec());
+        assert_eq!(library[library.len() - 64..], [first, second].concat());
+        let short = library.len() - 1;
+        assert!(sign(&mut library[..short]).is_err());
+        assert!(sign(&mut [0; 64]).is_err());
+    }
+
+    #[test]
+    fn a_universal_file_tells_where_each_library_is() {
+        let one = library();
+        assert!(universal(vec![one.clone()]).expect("a library") == one);
+        let both = universal(vec![one.clone(), one.clone()]).expect("two libraries");
+        for entry in [8, 28] {
+            let [start, length] = [entry + 8, entry + 12].map(|at| big(&both, at).expect("an entry") as usize);
+            assert_eq!(start % (1 << ALIGNMENT), 0);
+            assert!(both[start..start + length] == one);
+        }
+    }
+}

@@ -11,7 +11,7 @@ pub mod tools;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use archive::Part;
-use build::Library;
+use build::{Levels, Library};
 use platform::Platform;
 use slidercrank::fmi::v2::description::documentation;
 use slidercrank::model_description::raw::Experiment;
@@ -60,18 +60,18 @@ struct Binary {
 impl Stock {
     /// Builds the library, and that for newer processors, for this machine and with its own linker.
     pub fn build() -> Result<Self> {
-        Self::of(build::own()?)
+        Self::of(build::own(Levels::All)?)
     }
 
     /// The same; on Linux for an old one, if zig is there already.
-    pub fn build_for_old_linux_if_ready() -> Result<Self> {
-        Self::of(build::own_for_old_linux_if_ready()?)
+    pub fn build_for_old_linux_if_ready(levels: Levels) -> Result<Self> {
+        Self::of(build::own_for_old_linux_if_ready(levels)?)
     }
 
     /// Builds for these platforms; a stock for every file that FMI 2.0 makes of them, and what the file's name ends in.
-    pub fn build_for(platforms: &[Platform]) -> Result<Vec<(&'static str, Self)>> {
+    pub fn build_for(platforms: &[Platform], levels: Levels) -> Result<Vec<(&'static str, Self)>> {
         let mut stocks: Vec<(&'static str, Vec<Library>)> = Vec::new();
-        for library in build::of(platforms)? {
+        for library in build::of(platforms, levels)? {
             let ending = library.platform.ending();
             match stocks.iter_mut().find(|(known, _)| *known == ending) {
                 Some((_, libraries)) => libraries.push(library),
