@@ -8,7 +8,7 @@ use fmu_harness::python::{Missing, environment};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
 
 /// What one run of the importer came to.
@@ -104,6 +104,19 @@ fn wine() -> Result<(), String> {
         compile(Command::new(tools::MINGW).args(["-O1", "-shared"]), "bcryptprimitives.c", library, &["-ladvapi32"])?;
         fs::copy(place().join(library), system.join(library)).map_err(|error| error.to_string())?;
     }
+    stay_up()
+}
+
+/// Keeps a program under Wine waiting for input until the tests end: Wine's own services then run all the time, and a
+/// program starts in a fraction of a second. FMPy gives up on a program that takes longer.
+fn stay_up() -> Result<(), String> {
+    static WAITING: OnceLock<Child> = OnceLock::new();
+    let mut command = wine_command(Path::new("cmd"));
+    command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+    let waiting = command.spawn().map_err(|error| error.to_string())?;
+    WAITING.get_or_init(|| waiting);
+    // Once another program has ended, the services are there.
+    wine_command(Path::new("cmd")).args(["/c", "exit"]).status().map_err(|error| error.to_string())?;
     Ok(())
 }
 

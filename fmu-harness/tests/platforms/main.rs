@@ -16,7 +16,7 @@ use fmu_harness::package::{Stock, build, elf, mach_o};
 use fmu_harness::python::{Missing, environment};
 use fmu_harness::scenes::{Scenario, directory, names};
 use object::read::macho::{FatArch, MachOFatFile32, MachOFile64};
-use object::{Endianness, Object};
+use object::{Endianness, NameOrOrdinal, Object};
 use scene::{Packaged, STEPS};
 use slidercrank::fmi::v2::abi::functions::Functions;
 use std::collections::BTreeSet;
@@ -258,8 +258,12 @@ fn the_library_for_macos_is_whole() {
         let slice = arch.data(&*bytes).expect("a library");
         let library = MachOFile64::<Endianness>::parse(slice).expect("a library");
         let exports = library.exports().expect("exports");
-        let names: BTreeSet<String> =
-            exports.iter().map(|export| String::from_utf8_lossy(export.name()).into_owned()).collect();
+        let names: BTreeSet<String> = exports
+            .filter_map(|export| match export.expect("an export").name() {
+                NameOrOrdinal::Name(name) => Some(String::from_utf8_lossy(name).into_owned()),
+                NameOrOrdinal::Ordinal(_) => None,
+            })
+            .collect();
         let missing: Vec<&String> = wanted.difference(&names).collect();
         assert!(missing.is_empty(), "{:?} lacks {missing:?}", arch.architecture());
         let mut signed = slice.to_vec();
