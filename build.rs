@@ -9,9 +9,18 @@ use std::{env, error::Error, fs, path::Path};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=modelDescription");
-    if env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("linux") {
+    let target = |property: &str| env::var(format!("CARGO_CFG_TARGET_{property}")).unwrap_or_default();
+    let argument = match (target("OS").as_str(), target("ENV").as_str()) {
         // A thread-local destructor that runs after the host's dlclose must still find its code.
-        println!("cargo::rustc-cdylib-link-arg=-Wl,-z,nodelete");
+        ("linux", _) => Some("-z,nodelete"),
+        // The linker's clock would make the bytes of every build others.
+        ("windows", "gnu") => Some("--no-insert-timestamp"),
+        // Or the library bears the path that it was linked at.
+        ("macos", _) => Some("-install_name,@rpath/SliderCrank.dylib"),
+        _ => None,
+    };
+    if let Some(argument) = argument {
+        println!("cargo::rustc-cdylib-link-arg=-Wl,{argument}");
     }
     let declaration = model_description::load()?;
     let starts: Vec<f64> = tables::starts(&declaration).collect();

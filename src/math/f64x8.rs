@@ -1,7 +1,7 @@
 //! Eight numbers that are computed together: the values of one quantity at eight instants of a step.
 
 use super::fused::Fused;
-use super::lanes::LANES;
+use super::lanes::{LANES, larger, smaller};
 use super::real::Real;
 use super::sin_cos::{self, multiply_add};
 use super::unroll::unroll;
@@ -235,15 +235,15 @@ impl Real for F64x8 {
     #[inline(always)]
     fn max(self, limit: f64) -> Self {
         // The limit is returned where both are equal and where the number is NaN.
-        self.each(|x| x.fast_max(f64x4::splat(limit)))
+        self.each(|x| larger(x, f64x4::splat(limit)))
     }
     #[inline(always)]
     fn min(self, limit: f64) -> Self {
-        self.each(|x| x.fast_min(f64x4::splat(limit)))
+        self.each(|x| smaller(x, f64x4::splat(limit)))
     }
     #[inline(always)]
     fn clamp(self, low: f64, high: f64) -> Self {
-        self.each(|x| f64x4::splat(low).fast_max(x)).each(|x| f64x4::splat(high).fast_min(x))
+        self.each(|x| larger(f64x4::splat(low), x)).each(|x| smaller(f64x4::splat(high), x))
     }
     #[inline(always)]
     fn choose(self, then: impl FnOnce() -> Self, other: impl FnOnce() -> Self) -> Self {

@@ -2,6 +2,7 @@
 
 use super::fused::Fused;
 use std::array;
+use wide::{CmpGt, CmpLt, f64x4};
 
 /// How many numbers a [`Lanes`] holds.
 pub const LANES: usize = 4;
@@ -17,7 +18,20 @@ pub trait Lanes<R>: Copy {
     fn numbers(self) -> [R; LANES];
 }
 
-impl Lanes<f64> for wide::f64x4 {
+/// The larger of each two; of equal ones, and where either is not a number, the second: what x86-64's instruction finds,
+/// and that of AArch64 does not.
+#[inline(always)]
+pub(crate) fn larger(a: f64x4, b: f64x4) -> f64x4 {
+    if cfg!(target_arch = "x86_64") { a.fast_max(b) } else { a.cmp_gt(b).blend(a, b) }
+}
+
+/// The smaller of each two; of equal ones, and where either is not a number, the second.
+#[inline(always)]
+pub(crate) fn smaller(a: f64x4, b: f64x4) -> f64x4 {
+    if cfg!(target_arch = "x86_64") { a.fast_min(b) } else { a.cmp_lt(b).blend(a, b) }
+}
+
+impl Lanes<f64> for f64x4 {
     #[inline(always)]
     fn of(numbers: [f64; LANES]) -> Self {
         numbers.into()

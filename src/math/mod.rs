@@ -16,6 +16,7 @@ mod vec2;
 pub use dual::Dual;
 pub use f64x8::{F64x8, ROW};
 pub use fused::{Fused, PORTABLE};
+pub(crate) use lanes::larger;
 pub use lanes::{LANES, Lanes};
 pub use real::Real;
 pub(crate) use unroll::unroll;

@@ -2,10 +2,12 @@
 
 use super::{out_directory, shown};
 use crate::host::Setting;
+use crate::package::build::Levels;
+use crate::package::platform::Platform;
 use crate::package::{self, Stock};
 use crate::scenes::Scenario;
 use anyhow::Result;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// Packages a scene as an FMU.
@@ -24,6 +26,13 @@ pub struct Package {
     /// `--set solver.portable=true` makes them too
     #[arg(long)]
     portable: bool,
+    /// Platforms that the FMU has a library for, separated by commas [default: this machine's]. FMI 2.0 has no name for
+    /// Linux on ARM: its library, for FMPy on such a machine, is in another file, SCENE-linux-aarch64.fmu
+    #[arg(long, value_delimiter = ',', value_name = "PLATFORM")]
+    platforms: Vec<Platform>,
+    /// All of these platforms
+    #[arg(long, conflicts_with = "platforms")]
+    all_platforms: bool,
 }
 
 impl Package {
@@ -31,10 +40,40 @@ impl Package {
     pub fn execute(&self) -> Result<()> {
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
         let file = self.output.clone().unwrap_or_else(|| out_directory().join(format!("{}.fmu", scenario.name)));
-        let stock = Stock::build()?;
-        let stock = if self.portable { stock.portable() } else { stock };
-        save(&stock.package(&scenario)?, &file)
+        let mut packages = vec![];
+        for (ending, stock) in self.stocks()? {
+            packages.push((ended(&file, ending), stock.package(&scenario)?));
+        }
+        packages.iter().try_for_each(|(file, package)| save(package, file))
     }
+
+    /// What is packaged, and what the names of the files end in.
+    fn stocks(&self) -> Result<Vec<(&'static str, Stock)>> {
+        let mut platforms =
+            if self.all_platforms { Platform::value_variants().to_vec() } else { self.platforms.clone() };
+        platforms.sort();
+        platforms.dedup();
+        let levels = if self.portable { Levels::Portable } else { Levels::All };
+        if platforms.is_empty() {
+            Ok(vec![("", Stock::build_for_old_linux_if_ready(levels)?)])
+        } else {
+            Stock::build_for(&platforms, levels)
+        }
+    }
+}
+
+/// The file whose name without its extension ends so.
+fn ended(file: &Path, ending: &str) -> PathBuf {
+    if ending.is_empty() {
+        return file.to_path_buf();
+    }
+    let mut name = file.file_stem().unwrap_or_default().to_owned();
+    name.push(ending);
+    if let Some(extension) = file.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    file.with_file_name(name)
 }
 
 /// Builds, packages, writes, and says what came of it.
@@ -45,6 +84,8 @@ pub fn write(scenario: &Scenario, file: &Path) -> Result<()> {
 fn save(package: &package::Package, file: &Path) -> Result<()> {
     package.save(file)?;
     let needs = package.glibc.as_ref().map(|version| format!(", needs glibc {version} or newer")).unwrap_or_default();
-    println!("{} ({} kB{needs})", shown(file), package.bytes.len().div_ceil(1000));
+    let platforms: Vec<&str> = package.platforms.iter().map(|platform| platform.name()).collect();
+    let size = package.bytes.len().div_ceil(1000);
+    println!("{} ({size} kB, for {}{needs})", shown(file), platforms.join(", "));
     Ok(())
 }

@@ -18,13 +18,20 @@ pub fn own() -> String {
     )
 }
 
-/// Names, licences and licence texts of every crate linked into the library, and of Rust's standard library.
-pub fn third_party() -> Result<String> {
+/// Names, licences and licence texts of every crate linked into the libraries for these processors, of Rust's standard
+/// library, and of what the linkers for Windows add.
+pub fn third_party(triples: &BTreeSet<&str>) -> Result<String> {
     let mut text = String::from(
         "The binary contains code of these packages beside SliderCrank's own.\n\n\
          Rust's standard library, licensed under MIT or Apache-2.0, copyright The Rust Project Developers.\n",
     );
-    let linked = linked_packages(&metadata()?)?;
+    if triples.contains("x86_64-pc-windows-gnu") {
+        text.push_str(
+            "In the library for Windows: MinGW-w64's runtime, in the public domain, and GCC's runtime library, licensed \
+             under GPL-3.0-or-later WITH GCC-exception-3.1.\n",
+        );
+    }
+    let linked = linked_packages(&metadata(triples)?)?;
     for Package { name, version, licence, .. } in &linked {
         text.push_str(&format!("{name} {version}, licensed under {licence}.\n"));
     }
@@ -58,10 +65,11 @@ struct Package {
     texts: BTreeMap<String, String>,
 }
 
-/// `cargo metadata` for the platform that cargo builds for.
-fn metadata() -> Result<Value> {
+/// `cargo metadata` for the platforms that cargo builds for.
+fn metadata(triples: &BTreeSet<&str>) -> Result<Value> {
     let mut command = build::cargo();
-    command.args(["metadata", "--format-version", "1", "--filter-platform", env!("TARGET_TRIPLE")]);
+    command.args(["metadata", "--format-version", "1"]);
+    command.args(triples.iter().flat_map(|triple| ["--filter-platform", triple]));
     let output = command.output().context("cargo cannot be started")?;
     let words = String::from_utf8_lossy(&output.stderr);
     ensure!(output.status.success(), "cargo cannot list the linked crates: {}", words.trim());

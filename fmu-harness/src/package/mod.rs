@@ -1,26 +1,30 @@
-//! Library + description + documents → a `.fmu` whose bytes depend on nothing else.
+//! Libraries + description + documents → a `.fmu` whose bytes depend on nothing else.
 
 pub mod archive;
 pub mod build;
 pub mod elf;
 mod licences;
+pub mod mach_o;
+pub mod platform;
+pub mod tools;
 
 use crate::scenes::Scenario;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use archive::Part;
-use build::Libraries;
+use build::{Levels, Library};
+use platform::Platform;
 use slidercrank::fmi::slave::states::exchange;
-use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
 use slidercrank::fmi::v2::description::documentation;
 use slidercrank::model_description::raw::Experiment;
 use slidercrank::model_description::rows::Declaration;
 use slidercrank::model_description::{self, xml};
+use slidercrank::scene::Scene;
 use slidercrank::scene::parameter::PARAMETERS;
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::slot;
 use slidercrank::scene::write::write_table;
+use std::collections::BTreeSet;
 use std::env;
-use std::env::consts::DLL_SUFFIX;
 use std::fs;
 use std::path::Path;
 
@@ -36,36 +40,80 @@ pub struct Package {
     pub bytes: Vec<u8>,
     /// Newest glibc that the Linux binary asks for.
     pub glibc: Option<String>,
+    /// Those that it has a library for.
+    pub platforms: Vec<Platform>,
 }
 
 /// What packages of all scenes have in common.
 #[derive(Clone)]
 pub struct Stock {
-    library: Vec<u8>,
-    newer: Option<Vec<u8>>,
+    binaries: Vec<Binary>,
     third_party: String,
 }
 
+/// A library of the package.
+#[derive(Clone)]
+struct Binary {
+    platform: Platform,
+    /// The level of processors that it needs, if it needs one.
+    level: Option<&'static str>,
+    /// That of each processor of the platform.
+    libraries: Vec<Vec<u8>>,
+}
+
 impl Stock {
-    /// Builds the library, and that for newer processors.
+    /// Builds the library, and that for newer processors, for this machine and with its own linker.
     pub fn build() -> Result<Self> {
-        let Libraries { every, newer } = build::libraries()?;
-        let read = |path: &Path| fs::read(path).with_context(|| format!("cannot read {}", path.display()));
-        let newer = newer.as_deref().map(read).transpose()?;
-        Ok(Self { library: read(&every)?, newer, third_party: licences::third_party()? })
+        Self::of(build::own(Levels::All)?)
+    }
+
+    /// The same; on Linux for an old one, if zig is there already.
+    pub fn build_for_old_linux_if_ready(levels: Levels) -> Result<Self> {
+        Self::of(build::own_for_old_linux_if_ready(levels)?)
+    }
+
+    /// Builds for these platforms; a stock for every file that FMI 2.0 makes of them, and what the file's name ends in.
+    pub fn build_for(platforms: &[Platform], levels: Levels) -> Result<Vec<(&'static str, Self)>> {
+        let mut stocks: Vec<(&'static str, Vec<Library>)> = Vec::new();
+        for library in build::of(platforms, levels)? {
+            let ending = library.platform.ending();
+            match stocks.iter_mut().find(|(known, _)| *known == ending) {
+                Some((_, libraries)) => libraries.push(library),
+                None => stocks.push((ending, vec![library])),
+            }
+        }
+        stocks.into_iter().map(|(ending, libraries)| Ok((ending, Self::of(libraries)?))).collect()
+    }
+
+    /// Packages are made of these libraries, which are in the order of their platforms.
+    pub fn of(libraries: Vec<Library>) -> Result<Self> {
+        let triples: BTreeSet<&str> = libraries.iter().map(|library| library.triple).collect();
+        let third_party = licences::third_party(&triples)?;
+        let mut binaries: Vec<Binary> = Vec::new();
+        for Library { platform, level, file, .. } in libraries {
+            let bytes = fs::read(&file).with_context(|| format!("cannot read {}", file.display()))?;
+            match binaries.last_mut() {
+                Some(last) if (last.platform, last.level) == (platform, level) => last.libraries.push(bytes),
+                _ => binaries.push(Binary { platform, level, libraries: vec![bytes] }),
+            }
+        }
+        Ok(Self { binaries, third_party })
     }
 
     /// The same for packages that compute the same bits on every processor.
     #[must_use]
-    pub fn portable(self) -> Self {
-        Self { newer: None, ..self }
+    pub fn portable(mut self) -> Self {
+        self.binaries.retain(|binary| binary.level.is_none());
+        self
     }
 
     /// Packages the library with the scenario's values as start values.
     pub fn package(&self, scenario: &Scenario) -> Result<Package> {
         let parts = self.parts(scenario)?;
         let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
-        Ok(Package { bytes: archive::write(&parts)?, glibc })
+        let mut platforms: Vec<Platform> = self.binaries.iter().map(|binary| binary.platform).collect();
+        platforms.dedup();
+        Ok(Package { bytes: archive::write(&parts)?, glibc, platforms })
     }
 
     /// Everything that goes into the archive, in its order.
@@ -73,30 +121,42 @@ impl Stock {
         let scene = &scenario.file.scene;
         let declaration = model_description::load().context("the declaration of the variables")?;
         let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
-        let with_scene = |library: &[u8]| -> Result<Vec<u8>> {
-            let mut library = library.to_vec();
-            slot::write(&mut library, scene)?;
-            Ok(library)
-        };
-        let identifier = &declaration.model.identifier;
         let mut parts = vec![
             Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
             Part::new("model.png", PICTURE),
-            Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), with_scene(&self.library)?),
+        ];
+        for binary in &self.binaries {
+            parts.push(binary.part(&declaration.model.identifier, scene)?);
+        }
+        parts.extend([
             Part::new("documentation/index.html", page(scenario)?),
             Part::new("documentation/scene.toml", scenario.text.as_str()),
             Part::new("documentation/licenses/license.txt", licences::own()),
             Part::new("documentation/licenses/third-party.txt", self.third_party.as_str()),
-        ];
-        if let Some(library) = &self.newer {
-            // It computes scenes that the other library hands it, so it needs none of its own.
-            let name = format!("binaries/{}/{identifier}.{}{DLL_SUFFIX}", platform()?, dispatch_x86_64_v3::LEVEL);
-            parts.insert(3, Part::new(name, library.as_slice()));
-        }
+        ]);
         if let Some(table) = &scene.rod.flexible.table {
             parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
         }
         Ok(parts)
+    }
+}
+
+impl Binary {
+    /// The file of the archive, with a scene in it.
+    fn part(&self, identifier: &str, scene: &Scene) -> Result<Part> {
+        let mut libraries = self.libraries.clone();
+        for library in &mut libraries {
+            // A library for newer processors computes scenes that the other one hands it: it needs none of its own.
+            if self.level.is_none() {
+                slot::write(library, scene)?;
+            }
+            if self.platform == Platform::Darwin64 {
+                mach_o::sign(library)?;
+            }
+        }
+        let level = self.level.map(|level| format!(".{level}")).unwrap_or_default();
+        let name = format!("binaries/{}/{identifier}{level}{}", self.platform.folder(), self.platform.affixes().1);
+        Ok(Part::new(name, mach_o::universal(libraries)?))
     }
 }
 
@@ -143,14 +203,4 @@ fn epoch() -> Result<Option<u64>> {
 fn page(scenario: &Scenario) -> Result<String> {
     let SceneFile { name, description, scene, .. } = &scenario.file;
     Ok(documentation(scene, &format!("{name}: {description}"))?)
-}
-
-/// FMI 2.0 names three platforms that there are machines of.
-fn platform() -> Result<&'static str> {
-    match (env::consts::OS, env::consts::ARCH) {
-        ("linux", "x86_64") => Ok("linux64"),
-        ("windows", "x86_64") => Ok("win64"),
-        ("macos", _) => Ok("darwin64"),
-        (os, arch) => bail!("FMI 2.0 has no name for the platform {arch} {os}"),
-    }
 }

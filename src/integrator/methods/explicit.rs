@@ -6,7 +6,7 @@ use crate::integrator::method::{Attempt, ERROR_SHARE, Method, Properties};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::{MAX_STATES, StateLayout, System};
 use crate::integrator::tableau::{MAX_STAGES, Tableau};
-use crate::math::Fused;
+use crate::math::{Fused, larger};
 use wide::f64x4;
 
 /// Smallest number of states that are summed together.
@@ -187,11 +187,11 @@ fn write_unseen(unseen: &mut [f64], h: f64, shares: &[f64], k: &[f64]) {
     for (at, unseen) in unseen.chunks_mut(FOUR).enumerate() {
         let stage = |j: usize| four(&k[j * n + FOUR * at..]);
         let (first, late) = (stage(0), stage(weighted));
-        let usual = f64x4::splat(0.5) * first.abs().fast_max(late.abs());
+        let usual = f64x4::splat(0.5) * larger(first.abs(), late.abs());
         let mut most = f64x4::ZERO;
         for (j, share) in shares.iter().enumerate().skip(1) {
             let apart = (stage(j) - first - f64x4::splat(*share) * (late - first)).abs();
-            most = most.fast_max(f64x4::splat(h) * (apart - usual));
+            most = larger(most, f64x4::splat(h) * (apart - usual));
         }
         for (unseen, most) in unseen.iter_mut().zip(most.to_array()) {
             *unseen = most;

@@ -1,0 +1,74 @@
+//! The platforms that a package can have a library for.
+
+use anyhow::{Result, bail};
+use clap::ValueEnum;
+use std::env::consts::{ARCH, OS};
+
+/// An operating system and its processors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+pub enum Platform {
+    /// Linux on x86-64 processors
+    Linux64,
+    /// Windows on x86-64 processors
+    Win64,
+    /// macOS on x86-64 and on ARM processors
+    Darwin64,
+    /// Linux on 64-bit ARM processors; in a file of its own
+    LinuxAarch64,
+}
+
+impl Platform {
+    /// The platform of this program.
+    ///
+    /// # Errors
+    /// On a platform that no package has a library for.
+    pub fn here() -> Result<Self> {
+        match (OS, ARCH) {
+            ("linux", "x86_64") => Ok(Self::Linux64),
+            ("linux", "aarch64") => Ok(Self::LinuxAarch64),
+            ("windows", "x86_64") => Ok(Self::Win64),
+            ("macos", "x86_64" | "aarch64") => Ok(Self::Darwin64),
+            (os, arch) => bail!("FMI 2.0 has no name for the platform {arch} {os}"),
+        }
+    }
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linux64 => "linux64",
+            Self::Win64 => "win64",
+            Self::Darwin64 => "darwin64",
+            Self::LinuxAarch64 => "linux-aarch64",
+        }
+    }
+
+    /// FMI's name of it, which is a folder of the package. FMI 2.0 has none for Linux on ARM; importers there, FMPy among
+    /// them, look for the library where they would on x86-64.
+    pub fn folder(self) -> &'static str {
+        if self == Self::LinuxAarch64 { Self::Linux64.name() } else { self.name() }
+    }
+
+    /// What the name of a package for this platform ends in, if the package must be a file of its own.
+    pub fn ending(self) -> &'static str {
+        if self == Self::LinuxAarch64 { "-linux-aarch64" } else { "" }
+    }
+
+    /// The compiler's names of its processors.
+    pub fn triples(self) -> &'static [&'static str] {
+        match self {
+            Self::Linux64 => &["x86_64-unknown-linux-gnu"],
+            Self::Win64 => &["x86_64-pc-windows-gnu"],
+            Self::Darwin64 => &["x86_64-apple-darwin", "aarch64-apple-darwin"],
+            Self::LinuxAarch64 => &["aarch64-unknown-linux-gnu"],
+        }
+    }
+
+    /// What stands before and after the name of a library.
+    pub fn affixes(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Linux64 | Self::LinuxAarch64 => ("lib", ".so"),
+            Self::Win64 => ("", ".dll"),
+            Self::Darwin64 => ("lib", ".dylib"),
+        }
+    }
+}
