@@ -86,14 +86,14 @@ fn has_the_bits_of_linux64(platform: Platform) {
     let mut methods = vec![];
     for scene in names(&directory()) {
         let (own, other) = (Packaged::new(Platform::Linux64, own(), &scene), Packaged::new(platform, other, &scene));
-        let wanted = own.from_start(&[], None);
+        let wanted = own.run_from_start(&[], None);
         assert!(wanted.succeeded && wanted.numbers.lines().count() > 20 * STEPS, "{scene}\n{}", wanted.numbers);
-        assert_same(&other.from_start(&[], None), &wanted, &scene);
+        assert_same(&other.run_from_start(&[], None), &wanted, &scene);
         if scene == "wornpin" {
             methods = own.items("solver.method");
             for (name, value) in &methods {
                 let settings = [("solver.method", *value)];
-                let (found, wanted) = (other.from_start(&settings, None), own.from_start(&settings, None));
+                let (found, wanted) = (other.run_from_start(&settings, None), own.run_from_start(&settings, None));
                 assert_same(&found, &wanted, &format!("{scene} by {name}"));
             }
         }
@@ -137,7 +137,7 @@ fn a_state_that_is_saved_on_one_platform_goes_on_to_the_bit_on_another() {
         places.extend(others.iter().map(|(platform, stock)| (*platform, Packaged::new(*platform, stock, scene))));
         let states = places.iter().map(|(platform, packaged)| {
             let file = folder.path().join(format!("{scene}-{}", platform.name()));
-            (file.clone(), packaged.from_start(&[], Some((middle, &file))))
+            (file.clone(), packaged.run_from_start(&[], Some((middle, &file))))
         });
         let states: Vec<_> = states.collect();
         let whole = &states[0].1;
@@ -147,7 +147,7 @@ fn a_state_that_is_saved_on_one_platform_goes_on_to_the_bit_on_another() {
             assert_same(run, whole, &format!("{scene}, {}", file.display()));
             assert!(bytes(file) == bytes(&states[0].0), "{} holds other bytes", file.display());
             for (platform, packaged) in &places {
-                let rest = packaged.from_state(file, middle);
+                let rest = packaged.run_from_state(file, middle);
                 let half = whole.numbers.lines().count() / 2;
                 let wanted: String = whole.numbers.lines().skip(half).map(|line| format!("{line}\n")).collect();
                 let what = format!("{} goes on on {}", file.display(), platform.name());
@@ -277,7 +277,7 @@ fn the_library_for_macos_is_whole() {
         let mut signed = bytes.clone();
         mach_o::sign(&mut signed).expect("a library");
         assert!(signed == bytes, "{}", library.triple);
-        let Some(changed) = signed.iter_mut().nth(0x400) else { continue };
+        let Some(changed) = signed.get_mut(0x400) else { continue };
         *changed ^= 1;
         let changed = signed.clone();
         mach_o::sign(&mut signed).expect("a library");

@@ -40,7 +40,7 @@ impl Packaged {
     }
 
     /// From the start, all steps; the state is saved to `saved` before the step of this number if told.
-    pub fn from_start(&self, settings: &[(&str, i32)], save: Option<(usize, &Path)>) -> Answer {
+    pub fn run_from_start(&self, settings: &[(&str, i32)], save: Option<(usize, &Path)>) -> Answer {
         let mut commands = String::new();
         for (name, value) in settings {
             let variable = self.description.variable(name).expect("a variable");
@@ -60,7 +60,7 @@ impl Packaged {
     }
 
     /// The steps from this one on, from the state in a file.
-    pub fn from_state(&self, file: &Path, step: usize) -> Answer {
+    pub fn run_from_state(&self, file: &Path, step: usize) -> Answer {
         let mut commands = format!("restore {}\n", file.display());
         self.write_steps(&mut commands, step..STEPS);
         self.run(&commands)
