@@ -2,11 +2,12 @@
 //! inputs with slopes, outputs, derivatives and sensitivities.
 #![allow(unsafe_code, reason = "a counting allocator, and calls of the C functions")]
 
+use slidercrank::fmi::slave::Slave;
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::abi::functions::bodies::*;
 use slidercrank::fmi::v2::abi::types::*;
-use slidercrank::scene::slot;
+use slidercrank::scene::{JointModel, Scene, slot};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::ffi::CString;
@@ -102,4 +103,33 @@ fn steps_with_events_do_not_allocate() {
             assert!(joints.is_empty() || events > 1, "{joints:?}: {events} events");
         }
     }
+}
+
+/// What an integrator of model exchange calls again and again, with contacts that close and open.
+#[test]
+fn model_exchange_does_not_allocate() {
+    let mut scene = Scene::default();
+    let joint = &mut scene.joint;
+    for model in [&mut joint.a.model, &mut joint.b.model, &mut joint.c.model, &mut joint.t.model] {
+        *model = JointModel::Clearance;
+    }
+    let mut slave = Slave::for_exchange(scene).expect("equations for another integrator");
+    slave.initialize().expect("a start");
+    let (states, indicators) = (slave.state_count().expect("states"), slave.indicator_count().expect("indicators"));
+    let (mut y, mut rates, mut gaps) = (vec![0.0; states], vec![0.0; states], vec![0.0; indicators]);
+    slave.write_states(&mut y).expect("states");
+    let (start, before) = (y[0], COUNT.get());
+    let mut closings = 0;
+    for step in 0..200 {
+        // To and fro across the main bearing's play.
+        y[0] = start + 1e-3 * f64::from(step % 2);
+        slave.set_time(1e-5 * f64::from(step)).expect("a time");
+        slave.set_states(&y).expect("states");
+        slave.write_derivatives(&mut rates).expect("rates");
+        slave.write_indicators(&mut gaps).expect("indicators");
+        closings += usize::from(slave.update_is_due().expect("an answer"));
+        slave.update_discrete_states().expect("an update");
+    }
+    assert_eq!(COUNT.get() - before, 0);
+    assert!(closings > 100, "{closings} closings and openings");
 }
