@@ -2,7 +2,7 @@
 //!
 //! Both libraries are builds of the same sources, so they know the same scenes, outputs and errors; but each has its own
 //! memory and its own panics. Inputs and outputs pass as C structures, everything else as bytes that the receiver copies
-//! before the call returns. What fails, a panic included, is told as a [`Failure`].
+//! before the call returns. What fails, a panic included, is returned as a `Failure`.
 //!
 //! [`offered`] is the table of this library, [`borrowed`] an engine made of the table of another one.
 
