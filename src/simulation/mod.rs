@@ -11,6 +11,7 @@ mod phase;
 mod record;
 mod run;
 mod settings;
+mod side;
 mod start;
 mod system;
 mod time_stepping;
@@ -20,6 +21,7 @@ pub use equations::Size;
 pub use error::SimulationError;
 pub use linearization::Linearization;
 pub use phase::{Phase, PhaseScales};
+pub use side::Side;
 pub use system::System;
 
 use crate::integrator::{IntegrationError, Reader};
@@ -36,6 +38,7 @@ use motion::Motion;
 pub struct Simulation {
     motion: Box<dyn Motion>,
     time: f64,
+    side: Side,
 }
 
 /// The only end that a mechanism's equations of motion have.
@@ -48,7 +51,7 @@ impl Simulation {
     /// `Scene` if the start position does not close the loop, or the method cannot do what the scene asks for.
     pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
-        Ok(Self { motion: start::start(scene, inputs)?, time: 0.0 })
+        Ok(Self { motion: start::start(scene, inputs)?, time: 0.0, side: Side::After })
     }
 
     /// [s] The communication point reached, counted from the start.
@@ -68,6 +71,7 @@ impl Simulation {
     /// `Integration`; the simulation is then at the last time that it reached and can still be asked,
     /// saved and restored.
     pub fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
+        self.side = Side::After;
         match self.motion.advance(time) {
             Ok(()) => {
                 self.time = time;
@@ -83,6 +87,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_to_event(&mut self, time: f64) -> Result<bool, SimulationError> {
+        self.side = Side::After;
         match self.motion.advance_to_event(self.time, time) {
             Ok(event) => {
                 self.time = event.unwrap_or(time);
@@ -90,6 +95,33 @@ impl Simulation {
             }
             Err(error) => Err(self.failed(error)),
         }
+    }
+
+    /// Moves to the end of the next step of the method, or to `time` (≥ the time reached), and tells whether a contact
+    /// has closed or opened there. The steps are the same as those of [`Simulation::advance_to`].
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_by_step(&mut self, time: f64) -> Result<bool, SimulationError> {
+        self.side = Side::After;
+        let after = self.time;
+        let next = after.next_up().min(time);
+        let moved = self.motion.advance(next).and_then(|()| {
+            let reached = self.motion.front_time().min(time);
+            Ok((reached, self.motion.advance_to_event(after, reached)?))
+        });
+        match moved {
+            Ok((reached, event)) => {
+                self.time = reached;
+                Ok(event.is_some())
+            }
+            Err(error) => Err(self.failed(error)),
+        }
+    }
+
+    /// Looks from now on at this side of the events at the communication point, until time moves.
+    pub fn look(&mut self, side: Side) {
+        self.side = side;
     }
 
     /// Stays where it could not go on.
@@ -105,19 +137,19 @@ impl Simulation {
 
     /// Outputs at the communication point.
     pub fn outputs(&mut self) -> Outputs {
-        self.motion.outputs(self.time)
+        self.motion.outputs(self.time, self.side)
     }
 
     /// First time derivatives of the real outputs at the communication point; its integers and
     /// Booleans are without meaning.
     pub fn output_rates(&mut self) -> Outputs {
-        self.motion.output_rates(self.time)
+        self.motion.output_rates(self.time, self.side)
     }
 
     /// Derivative of the real outputs with respect to the inputs along `seed`, state held; its
     /// integers and Booleans are without meaning.
     pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
-        self.motion.output_sensitivity(self.time, seed)
+        self.motion.output_sensitivity(self.time, seed, self.side)
     }
 
     /// How large its equations of motion are.

@@ -3,6 +3,7 @@
 use super::equations::{Equations, Size};
 use super::linearization::Linearization;
 use super::phase::{Phase, PhaseScales};
+use super::side::Side;
 use crate::integrator::{IntegrationError, Reader, Snapshot};
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
@@ -21,12 +22,12 @@ pub trait Motion: Send {
     fn phase_scales(&self) -> PhaseScales;
     /// Sets the inputs from the communication point `inputs.at` on.
     fn set_inputs(&mut self, inputs: InputSignal);
-    /// Outputs at `t` in the last step.
-    fn outputs(&mut self, t: f64) -> Outputs;
+    /// Outputs at `t` in the last step, on this side of the events there.
+    fn outputs(&mut self, t: f64, side: Side) -> Outputs;
     /// Their time derivatives.
-    fn output_rates(&mut self, t: f64) -> Outputs;
+    fn output_rates(&mut self, t: f64, side: Side) -> Outputs;
     /// Their derivatives with respect to the inputs, along `seed`.
-    fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs;
+    fn output_sensitivity(&mut self, t: f64, seed: Inputs, side: Side) -> Outputs;
     /// How large it is.
     fn size(&self) -> Size;
     /// Evaluates the right-hand side where the next step starts.
@@ -35,6 +36,8 @@ pub trait Motion: Send {
     fn equations(self: Box<Self>) -> Box<dyn Equations>;
     /// Evaluates its derivatives there.
     fn differentiate(&self, times: usize);
+    /// [s] Time there.
+    fn front_time(&self) -> f64;
     /// Time and states there.
     fn front(&self) -> (f64, Vec<f64>);
     /// Rates of the right-hand side that holds there.

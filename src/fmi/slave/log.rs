@@ -35,6 +35,26 @@ impl Enabled {
         Self(self.0 | 1 << category as u8)
     }
 
+    fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Those of these names.
+    fn named(categories: &[&CStr]) -> Result<Self, Error> {
+        categories.iter().try_fold(Self::NOTHING, |enabled, name| {
+            let declared = |category: &&LogCategory| category.name().as_bytes() == name.to_bytes();
+            match LogCategory::ALL.iter().find(declared) {
+                Some(LogCategory::All) => Ok(Self::ALL),
+                Some(category) => Ok(enabled.with(*category)),
+                None => Err(Error::Category(name.to_string_lossy().into_owned())),
+            }
+        })
+    }
+
     fn has(self, category: LogCategory) -> bool {
         self.0 & 1 << category as u8 != 0
     }
@@ -56,19 +76,19 @@ impl Logger {
 
     /// Enables the named categories alone, or all if no category is named; or nothing at all.
     pub fn enable(&mut self, logging_on: bool, categories: &[&CStr]) -> Result<(), Error> {
-        let named = categories.iter().try_fold(Enabled::NOTHING, |enabled, name| {
-            let declared = |category: &&LogCategory| category.name().as_bytes() == name.to_bytes();
-            match LogCategory::ALL.iter().find(declared) {
-                Some(LogCategory::All) => Ok(Enabled::ALL),
-                Some(category) => Ok(enabled.with(*category)),
-                None => Err(Error::Category(name.to_string_lossy().into_owned())),
-            }
-        })?;
+        let named = Enabled::named(categories)?;
         self.enabled = match (logging_on, categories.is_empty()) {
             (false, _) => Enabled::NOTHING,
             (true, true) => Enabled::ALL,
             (true, false) => named,
         };
+        Ok(())
+    }
+
+    /// Switches the named categories on or off and leaves the others as they are; all of them if no category is named.
+    pub fn switch(&mut self, on: bool, categories: &[&CStr]) -> Result<(), Error> {
+        let chosen = if categories.is_empty() { Enabled::ALL } else { Enabled::named(categories)? };
+        self.enabled = if on { self.enabled.and(chosen) } else { self.enabled.without(chosen) };
         Ok(())
     }
 

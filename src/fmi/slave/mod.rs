@@ -12,6 +12,7 @@
 //! A refused call changes nothing: values set together are applied all or none.
 
 pub mod access;
+mod adjoint;
 pub mod error;
 pub mod experiment;
 pub mod inputs;
@@ -20,6 +21,7 @@ pub mod saved_states;
 pub mod sealed;
 pub mod settings;
 pub mod severity;
+pub mod steps;
 pub mod variables;
 
 pub use access::{Permission, ValueType};
@@ -34,6 +36,7 @@ use access::{RealInput, check_first_order, finite, finite_output, real_input, re
 use error::VariableError;
 use experiment::{Experiment, Limit};
 use inputs::are_finite;
+use steps::Stops;
 use variables::{Access, VARIABLES};
 
 /// One slave.
@@ -235,11 +238,7 @@ impl Slave {
 
     /// Moves the slave to `end`, counted from the start, or as far as it gets.
     pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
-        let outcome = self.live()?.advance_to(end);
-        self.settings.inputs.move_on();
-        self.outputs = None;
-        let start = self.settings.experiment.start;
-        Ok(outcome.map_err(|error| error.counted_from(start))?)
+        self.advance_with(end, Stops::Nowhere).map(drop)
     }
 
     /// Everything that the slave is: what was set, and the simulation once initialization is over.
