@@ -1,7 +1,7 @@
 //! `package`: a scene as an FMU.
 
 use super::{out_directory, shown};
-use crate::package::{self, Stock};
+use crate::package::{self, Stock, Version};
 use crate::scenes::Scenario;
 use anyhow::Result;
 use clap::Args;
@@ -19,6 +19,9 @@ pub struct Package {
     /// Leaves the library for newer processors out: the same bits on every machine, for up to a third more time
     #[arg(long)]
     portable: bool,
+    /// Version of FMI
+    #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
+    fmi: Version,
 }
 
 impl Package {
@@ -28,7 +31,7 @@ impl Package {
         let file = self.output.clone().unwrap_or_else(|| out_directory().join(format!("{}.fmu", scenario.name)));
         let stock = Stock::build()?;
         let stock = if self.portable { stock.portable() } else { stock };
-        save(&stock.package(&scenario)?, &file)
+        save(&stock.package_for(self.fmi, &scenario)?, &file)
     }
 }
 

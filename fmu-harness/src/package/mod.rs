@@ -4,9 +4,12 @@ pub mod archive;
 pub mod build;
 pub mod elf;
 mod licences;
+mod version;
+
+pub use version::Version;
 
 use crate::scenes::Scenario;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use archive::Part;
 use build::Libraries;
 use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
@@ -21,9 +24,6 @@ use slidercrank::scene::write::write_table;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
 use std::path::Path;
-
-/// Drawing of the mechanism, made from `model.svg` by the test `the_picture_is_the_drawing`.
-const PICTURE: &[u8] = include_bytes!("../../assets/model.png");
 
 /// Name of the rod's modes in a package's documentation, if its scene has such.
 pub const MODES: &str = "modes.toml";
@@ -58,15 +58,20 @@ impl Stock {
         Self { newer: None, ..self }
     }
 
-    /// Packages the library with the scenario's values as start values.
+    /// Packages the library for FMI 2.0 with the scenario's values as start values.
     pub fn package(&self, scenario: &Scenario) -> Result<Package> {
-        let parts = self.parts(scenario)?;
+        self.package_for(Version::Fmi2, scenario)
+    }
+
+    /// The same for a version of FMI.
+    pub fn package_for(&self, version: Version, scenario: &Scenario) -> Result<Package> {
+        let parts = self.parts(version, scenario)?;
         let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
         Ok(Package { bytes: archive::write(&parts)?, glibc })
     }
 
     /// Everything that goes into the archive, in its order.
-    fn parts(&self, scenario: &Scenario) -> Result<Vec<Part>> {
+    fn parts(&self, version: Version, scenario: &Scenario) -> Result<Vec<Part>> {
         let scene = &scenario.file.scene;
         let declaration = model_description::load().context("the declaration of the variables")?;
         let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
@@ -76,19 +81,20 @@ impl Stock {
             Ok(library)
         };
         let identifier = &declaration.model.identifier;
-        let mut parts = vec![
-            Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
-            Part::new("model.png", PICTURE),
-            Part::new(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?), with_scene(&self.library)?),
+        let binaries = format!("binaries/{}/{identifier}", version.platform()?);
+        let mut parts = vec![Part::new("modelDescription.xml", description(version, &declaration, scenario, &starts)?)];
+        parts.extend(version.pictures(&declaration)?);
+        parts.push(Part::new(format!("{binaries}{DLL_SUFFIX}"), with_scene(&self.library)?));
+        if let Some(library) = &self.newer {
+            let name = format!("{binaries}.{}{DLL_SUFFIX}", dispatch_x86_64_v3::LEVEL);
+            parts.push(Part::new(name, with_scene(library)?));
+        }
+        parts.extend([
             Part::new("documentation/index.html", page(scenario)?),
             Part::new("documentation/scene.toml", scenario.text.as_str()),
             Part::new("documentation/licenses/license.txt", licences::own()),
             Part::new("documentation/licenses/third-party.txt", self.third_party.as_str()),
-        ];
-        if let Some(library) = &self.newer {
-            let name = format!("binaries/{}/{identifier}.{}{DLL_SUFFIX}", platform()?, dispatch_x86_64_v3::LEVEL);
-            parts.insert(3, Part::new(name, with_scene(library)?));
-        }
+        ]);
         if let Some(table) = &scene.rod.flexible.table {
             parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
         }
@@ -111,27 +117,17 @@ impl Package {
 }
 
 /// modelDescription.xml: the scene's values are the start values, its run the default experiment.
-fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> Result<String> {
+fn description(version: Version, declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> Result<String> {
     let SceneFile { scene, run, .. } = &scenario.file;
     let (stop, step, tolerance) = (run.stop(scene), run.step, scene.solver.tolerance);
     let experiment = Experiment { start: 0.0, stop, tolerance, step };
     let guid = slot::guid(scene);
     let package = xml::Package { guid: &guid, starts, experiment, written: None };
-    Ok(xml::write(declaration, &package)?)
+    version.description(declaration, &package)
 }
 
 /// documentation/index.html.
 fn page(scenario: &Scenario) -> Result<String> {
     let SceneFile { name, description, scene, .. } = &scenario.file;
     Ok(documentation(scene, &format!("{name}: {description}"))?)
-}
-
-/// FMI 2.0 names three platforms that there are machines of.
-fn platform() -> Result<&'static str> {
-    match (std::env::consts::OS, std::env::consts::ARCH) {
-        ("linux", "x86_64") => Ok("linux64"),
-        ("windows", "x86_64") => Ok("win64"),
-        ("macos", _) => Ok("darwin64"),
-        (os, arch) => bail!("FMI 2.0 has no name for the platform {arch} {os}"),
-    }
 }

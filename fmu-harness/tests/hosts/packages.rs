@@ -4,7 +4,7 @@
 use crate::python;
 use anyhow::Result;
 use fmu_harness::host::Fmu;
-use fmu_harness::package::{Package, Stock, build::workspace};
+use fmu_harness::package::{Package, Stock, Version, build::workspace};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::{Scenario, names};
 use fmu_harness::ssp::{PRESS, package as package_ssp};
@@ -27,6 +27,9 @@ pub fn directory() -> &'static Path {
                 eprintln!("{scene} cannot be packaged: {error:#}");
             }
         }
+        if let Err(error) = package_for_fmi3(&directory) {
+            eprintln!("{RUN} cannot be packaged for FMI 3.0: {error:#}");
+        }
         if let Err(error) = couple(&directory) {
             eprintln!("{PRESS} cannot be packaged with its companions: {error:#}");
         }
@@ -40,6 +43,12 @@ pub fn directory() -> &'static Path {
 fn package(scene: &str, directory: &Path) -> Result<()> {
     let package = Scenario::find(scene).and_then(|scenario| Package::make(&scenario));
     replace(&directory.join(format!("{scene}.fmu")), |file| package?.save(file))
+}
+
+/// `wornpin3.fmu`
+fn package_for_fmi3(directory: &Path) -> Result<()> {
+    let package = Stock::build().and_then(|stock| stock.package_for(Version::Fmi3, &Scenario::find(RUN)?));
+    replace(&directory.join(format!("{RUN}3.fmu")), |file| package?.save(file))
 }
 
 fn couple(directory: &Path) -> Result<()> {
