@@ -179,9 +179,11 @@ impl Library {
     /// The version of FMI that the binary was made for.
     pub fn version(&self) -> String {
         // SAFETY: no arguments; the answer is a static string.
-        text(match &self.functions {
-            Functions::Fmi2(functions) => unsafe { (functions.get_version)() },
-            Functions::Fmi3(functions) => unsafe { (functions.get_version)() },
+        text(unsafe {
+            match &self.functions {
+                Functions::Fmi2(functions) => (functions.get_version)(),
+                Functions::Fmi3(functions) => (functions.get_version)(),
+            }
         })
     }
 
@@ -251,9 +253,11 @@ pub struct Instance {
 impl Drop for Instance {
     fn drop(&mut self) {
         // SAFETY: `component` came from instantiation and is freed here, once.
-        match &self.library.functions {
-            Functions::Fmi2(functions) => unsafe { (functions.free_instance)(self.component.as_ptr()) },
-            Functions::Fmi3(functions) => unsafe { (functions.free_instance)(self.component.as_ptr()) },
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.free_instance)(self.component.as_ptr()),
+                Functions::Fmi3(functions) => (functions.free_instance)(self.component.as_ptr()),
+            }
         }
     }
 }
@@ -266,9 +270,11 @@ macro_rules! transfer {
             assert_eq!(references.len(), values.len(), "one value for each reference");
             let (component, n) = (self.component.as_ptr(), references.len());
             // SAFETY: a live component, and two lists of the length passed.
-            match &self.library.functions {
-                Functions::Fmi2(of) => unsafe { (of.$name)(component, references.as_ptr(), n, values.$pointer()) },
-                Functions::Fmi3(of) => unsafe { (of.$name)(component, references.as_ptr(), n, values.$pointer(), n) },
+            unsafe {
+                match &self.library.functions {
+                    Functions::Fmi2(of) => (of.$name)(component, references.as_ptr(), n, values.$pointer()),
+                    Functions::Fmi3(of) => (of.$name)(component, references.as_ptr(), n, values.$pointer(), n),
+                }
             }.into()
         }
     )+};
@@ -297,27 +303,29 @@ impl Instance {
         const CO_SIMULATION: c_int = 1;
         let (name, guid, resources) = (name.as_ptr(), guid.as_ptr(), resources.as_ptr());
         // SAFETY: zero-terminated strings that live through the call, and callbacks that outlive the instance.
-        let component = match &library.functions {
-            Functions::Fmi2(functions) => unsafe {
-                (functions.instantiate)(name, CO_SIMULATION, guid, resources, &*callbacks, 0, logging.into())
-            },
-            Functions::Fmi3(functions) => unsafe {
-                let (environment, none) = (callbacks.environment, std::ptr::null());
-                (functions.instantiate)(
-                    name,
-                    guid,
-                    resources,
-                    false,
-                    logging,
-                    false,
-                    false,
-                    none,
-                    0,
-                    environment,
-                    receive3,
-                    none.cast(),
-                )
-            },
+        let component = unsafe {
+            match &library.functions {
+                Functions::Fmi2(functions) => {
+                    (functions.instantiate)(name, CO_SIMULATION, guid, resources, &*callbacks, 0, logging.into())
+                }
+                Functions::Fmi3(functions) => {
+                    let (environment, none) = (callbacks.environment, std::ptr::null());
+                    (functions.instantiate)(
+                        name,
+                        guid,
+                        resources,
+                        false,
+                        logging,
+                        false,
+                        false,
+                        none,
+                        0,
+                        environment,
+                        receive3,
+                        none.cast(),
+                    )
+                }
+            }
         };
         match NonNull::new(component) {
             Some(component) => Ok(Self { component, library, _callbacks: callbacks, log, setup: Setup::default() }),
@@ -350,13 +358,15 @@ impl Instance {
         let Setup { tolerance, start, stop } = self.setup;
         let component = self.component.as_ptr();
         // SAFETY: a live component.
-        match &self.library.functions {
-            Functions::Fmi2(functions) => unsafe { (functions.enter_initialization)(component) },
-            Functions::Fmi3(functions) => unsafe {
-                let (has_tolerance, has_stop) = (tolerance.is_some(), stop.is_some());
-                let (tolerance, stop) = (tolerance.unwrap_or(0.0), stop.unwrap_or(0.0));
-                (functions.enter_initialization)(component, has_tolerance, tolerance, start, has_stop, stop)
-            },
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.enter_initialization)(component),
+                Functions::Fmi3(functions) => {
+                    let (has_tolerance, has_stop) = (tolerance.is_some(), stop.is_some());
+                    let (tolerance, stop) = (tolerance.unwrap_or(0.0), stop.unwrap_or(0.0));
+                    (functions.enter_initialization)(component, has_tolerance, tolerance, start, has_stop, stop)
+                }
+            }
         }
         .into()
     }
@@ -364,9 +374,11 @@ impl Instance {
     /// ExitInitializationMode.
     pub fn exit_initialization(&mut self) -> Status {
         // SAFETY: a live component.
-        match &self.library.functions {
-            Functions::Fmi2(functions) => unsafe { (functions.exit_initialization)(self.component.as_ptr()) },
-            Functions::Fmi3(functions) => unsafe { (functions.exit_initialization)(self.component.as_ptr()) },
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.exit_initialization)(self.component.as_ptr()),
+                Functions::Fmi3(functions) => (functions.exit_initialization)(self.component.as_ptr()),
+            }
         }
         .into()
     }
@@ -374,9 +386,11 @@ impl Instance {
     /// Terminate.
     pub fn terminate(&mut self) -> Status {
         // SAFETY: a live component.
-        match &self.library.functions {
-            Functions::Fmi2(functions) => unsafe { (functions.terminate)(self.component.as_ptr()) },
-            Functions::Fmi3(functions) => unsafe { (functions.terminate)(self.component.as_ptr()) },
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.terminate)(self.component.as_ptr()),
+                Functions::Fmi3(functions) => (functions.terminate)(self.component.as_ptr()),
+            }
         }
         .into()
     }
@@ -472,11 +486,11 @@ impl Instance {
     pub fn set_boolean(&mut self, reference: u32, value: bool) -> Status {
         let component = self.component.as_ptr();
         // SAFETY: a live component, one reference and one value.
-        match &self.library.functions {
-            Functions::Fmi2(functions) => unsafe { (functions.set_boolean)(component, &reference, 1, &value.into()) },
-            Functions::Fmi3(functions) => unsafe {
-                (functions.set_boolean)(component, &reference, 1, &value.into(), 1)
-            },
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.set_boolean)(component, &reference, 1, &value.into()),
+                Functions::Fmi3(functions) => (functions.set_boolean)(component, &reference, 1, &value.into(), 1),
+            }
         }
         .into()
     }
@@ -485,11 +499,11 @@ impl Instance {
     pub fn set_string(&mut self, reference: u32, value: &CStr) -> Status {
         let component = self.component.as_ptr();
         // SAFETY: a live component, one reference, and one string that lives through the call.
-        match &self.library.functions {
-            Functions::Fmi2(functions) => unsafe { (functions.set_string)(component, &reference, 1, &value.as_ptr()) },
-            Functions::Fmi3(functions) => unsafe {
-                (functions.set_string)(component, &reference, 1, &value.as_ptr(), 1)
-            },
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.set_string)(component, &reference, 1, &value.as_ptr()),
+                Functions::Fmi3(functions) => (functions.set_string)(component, &reference, 1, &value.as_ptr(), 1),
+            }
         }
         .into()
     }
