@@ -95,7 +95,7 @@ fn a_step_that_breaks_off_terminates_and_tells_when() {
     assert_eq!(slave.try_step(slave.time(), 1e-3), Err(Status::Error));
     assert!(slave.line().text.contains("'terminated'"));
     assert_eq!(slave.set_state(state), Status::Ok);
-    slave.step(0.0, 1e-3);
+    slave.step(0.0, 1e-5);
 }
 
 #[test]

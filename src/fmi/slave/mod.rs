@@ -36,7 +36,6 @@ use access::{RealInput, check_first_order, finite, finite_output, real_input, re
 use error::VariableError;
 use experiment::{Experiment, Limit};
 use inputs::are_finite;
-use steps::Stops;
 use variables::{Access, VARIABLES};
 
 /// One slave.
@@ -234,11 +233,6 @@ impl Slave {
             })?;
         }
         Ok(end)
-    }
-
-    /// Moves the slave to `end`, counted from the start, or as far as it gets.
-    pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
-        self.advance_with(end, Stops::Nowhere).map(drop)
     }
 
     /// Everything that the slave is: what was set, and the simulation once initialization is over.

@@ -1,4 +1,4 @@
-//! Steps that end earlier than asked for: at an event, or with a step of the method; and both sides of an event.
+//! Steps to their end, or to an earlier one: at an event, or with a step of the method; and both sides of an event.
 
 use super::{Error, Slave};
 use crate::simulation::Side;
@@ -23,6 +23,11 @@ impl Slave {
     /// [s] A time of the importer's, counted from the start.
     pub fn counted_from_start(&self, time: f64) -> f64 {
         time - self.settings.experiment.start
+    }
+
+    /// Moves the slave to `end`, counted from the start, or as far as it gets.
+    pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
+        self.advance_with(end, Stops::Nowhere).map(drop)
     }
 
     /// Moves the slave to `end`, counted from the start, or to the first stop before it, and tells whether a contact has
