@@ -12,8 +12,10 @@ pub mod raw;
 mod restitution;
 pub mod rows;
 pub mod tables;
+pub mod terminals;
 mod typed;
 pub mod xml;
+pub mod xml_v3;
 
 /// Reads the declaration.
 pub fn load() -> Result<rows::Declaration, rows::RowError> {

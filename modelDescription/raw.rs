@@ -11,6 +11,8 @@ pub(super) struct Raw {
     pub model: Model,
     pub capabilities: BTreeMap<String, Flag>,
     pub model_exchange: BTreeMap<String, Flag>,
+    pub capabilities_fmi3: BTreeMap<String, Flag>,
+    pub terminal: Vec<Terminal>,
     pub experiment: Experiment,
     pub log: Vec<LogCategory>,
     pub unit: Vec<Unit>,
@@ -51,6 +53,30 @@ pub enum Flag {
     Boolean(bool),
     /// How far.
     Order(u32),
+}
+
+/// Variables that are connected together.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Terminal {
+    /// Name in the XML.
+    pub name: String,
+    /// One line of explanation.
+    pub description: String,
+    /// Its variables.
+    pub members: Vec<TerminalMember>,
+}
+
+/// A variable of a terminal.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TerminalMember {
+    /// Name of the variable.
+    pub variable: Spanned<String>,
+    /// Name that the other side knows it by.
+    pub name: String,
+    /// `signal`, or `inflow` for what sums to zero where terminals are connected.
+    pub kind: String,
 }
 
 /// Default experiment.

@@ -2,7 +2,7 @@
 
 pub use super::fault::{Fault, RowError};
 use super::raw::{AtStart, Raw, RawRow};
-pub use super::raw::{Enumeration, Experiment, Flag, LogCategory, Model, RealType, Unit};
+pub use super::raw::{Enumeration, Experiment, Flag, LogCategory, Model, RealType, Terminal, Unit};
 use super::typed::typed;
 use std::collections::{BTreeMap, HashSet};
 
@@ -14,6 +14,10 @@ pub struct Declaration {
     pub capabilities: BTreeMap<String, Flag>,
     /// What the element ModelExchange promises.
     pub model_exchange: BTreeMap<String, Flag>,
+    /// The same of FMI 3.0.
+    pub capabilities_fmi3: BTreeMap<String, Flag>,
+    /// Terminals of FMI 3.0.
+    pub terminals: Vec<Terminal>,
     /// Default experiment.
     pub experiment: Experiment,
     /// Categories of log messages.
@@ -119,10 +123,13 @@ pub fn read(text: &str) -> Result<Declaration, RowError> {
     refuse_duplicates(&drafts)?;
     refuse_disorder(text, &raw.enumeration)?;
     link(&mut drafts, &raw.start_groups)?;
+    refuse_unknown_members(text, &raw.terminal, &drafts)?;
     Ok(Declaration {
         model: raw.model,
         capabilities: raw.capabilities,
         model_exchange: raw.model_exchange,
+        capabilities_fmi3: raw.capabilities_fmi3,
+        terminals: raw.terminal,
         experiment: raw.experiment,
         log: raw.log,
         units: raw.unit,
@@ -193,6 +200,18 @@ fn resolve<'a>(
     found.sort_unstable();
     found.dedup();
     Ok(found)
+}
+
+/// Refuses terminals with variables that do not exist.
+fn refuse_unknown_members(text: &str, terminals: &[Terminal], drafts: &[Draft]) -> Result<(), RowError> {
+    let mut members = terminals.iter().flat_map(|terminal| &terminal.members);
+    match members.find(|member| drafts.iter().all(|(_, row, _)| row.name != *member.variable.get_ref())) {
+        Some(member) => Err(RowError {
+            line: line_of(text, member.variable.span().start),
+            fault: Fault::Unknown(member.variable.get_ref().clone()),
+        }),
+        None => Ok(()),
+    }
 }
 
 /// Refuses two variables of the same name or of the same description.

@@ -38,9 +38,9 @@ pub fn made(declaration: &Declaration, seconds: Option<u64>) -> String {
 
 /// The model description of a package.
 pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    parent(&mut xml, "fmiModelDescription", root(declaration, package), |xml| {
+    let mut xml = begin()?;
+    let root = root(declaration, package, "2.0", "guid");
+    parent(&mut xml, "fmiModelDescription", root, |xml| {
         if package.exchange.is_some() {
             leaf(xml, "ModelExchange", capabilities(declaration, &declaration.model_exchange))?;
         }
@@ -49,23 +49,11 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
             declaration.units.iter().try_for_each(|unit| unit_definition(xml, unit))
         })?;
         parent(xml, "TypeDefinitions", vec![], |xml| type_definitions(xml, declaration))?;
-        parent(xml, "LogCategories", vec![], |xml| {
-            declaration.log.iter().try_for_each(|category| {
-                let (name, description) = (category.name.clone(), category.description.clone());
-                leaf(xml, "Category", vec![("name", name), ("description", description)])
-            })
-        })?;
+        log_categories(xml, declaration)?;
         leaf(xml, "DefaultExperiment", experiment(&package.experiment))?;
         parent(xml, "ModelVariables", vec![], |xml| {
-            let mut starts = package.starts.iter().copied();
-            declaration.rows.iter().enumerate().try_for_each(|(reference, row)| {
-                let start = match row.role {
-                    Role::Input { start } => Some(start),
-                    Role::Output { .. } => None,
-                    Role::Parameter { start } => Some(starts.next().unwrap_or(start)),
-                };
-                variable(xml, declaration, reference, row, start)
-            })?;
+            rows_with_starts(declaration, package)
+                .try_for_each(|(reference, row, start)| variable(xml, declaration, reference, row, start))?;
             package.exchange.map_or(Ok(()), |exchange| exchange::variables(xml, declaration, exchange))
         })?;
         parent(xml, "ModelStructure", vec![], |xml| {
@@ -83,17 +71,35 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
             })
         })
     })?;
+    text(xml)
+}
+
+/// A document with nothing in it yet.
+pub(super) fn begin() -> io::Result<Xml> {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    Ok(xml)
+}
+
+/// What has been written.
+pub(super) fn text(xml: Xml) -> io::Result<String> {
     let mut bytes = xml.into_inner();
     bytes.push(b'\n');
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 
-fn root(declaration: &Declaration, package: &Package) -> Attributes<'static> {
+/// The description's own attributes in a version of FMI, which has its own name for the guid.
+pub(super) fn root(
+    declaration: &Declaration,
+    package: &Package,
+    version: &str,
+    guid: &'static str,
+) -> Attributes<'static> {
     let model = &declaration.model;
     let mut attributes = vec![
-        ("fmiVersion", "2.0".into()),
+        ("fmiVersion", version.into()),
         ("modelName", model.name.clone()),
-        ("guid", package.guid.into()),
+        (guid, package.guid.into()),
         ("description", model.description.clone()),
         ("author", model.author.clone()),
         ("version", env!("CARGO_PKG_VERSION").into()),
@@ -108,7 +114,8 @@ fn root(declaration: &Declaration, package: &Package) -> Attributes<'static> {
     attributes
 }
 
-fn capabilities<'a>(declaration: &'a Declaration, flags: &'a BTreeMap<String, Flag>) -> Attributes<'a> {
+/// What the FMU can, after the name of its library.
+pub(super) fn capabilities<'a>(declaration: &'a Declaration, flags: &'a BTreeMap<String, Flag>) -> Attributes<'a> {
     let value = |flag: &Flag| match flag {
         Flag::Boolean(can) => can.to_string(),
         Flag::Order(order) => order.to_string(),
@@ -118,7 +125,32 @@ fn capabilities<'a>(declaration: &'a Declaration, flags: &'a BTreeMap<String, Fl
     attributes
 }
 
-fn experiment(experiment: &Experiment) -> Attributes<'static> {
+pub(super) fn log_categories(xml: &mut Xml, declaration: &Declaration) -> io::Result<()> {
+    parent(xml, "LogCategories", vec![], |xml| {
+        declaration.log.iter().try_for_each(|category| {
+            let (name, description) = (category.name.clone(), category.description.clone());
+            leaf(xml, "Category", vec![("name", name), ("description", description)])
+        })
+    })
+}
+
+/// Every row with its value reference, and with its start value if it has one.
+pub(super) fn rows_with_starts<'a>(
+    declaration: &'a Declaration,
+    package: &Package<'a>,
+) -> impl Iterator<Item = (usize, &'a Row, Option<f64>)> {
+    let mut starts = package.starts.iter().copied();
+    declaration.rows.iter().enumerate().map(move |(reference, row)| {
+        let start = match row.role {
+            Role::Input { start } => Some(start),
+            Role::Output { .. } => None,
+            Role::Parameter { start } => Some(starts.next().unwrap_or(start)),
+        };
+        (reference, row, start)
+    })
+}
+
+pub(super) fn experiment(experiment: &Experiment) -> Attributes<'static> {
     let Experiment { start, stop, tolerance, step } = *experiment;
     let number = |value: f64| format!("{value:?}");
     vec![
@@ -136,6 +168,14 @@ fn variable(
     row: &Row,
     start: Option<f64>,
 ) -> io::Result<()> {
+    parent(xml, "ScalarVariable", general(reference, row), |xml| {
+        let (name, attributes) = type_and_range(declaration, &row.kind, start);
+        leaf(xml, name, attributes)
+    })
+}
+
+/// The attributes that variables of all types have.
+pub(super) fn general(reference: usize, row: &Row) -> Attributes<'static> {
     let (causality, variability, initial) = match row.role {
         Role::Input { .. } => ("input", "continuous", None),
         Role::Output { continuous: true, .. } => ("output", "continuous", Some("calculated")),
@@ -151,15 +191,16 @@ fn variable(
     ];
     // The standard forbids `initial` for inputs.
     attributes.extend(initial.map(|initial| ("initial", initial.into())));
-    parent(xml, "ScalarVariable", attributes, |xml| {
-        let (name, attributes) = type_and_range(declaration, &row.kind, start);
-        leaf(xml, name, attributes)
-    })
+    attributes
 }
 
 /// The element that tells a variable's type. The unit stands here as well as in the declared type:
 /// some hosts look no further than the variable.
-fn type_and_range<'a>(declaration: &'a Declaration, kind: &Kind, start: Option<f64>) -> (&'a str, Attributes<'a>) {
+pub(super) fn type_and_range<'a>(
+    declaration: &'a Declaration,
+    kind: &Kind,
+    start: Option<f64>,
+) -> (&'a str, Attributes<'a>) {
     let number = |value: f64| format!("{value:?}");
     let mut attributes: Attributes = vec![];
     let name = match kind {

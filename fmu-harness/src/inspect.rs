@@ -13,6 +13,7 @@ pub fn declared(description: &Description, platforms: &[String], entries: &[Stri
         ("description", "description"),
         ("FMI", "fmiVersion"),
         ("GUID", "guid"),
+        ("token", "instantiationToken"),
         ("version", "version"),
         ("made by", "generationTool"),
         ("made at", "generationDateAndTime"),

@@ -23,7 +23,7 @@ struct Cli {
 enum Command {
     /// Packages a scene as an FMU
     Package(Package),
-    /// Runs a scene, or any FMI 2.0 co-simulation FMU
+    /// Runs a scene, or any co-simulation FMU of FMI 2.0 or 3.0
     Run(Run),
     /// Prints what an FMU declares
     Inspect(Inspect),

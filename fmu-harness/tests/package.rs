@@ -2,7 +2,7 @@
 
 use fmu_harness::host::{Archive, Description, Fmu, LogLine, PLATFORM, Setting};
 use fmu_harness::inspect::declared;
-use fmu_harness::package::Package;
+use fmu_harness::package::{Package, Stock, Version};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
 use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
@@ -152,6 +152,50 @@ fn the_packaged_file_runs_and_its_start_values_are_the_scene() {
     }
     let angle = recording.column("crank.angle").expect("an angle").last().copied();
     assert!(angle.is_some_and(|angle| (0.1..0.101).contains(&(angle / std::f64::consts::TAU))));
+}
+
+#[test]
+fn the_package_of_fmi3_runs_to_the_same_bits_and_tells_the_same_variables() {
+    let (directory, two) = saved();
+    let three = directory.path().join("wornpin3.fmu");
+    let stock = Stock::build().expect("a library");
+    stock.package_for(Version::Fmi3, &scenario()).expect("a package").save(&three).expect("saved");
+    let recordings = [&two, &three].map(|file| {
+        let fmu = Fmu::open(file).expect("an FMU");
+        let settings = ["energy.audit=true", "joint.C.friction.law=tanh"].map(|text| text.parse().expect("name=value"));
+        let experiment = Experiment {
+            settings: settings.to_vec(),
+            inputs: vec![],
+            start: 0.0,
+            until: Until::Time(1e-3),
+            step: 1e-5,
+            tolerance: Some(1e-8),
+        };
+        let quiet = |line: &fmu_harness::host::LogLine| assert!(line.message.is_empty(), "{}", line.message);
+        run(&fmu, &experiment, quiet, |_| {}).expect("a run")
+    });
+    for variable in slidercrank::fmi::slave::variables::VARIABLES {
+        let [old, new] = recordings.each_ref().map(|recording| {
+            let column = recording.column(variable.name).ok();
+            column.map(|column| column.iter().map(|value| value.to_bits()).collect::<Vec<_>>())
+        });
+        assert_eq!(old, new, "{}", variable.name);
+        let [old, new] = recordings.each_ref().map(|recording| recording.parameter(variable.name));
+        assert_eq!(old, new, "{}", variable.name);
+    }
+    let [old, new] = [&two, &three].map(|file| {
+        let mut archive = Archive::open(file).expect("an archive");
+        Description::parse(&archive.description().expect("text")).expect("a description")
+    });
+    assert_eq!(new.variables.len(), 1 + old.variables.len());
+    let (old, new) = (&old.structure, &new.structure);
+    // The variable of the time is the first one, so all numbers are one higher.
+    for (old, new) in
+        old.outputs.iter().chain(&old.initial_unknowns).zip(new.outputs.iter().chain(&new.initial_unknowns))
+    {
+        let higher = old.dependencies.as_ref().map(|list| list.iter().map(|index| index + 1).collect::<Vec<_>>());
+        assert_eq!((old.index + 1, higher.as_ref()), (new.index, new.dependencies.as_ref()));
+    }
 }
 
 #[test]

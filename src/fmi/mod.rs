@@ -4,10 +4,11 @@
 //! |---|---|
 //! | [`slave`] | values, experiment, inputs, saved states, errors and log of one slave; no version of FMI |
 //! | [`v2`] | FMI 2.0: lifecycle, statuses, C types, exported functions |
+//! | [`v3`] | FMI 3.0: the same, with event mode and intermediate update |
 //!
-//! A new version goes beside [`v2`], into a folder of its own (`v3`), and takes nothing from [`v2`] but
-//! the version-neutral part of its C boundary. The folder holds
-//! - `lifecycle.rs`: the version's table of calls and states, which also says what a call may touch
+//! A version has a folder of its own. [`v3`] takes nothing from [`v2`] but the version-neutral part of its C
+//! boundary. A folder holds
+//! - `lifecycle.rs`: the version's [table of calls and states](call_table), which also says what a call may touch
 //!   ([`slave::Permission`]);
 //! - `status.rs`: the version's statuses, from [`slave::Severity`];
 //! - `instance.rs`: a [`slave::Slave`] with the version's state, each function a safe method;
@@ -25,5 +26,7 @@
 //! A refused call changes nothing: values set together are applied all or none, and an instance that
 //! answered with an error is where it was before, so that the importer may correct the call.
 
+pub mod call_table;
 pub mod slave;
 pub mod v2;
+pub mod v3;

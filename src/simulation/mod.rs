@@ -12,6 +12,7 @@ mod phase;
 mod record;
 mod run;
 mod settings;
+mod side;
 mod start;
 mod system;
 mod time_stepping;
@@ -22,6 +23,7 @@ pub use error::SimulationError;
 pub use hosted::{Direction, HostedMechanism, Update, nominals};
 pub use linearization::Linearization;
 pub use phase::{Phase, PhaseScales};
+pub use side::Side;
 pub use system::System;
 
 use crate::integrator::{IntegrationError, MAX_STATES, Reader};
@@ -41,6 +43,7 @@ pub struct Simulation {
     time: f64,
     /// As the scene has it.
     tolerance: f64,
+    side: Side,
 }
 
 /// Message for the only dead end of a mechanism's equations of motion.
@@ -54,7 +57,8 @@ impl Simulation {
     /// `Scene` if the loop does not close in the start pose, or if the method does not support the scene.
     pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
-        Ok(Self { motion: start::start(scene, inputs)?, time: 0.0, tolerance: scene.solver.tolerance })
+        let (motion, tolerance) = (start::start(scene, inputs)?, scene.solver.tolerance);
+        Ok(Self { motion, time: 0.0, tolerance, side: Side::After })
     }
 
     /// [s] The communication point reached, relative to the start.
@@ -74,6 +78,7 @@ impl Simulation {
     /// `Integration`; the simulation is then at the last time reached, and its outputs, `snapshot` and `restore` can
     /// still be used.
     pub fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
+        self.side = Side::After;
         match self.motion.advance(time) {
             Ok(()) => {
                 self.time = time;
@@ -89,6 +94,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_to_event(&mut self, time: f64) -> Result<bool, SimulationError> {
+        self.side = Side::After;
         match self.motion.advance_to_event(self.time, time) {
             Ok(event) => {
                 self.time = event.unwrap_or(time);
@@ -96,6 +102,33 @@ impl Simulation {
             }
             Err(error) => Err(self.failed(error)),
         }
+    }
+
+    /// Moves to the end of the next step of the method, or to `time` (≥ the time reached), and tells whether a contact
+    /// has closed or opened there. The steps are the same as those of [`Simulation::advance_to`].
+    ///
+    /// # Errors
+    /// As [`Simulation::advance_to`].
+    pub fn advance_by_step(&mut self, time: f64) -> Result<bool, SimulationError> {
+        self.side = Side::After;
+        let after = self.time;
+        let next = after.next_up().min(time);
+        let moved = self.motion.advance(next).and_then(|()| {
+            let reached = self.motion.front_time().min(time);
+            Ok((reached, self.motion.advance_to_event(after, reached)?))
+        });
+        match moved {
+            Ok((reached, event)) => {
+                self.time = reached;
+                Ok(event.is_some())
+            }
+            Err(error) => Err(self.failed(error)),
+        }
+    }
+
+    /// Looks from now on at this side of the events at the communication point, until time moves.
+    pub fn look(&mut self, side: Side) {
+        self.side = side;
     }
 
     /// Sets the time to that of the error, and converts the error.
@@ -112,20 +145,20 @@ impl Simulation {
 
     /// Outputs at the communication point.
     pub fn outputs(&mut self) -> Outputs {
-        let mut outputs = self.motion.outputs(self.time);
+        let mut outputs = self.motion.outputs(self.time, self.side);
         (outputs.solver.tolerance_used, outputs.solver.portable_used) = (self.tolerance, PORTABLE);
         outputs
     }
 
     /// First time derivatives of the real outputs at the communication point; integers and Booleans are meaningless.
     pub fn output_rates(&mut self) -> Outputs {
-        self.motion.output_rates(self.time)
+        self.motion.output_rates(self.time, self.side)
     }
 
     /// Derivative of the real outputs with respect to the inputs in the direction `seed`, at constant states; integers
     /// and Booleans are meaningless.
     pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
-        self.motion.output_sensitivity(self.time, seed)
+        self.motion.output_sensitivity(self.time, seed, self.side)
     }
 
     /// Writes the states at the communication point and their rates; how many there are.

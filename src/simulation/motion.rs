@@ -3,6 +3,7 @@
 use super::equations::{Equations, Size};
 use super::linearization::Linearization;
 use super::phase::{Phase, PhaseScales};
+use super::side::Side;
 use crate::integrator::{IntegrationError, MAX_STATES, Reader, Snapshot};
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
@@ -22,12 +23,12 @@ pub trait Motion: Send {
     fn phase_scales(&self) -> PhaseScales;
     /// Sets the inputs from the communication point `inputs.at` on.
     fn set_inputs(&mut self, inputs: InputSignal);
-    /// Outputs at `t` in the last step.
-    fn outputs(&mut self, t: f64) -> Outputs;
-    /// Time derivatives of the outputs at `t` in the last step.
-    fn output_rates(&mut self, t: f64) -> Outputs;
-    /// Derivatives of the outputs at `t` with respect to the inputs, in the direction `seed`.
-    fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs;
+    /// Outputs at `t` in the last step, on this side of the events there.
+    fn outputs(&mut self, t: f64, side: Side) -> Outputs;
+    /// Time derivatives of the outputs at `t` in the last step, on this side of the events there.
+    fn output_rates(&mut self, t: f64, side: Side) -> Outputs;
+    /// Derivatives of the outputs at `t` with respect to the inputs, in the direction `seed`, on this side of the events.
+    fn output_sensitivity(&mut self, t: f64, seed: Inputs, side: Side) -> Outputs;
     /// Writes the states at `t` in the last step and their rates; how many there are.
     fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize;
     /// Size of the equations of motion.
@@ -38,6 +39,8 @@ pub trait Motion: Send {
     fn equations(self: Box<Self>) -> Box<dyn Equations>;
     /// Evaluates the Jacobian of the right-hand side `times` times at the start of the next step.
     fn differentiate(&self, times: usize);
+    /// Time [s] at the start of the next step.
+    fn front_time(&self) -> f64;
     /// Time [s] and states at the start of the next step.
     fn front(&self) -> (f64, Vec<f64>);
     /// Rates of `states` at `time` [s] under the conditions at the start of the next step.

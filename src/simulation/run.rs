@@ -8,6 +8,7 @@ use super::observation::{observe, solver_outputs};
 use super::phase::{Phase, PhaseScales};
 use super::record;
 use super::settings::settings;
+use super::side::Side;
 use crate::integrator::methods::named;
 use crate::integrator::{IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Snapshot, StateLayout, StepPoint};
 use crate::model::contact::ContactState;
@@ -45,11 +46,25 @@ impl Run {
     }
 
     /// Outputs at `t` under other inputs, at constant states.
-    fn observe_under(&mut self, t: f64, inputs: Inputs) -> Outputs {
-        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
+    fn observe_under(&mut self, t: f64, inputs: Inputs, side: Side) -> Outputs {
+        let (y, conditions) = state_at(&mut self.integrator, self.model.as_ref(), t, side);
         let inputs = InputSignal { at: t, value: inputs, rate: Inputs::default() };
         observe(self.model.as_ref(), &self.observer, &Conditions { inputs, ..conditions }, t, y)
     }
+}
+
+/// State and conditions at `t` in the last step, on this side of the events there.
+fn state_at<'a>(
+    integrator: &'a mut Integrator<Conditions>,
+    model: &dyn MechanismModel,
+    t: f64,
+    side: Side,
+) -> (&'a [f64], Conditions) {
+    if side == Side::Before && t >= integrator.state().front().t {
+        let StepPoint { y, discrete, .. } = integrator.state().end();
+        return (y, *discrete);
+    }
+    integrator.state_at(model, t)
 }
 
 impl Motion for Run {
@@ -94,15 +109,17 @@ impl Motion for Run {
         self.integrator.set_discrete(self.model.as_ref(), Conditions { inputs, ..conditions });
     }
 
-    fn outputs(&mut self, t: f64) -> Outputs {
-        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
+    fn outputs(&mut self, t: f64, side: Side) -> Outputs {
+        let (y, conditions) = state_at(&mut self.integrator, self.model.as_ref(), t, side);
         let mut outputs = observe(self.model.as_ref(), &self.observer, &conditions, t, y);
-        outputs.solver = solver_outputs(self.integrator.state().statistics_at(t));
+        // An instant earlier, the events at the end of the step do not count yet.
+        let counted = if side == Side::Before { t.next_down() } else { t };
+        outputs.solver = solver_outputs(self.integrator.state().statistics_at(counted));
         outputs
     }
 
-    fn output_rates(&mut self, t: f64) -> Outputs {
-        let (y, conditions) = self.integrator.state_at(self.model.as_ref(), t);
+    fn output_rates(&mut self, t: f64, side: Side) -> Outputs {
+        let (y, conditions) = state_at(&mut self.integrator, self.model.as_ref(), t, side);
         let (mut rates, model, observer) = ([0.0; MAX_STATES], self.model.as_ref(), &self.observer);
         let rates = &mut rates[..y.len()];
         model.rates(&conditions, t, y, rates);
@@ -111,8 +128,8 @@ impl Motion for Run {
         slopes
     }
 
-    fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs {
-        sensitivity(seed, |inputs| self.observe_under(t, inputs))
+    fn output_sensitivity(&mut self, t: f64, seed: Inputs, side: Side) -> Outputs {
+        sensitivity(seed, |inputs| self.observe_under(t, inputs, side))
     }
 
     fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {
@@ -148,6 +165,10 @@ impl Motion for Run {
             self.model.jacobian(black_box(discrete), *t, black_box(y), &mut jacobian);
             black_box(&jacobian);
         }
+    }
+
+    fn front_time(&self) -> f64 {
+        self.integrator.state().front().t
     }
 
     fn front(&self) -> (f64, Vec<f64>) {

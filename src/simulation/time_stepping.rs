@@ -8,6 +8,7 @@ use super::observation::solver_outputs;
 use super::phase::{Phase, PhaseScales};
 use super::record::{self, Discrete};
 use super::settings::settings;
+use super::side::Side;
 use crate::integrator::{
     Impulses, IntegrationError, Jacobian, MAX_STATES, Moreau, Reader, Settings, Snapshot, StateLayout, StepPoint,
 };
@@ -100,13 +101,13 @@ impl Motion for TimeStepping {
         }
     }
 
-    fn outputs(&mut self, t: f64) -> Outputs {
+    fn outputs(&mut self, t: f64, _: Side) -> Outputs {
         let (solver, inputs) = (solver_outputs(self.integrator.state().statistics_at(t)), self.inputs());
         let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
         Outputs { solver, ..observe(self.model.as_ref(), &self.observer, &impulses, &inputs, t, y) }
     }
 
-    fn output_rates(&mut self, t: f64) -> Outputs {
+    fn output_rates(&mut self, t: f64, _: Side) -> Outputs {
         let inputs = self.inputs();
         let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
         let (mut rates, model, observer) = ([0.0; MAX_STATES], self.model.as_ref(), &self.observer);
@@ -117,7 +118,7 @@ impl Motion for TimeStepping {
         slopes
     }
 
-    fn output_sensitivity(&mut self, t: f64, seed: Inputs) -> Outputs {
+    fn output_sensitivity(&mut self, t: f64, seed: Inputs, _: Side) -> Outputs {
         sensitivity(seed, |inputs| self.observe_under(t, inputs))
     }
 
@@ -150,6 +151,10 @@ impl Motion for TimeStepping {
             self.model.jacobian(self.integrator.open(), *t, black_box(y), &mut jacobian);
             black_box(&jacobian);
         }
+    }
+
+    fn front_time(&self) -> f64 {
+        self.integrator.state().front().t
     }
 
     fn front(&self) -> (f64, Vec<f64>) {

@@ -2,6 +2,7 @@
 //! let pass. Each rule is shown to catch its fault: a check that never fires proves nothing.
 
 mod dependencies;
+mod fmi3;
 mod rules;
 
 use rules::problems;

@@ -4,7 +4,7 @@ use super::{out_directory, shown};
 use crate::host::Setting;
 use crate::package::build::Levels;
 use crate::package::platform::Platform;
-use crate::package::{self, Stock};
+use crate::package::{self, Stock, Version};
 use crate::scenes::Scenario;
 use anyhow::Result;
 use clap::{Args, ValueEnum};
@@ -33,6 +33,9 @@ pub struct Package {
     /// All of these platforms
     #[arg(long, conflicts_with = "platforms")]
     all_platforms: bool,
+    /// Version of FMI
+    #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
+    fmi: Version,
 }
 
 impl Package {
@@ -42,7 +45,7 @@ impl Package {
         let file = self.output.clone().unwrap_or_else(|| out_directory().join(format!("{}.fmu", scenario.name)));
         let mut packages = vec![];
         for (ending, stock) in self.stocks()? {
-            packages.push((ended(&file, ending), stock.package(&scenario)?));
+            packages.push((ended(&file, ending), stock.package_for(self.fmi, &scenario)?));
         }
         packages.iter().try_for_each(|(file, package)| save(package, file))
     }

@@ -24,7 +24,7 @@ const SPEED: &str = "crank.speed_start";
 const PATIENCE: f64 = 20.0;
 const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
 
-/// Runs a scene, or any FMI 2.0 co-simulation FMU.
+/// Runs a scene, or any co-simulation FMU of FMI 2.0 or 3.0.
 #[derive(Args, Default)]
 pub struct Run {
     /// Scene: the name of a shipped one, or a .toml file

@@ -42,7 +42,7 @@ pub struct SimpleType {
     pub items: Vec<(String, i32)>,
 }
 
-/// The five types of FMI 2.0.
+/// The five types of FMI 2.0, as which their like of FMI 3.0 count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// fmi2Real.
@@ -55,6 +55,8 @@ pub enum Kind {
     String,
     /// An fmi2Integer with names.
     Enumeration,
+    /// A type that only FMI 3.0 has; this program does not read its values.
+    Other,
 }
 
 /// One scalar variable.
@@ -132,6 +134,22 @@ impl Description {
     /// Reads the text of modelDescription.xml.
     pub fn parse(xml: &str) -> Result<Self, HostError> {
         Parser::new(xml).run()
+    }
+
+    /// The version of FMI that it was made for.
+    pub fn version(&self) -> &str {
+        self.model.get("fmiVersion").unwrap_or("not given")
+    }
+
+    /// An entry of FMI 3.0's ModelStructure, which names variables by reference.
+    pub(super) fn unknown_by_reference(&self, attributes: &Attributes) -> Option<Unknown> {
+        let number = |reference: &str| {
+            let reference: u32 = reference.parse().ok()?;
+            Some(1 + self.variables.iter().position(|variable| variable.reference == reference)?)
+        };
+        let dependencies = attributes.get("dependencies");
+        let dependencies = dependencies.map(|list| list.split_whitespace().filter_map(number).collect());
+        Some(Unknown { index: number(attributes.get("valueReference")?)?, dependencies })
     }
 
     /// The model's name.

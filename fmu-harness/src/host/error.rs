@@ -1,6 +1,5 @@
 //! What can be wrong with an FMU, one sentence each.
 
-use super::library::Status;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -74,8 +73,8 @@ pub enum HostError {
     Call {
         /// The C function, and what it was asked.
         call: String,
-        /// Anything but OK or Warning.
-        status: Status,
+        /// Anything but OK or Warning, by its name in C.
+        status: String,
         /// Its last log line.
         log: Option<String>,
     },

@@ -1,4 +1,4 @@
-//! An FMU's binary: its functions, and one instance of it. The harness's only `unsafe`.
+//! An FMU's binary, of FMI 2.0 or 3.0: its functions, and one instance of it. The harness's only `unsafe`.
 
 #![allow(unsafe_code)]
 
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::ptr::NonNull;
 use std::sync::Arc;
 
-/// fmi2Status.
+/// fmi2Status, fmi3Status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Done.
@@ -47,7 +47,7 @@ impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unknown(value) => write!(f, "the unknown status {value}"),
-            known => write!(f, "fmi2{known:?}"),
+            known => write!(f, "{known:?}"),
         }
     }
 }
@@ -69,12 +69,15 @@ struct Callbacks {
     environment: *mut c_void,
 }
 
+/// fmi3LogMessageCallback.
+type Logger3 = extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
+
 /// Declares the functions that are looked up, with their types in C.
 macro_rules! functions {
-    ($($field:ident = $symbol:literal: fn($($argument:ty),*) $(-> $result:ty)?;)+) => {
-        struct Functions { $($field: unsafe extern "C" fn($($argument),*) $(-> $result)?),+ }
+    ($name:ident; $($field:ident = $symbol:literal: fn($($argument:ty),*) $(-> $result:ty)?;)+) => {
+        struct $name { $($field: unsafe extern "C" fn($($argument),*) $(-> $result)?),+ }
 
-        impl Functions {
+        impl $name {
             fn find(library: &libloading::Library, path: &Path) -> Result<Self, HostError> {
                 Ok(Self { $($field: {
                     // SAFETY: the standard fixes this name's type; the FMU vouches for keeping to it.
@@ -86,7 +89,7 @@ macro_rules! functions {
     };
 }
 
-functions! {
+functions! { Functions2;
     get_version = "fmi2GetVersion": fn() -> *const c_char;
     get_types_platform = "fmi2GetTypesPlatform": fn() -> *const c_char;
     instantiate = "fmi2Instantiate":
@@ -106,6 +109,53 @@ functions! {
     do_step = "fmi2DoStep": fn(Component, f64, f64, Boolean) -> c_int;
 }
 
+functions! { Functions3;
+    get_version = "fmi3GetVersion": fn() -> *const c_char;
+    instantiate = "fmi3InstantiateCoSimulation": fn(
+        *const c_char, *const c_char, *const c_char, bool, bool, bool, bool, *const c_uint, usize, *mut c_void, Logger3,
+        *const c_void
+    ) -> Component;
+    free_instance = "fmi3FreeInstance": fn(Component);
+    enter_initialization = "fmi3EnterInitializationMode": fn(Component, bool, f64, f64, bool, f64) -> c_int;
+    exit_initialization = "fmi3ExitInitializationMode": fn(Component) -> c_int;
+    terminate = "fmi3Terminate": fn(Component) -> c_int;
+    get_real = "fmi3GetFloat64": fn(Component, *const c_uint, usize, *mut f64, usize) -> c_int;
+    get_integer = "fmi3GetInt32": fn(Component, *const c_uint, usize, *mut i32, usize) -> c_int;
+    get_enumeration = "fmi3GetInt64": fn(Component, *const c_uint, usize, *mut i64, usize) -> c_int;
+    get_boolean = "fmi3GetBoolean": fn(Component, *const c_uint, usize, *mut u8, usize) -> c_int;
+    set_real = "fmi3SetFloat64": fn(Component, *const c_uint, usize, *const f64, usize) -> c_int;
+    set_integer = "fmi3SetInt32": fn(Component, *const c_uint, usize, *const i32, usize) -> c_int;
+    set_enumeration = "fmi3SetInt64": fn(Component, *const c_uint, usize, *const i64, usize) -> c_int;
+    set_boolean = "fmi3SetBoolean": fn(Component, *const c_uint, usize, *const u8, usize) -> c_int;
+    set_string = "fmi3SetString": fn(Component, *const c_uint, usize, *const *const c_char, usize) -> c_int;
+    do_step = "fmi3DoStep": fn(Component, f64, f64, bool, *mut u8, *mut u8, *mut u8, *mut f64) -> c_int;
+}
+
+/// The functions of the version that the binary was made for.
+enum Functions {
+    Fmi2(Functions2),
+    Fmi3(Functions3),
+}
+
+/// Which version of FMI a binary was made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// FMI 2.0.
+    Fmi2,
+    /// FMI 3.0.
+    Fmi3,
+}
+
+impl Version {
+    /// What the names of its functions begin with.
+    pub fn prefix(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "fmi2",
+            Self::Fmi3 => "fmi3",
+        }
+    }
+}
+
 /// A loaded binary.
 pub struct Library {
     functions: Functions,
@@ -115,23 +165,35 @@ pub struct Library {
 
 impl Library {
     /// Loads the shared library at `path` and looks up every function that a host needs.
-    pub fn load(path: &Path) -> Result<Self, HostError> {
+    pub fn load(path: &Path, version: Version) -> Result<Self, HostError> {
         // SAFETY: loading runs the FMU's initialisers, which is what the caller asks for.
         let library = unsafe { libloading::Library::new(path) }
             .map_err(|error| HostError::Load { library: path.into(), cause: cause(&error) })?;
-        Ok(Self { functions: Functions::find(&library, path)?, _library: library })
+        let functions = match version {
+            Version::Fmi2 => Functions::Fmi2(Functions2::find(&library, path)?),
+            Version::Fmi3 => Functions::Fmi3(Functions3::find(&library, path)?),
+        };
+        Ok(Self { functions, _library: library })
     }
 
     /// The version of FMI that the binary was made for.
     pub fn version(&self) -> String {
         // SAFETY: no arguments; the answer is a static string.
-        text(unsafe { (self.functions.get_version)() })
+        text(unsafe {
+            match &self.functions {
+                Functions::Fmi2(functions) => (functions.get_version)(),
+                Functions::Fmi3(functions) => (functions.get_version)(),
+            }
+        })
     }
 
-    /// The platform of its types, `default` in practice.
+    /// The platform of its types, `default` in practice; FMI 3.0 has no other.
     pub fn types_platform(&self) -> String {
-        // SAFETY: no arguments; the answer is a static string.
-        text(unsafe { (self.functions.get_types_platform)() })
+        match &self.functions {
+            // SAFETY: no arguments; the answer is a static string.
+            Functions::Fmi2(functions) => text(unsafe { (functions.get_types_platform)() }),
+            Functions::Fmi3(_) => "default".into(),
+        }
     }
 }
 
@@ -165,6 +227,19 @@ extern "C" fn receive(
     log.receive(LogLine { status: status.into(), category: text(category), message: text(message) });
 }
 
+/// The same for FMI 3.0.
+extern "C" fn receive3(environment: *mut c_void, status: c_int, category: *const c_char, message: *const c_char) {
+    receive(environment, std::ptr::null(), status, category, message);
+}
+
+/// Times and tolerance, which FMI 3.0 wants on entering initialization mode.
+#[derive(Clone, Copy, Default)]
+struct Setup {
+    tolerance: Option<f64>,
+    start: f64,
+    stop: Option<f64>,
+}
+
 /// One instance: each function of the standard as a safe call that hands back its status.
 pub struct Instance {
     component: NonNull<c_void>,
@@ -172,12 +247,18 @@ pub struct Instance {
     /// The FMU keeps pointers to both until it is freed.
     _callbacks: Box<Callbacks>,
     log: Arc<Log>,
+    setup: Setup,
 }
 
 impl Drop for Instance {
     fn drop(&mut self) {
-        // SAFETY: `component` came from fmi2Instantiate and is freed here, once.
-        unsafe { (self.library.functions.free_instance)(self.component.as_ptr()) }
+        // SAFETY: `component` came from instantiation and is freed here, once.
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.free_instance)(self.component.as_ptr()),
+                Functions::Fmi3(functions) => (functions.free_instance)(self.component.as_ptr()),
+            }
+        }
     }
 }
 
@@ -187,18 +268,20 @@ macro_rules! transfer {
         $(#[$doc])*
         pub fn $name(&mut self, references: &[u32], values: $values) -> Status {
             assert_eq!(references.len(), values.len(), "one value for each reference");
+            let (component, n) = (self.component.as_ptr(), references.len());
             // SAFETY: a live component, and two lists of the length passed.
             unsafe {
-                (self.library.functions.$name)(
-                    self.component.as_ptr(), references.as_ptr(), references.len(), values.$pointer(),
-                )
+                match &self.library.functions {
+                    Functions::Fmi2(of) => (of.$name)(component, references.as_ptr(), n, values.$pointer()),
+                    Functions::Fmi3(of) => (of.$name)(component, references.as_ptr(), n, values.$pointer(), n),
+                }
             }.into()
         }
     )+};
 }
 
 impl Instance {
-    /// fmi2Instantiate, for co-simulation, invisible. A name or GUID with a zero byte is no C string and refused.
+    /// Instantiates for co-simulation, invisible, without event mode. A name or GUID with a zero byte is no C string and refused.
     pub fn new(
         library: Arc<Library>,
         name: &str,
@@ -218,20 +301,34 @@ impl Instance {
             environment: Arc::as_ptr(&log).cast_mut().cast(),
         });
         const CO_SIMULATION: c_int = 1;
+        let (name, guid, resources) = (name.as_ptr(), guid.as_ptr(), resources.as_ptr());
         // SAFETY: zero-terminated strings that live through the call, and callbacks that outlive the instance.
         let component = unsafe {
-            (library.functions.instantiate)(
-                name.as_ptr(),
-                CO_SIMULATION,
-                guid.as_ptr(),
-                resources.as_ptr(),
-                &*callbacks,
-                0,
-                logging.into(),
-            )
+            match &library.functions {
+                Functions::Fmi2(functions) => {
+                    (functions.instantiate)(name, CO_SIMULATION, guid, resources, &*callbacks, 0, logging.into())
+                }
+                Functions::Fmi3(functions) => {
+                    let (environment, none) = (callbacks.environment, std::ptr::null());
+                    (functions.instantiate)(
+                        name,
+                        guid,
+                        resources,
+                        false,
+                        logging,
+                        false,
+                        false,
+                        none,
+                        0,
+                        environment,
+                        receive3,
+                        none.cast(),
+                    )
+                }
+            }
         };
         match NonNull::new(component) {
-            Some(component) => Ok(Self { component, library, _callbacks: callbacks, log }),
+            Some(component) => Ok(Self { component, library, _callbacks: callbacks, log, setup: Setup::default() }),
             None => Err(refused(log.last())),
         }
     }
@@ -241,58 +338,173 @@ impl Instance {
         self.log.last()
     }
 
-    /// fmi2SetupExperiment.
+    /// fmi2SetupExperiment; kept for [`Instance::enter_initialization`] in FMI 3.0.
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Status {
+        self.setup = Setup { tolerance, start, stop };
         let (has_tolerance, has_stop) = (tolerance.is_some().into(), stop.is_some().into());
         let (tolerance, stop) = (tolerance.unwrap_or(0.0), stop.unwrap_or(0.0));
-        let setup = self.library.functions.setup_experiment;
-        // SAFETY: a live component.
-        unsafe { setup(self.component.as_ptr(), has_tolerance, tolerance, start, has_stop, stop) }.into()
+        match &self.library.functions {
+            // SAFETY: a live component.
+            Functions::Fmi2(functions) => unsafe {
+                (functions.setup_experiment)(self.component.as_ptr(), has_tolerance, tolerance, start, has_stop, stop)
+            }
+            .into(),
+            Functions::Fmi3(_) => Status::Ok,
+        }
     }
 
-    /// fmi2EnterInitializationMode.
+    /// EnterInitializationMode.
     pub fn enter_initialization(&mut self) -> Status {
+        let Setup { tolerance, start, stop } = self.setup;
+        let component = self.component.as_ptr();
         // SAFETY: a live component.
-        unsafe { (self.library.functions.enter_initialization)(self.component.as_ptr()) }.into()
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.enter_initialization)(component),
+                Functions::Fmi3(functions) => {
+                    let (has_tolerance, has_stop) = (tolerance.is_some(), stop.is_some());
+                    let (tolerance, stop) = (tolerance.unwrap_or(0.0), stop.unwrap_or(0.0));
+                    (functions.enter_initialization)(component, has_tolerance, tolerance, start, has_stop, stop)
+                }
+            }
+        }
+        .into()
     }
 
-    /// fmi2ExitInitializationMode.
+    /// ExitInitializationMode.
     pub fn exit_initialization(&mut self) -> Status {
         // SAFETY: a live component.
-        unsafe { (self.library.functions.exit_initialization)(self.component.as_ptr()) }.into()
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.exit_initialization)(self.component.as_ptr()),
+                Functions::Fmi3(functions) => (functions.exit_initialization)(self.component.as_ptr()),
+            }
+        }
+        .into()
     }
 
-    /// fmi2Terminate.
+    /// Terminate.
     pub fn terminate(&mut self) -> Status {
         // SAFETY: a live component.
-        unsafe { (self.library.functions.terminate)(self.component.as_ptr()) }.into()
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.terminate)(self.component.as_ptr()),
+                Functions::Fmi3(functions) => (functions.terminate)(self.component.as_ptr()),
+            }
+        }
+        .into()
     }
 
-    /// fmi2DoStep, never to be taken back.
+    /// DoStep, never to be taken back, up to its end.
     pub fn do_step(&mut self, time: f64, step: f64) -> Status {
-        // SAFETY: a live component.
-        unsafe { (self.library.functions.do_step)(self.component.as_ptr(), time, step, 1) }.into()
+        let component = self.component.as_ptr();
+        match &self.library.functions {
+            // SAFETY: a live component.
+            Functions::Fmi2(functions) => unsafe { (functions.do_step)(component, time, step, 1) },
+            Functions::Fmi3(functions) => {
+                let ([mut event, mut terminate, mut early], mut reached) = ([0; 3], 0.0);
+                // SAFETY: a live component, and four places that live through the call.
+                unsafe {
+                    (functions.do_step)(
+                        component,
+                        time,
+                        step,
+                        true,
+                        &mut event,
+                        &mut terminate,
+                        &mut early,
+                        &mut reached,
+                    )
+                }
+            }
+        }
+        .into()
+    }
+
+    /// The version that the binary was made for.
+    pub fn version(&self) -> Version {
+        match &self.library.functions {
+            Functions::Fmi2(_) => Version::Fmi2,
+            Functions::Fmi3(_) => Version::Fmi3,
+        }
     }
 
     transfer! {
-        /// fmi2GetReal.
+        /// fmi2GetReal, fmi3GetFloat64.
         get_real(&mut [f64]) = as_mut_ptr;
-        /// fmi2GetInteger, also of enumerations.
+        /// fmi2GetInteger, fmi3GetInt32.
         get_integer(&mut [i32]) = as_mut_ptr;
-        /// fmi2GetBoolean; 0 is false.
-        get_boolean(&mut [i32]) = as_mut_ptr;
-        /// fmi2SetReal.
+        /// fmi2SetReal, fmi3SetFloat64.
         set_real(&[f64]) = as_ptr;
-        /// fmi2SetInteger, also of enumerations.
+        /// fmi2SetInteger, fmi3SetInt32.
         set_integer(&[i32]) = as_ptr;
-        /// fmi2SetBoolean; 0 is false.
-        set_boolean(&[i32]) = as_ptr;
     }
 
-    /// fmi2SetString.
+    /// fmi2GetInteger, fmi3GetInt64.
+    pub fn get_enumeration(&mut self, references: &[u32], values: &mut [i32]) -> Status {
+        let Functions::Fmi3(functions) = &self.library.functions else {
+            return self.get_integer(references, values);
+        };
+        let (n, mut wide) = (references.len(), vec![0; values.len()]);
+        assert_eq!(n, wide.len(), "one value for each reference");
+        let get = functions.get_enumeration;
+        // SAFETY: a live component, and two lists of the length passed.
+        let status = unsafe { get(self.component.as_ptr(), references.as_ptr(), n, wide.as_mut_ptr(), n) };
+        values.iter_mut().zip(wide).for_each(|(value, wide)| *value = wide as i32);
+        status.into()
+    }
+
+    /// fmi2GetBoolean, fmi3GetBoolean; 0 is false.
+    pub fn get_boolean(&mut self, references: &[u32], values: &mut [i32]) -> Status {
+        let n = references.len();
+        assert_eq!(n, values.len(), "one value for each reference");
+        let (component, list) = (self.component.as_ptr(), references.as_ptr());
+        match &self.library.functions {
+            // SAFETY: a live component, and two lists of the length passed.
+            Functions::Fmi2(functions) => unsafe { (functions.get_boolean)(component, list, n, values.as_mut_ptr()) },
+            Functions::Fmi3(functions) => {
+                let mut bytes = vec![0; n];
+                // SAFETY: as above.
+                let status = unsafe { (functions.get_boolean)(component, list, n, bytes.as_mut_ptr(), n) };
+                values.iter_mut().zip(bytes).for_each(|(value, byte)| *value = byte.into());
+                status
+            }
+        }
+        .into()
+    }
+
+    /// fmi2SetInteger, fmi3SetInt64, of one enumeration.
+    pub fn set_enumeration(&mut self, reference: u32, value: i32) -> Status {
+        let Functions::Fmi3(functions) = &self.library.functions else {
+            return self.set_integer(&[reference], &[value]);
+        };
+        // SAFETY: a live component, one reference and one value.
+        unsafe { (functions.set_enumeration)(self.component.as_ptr(), &reference, 1, &value.into(), 1) }.into()
+    }
+
+    /// fmi2SetBoolean, fmi3SetBoolean, of one variable.
+    pub fn set_boolean(&mut self, reference: u32, value: bool) -> Status {
+        let component = self.component.as_ptr();
+        // SAFETY: a live component, one reference and one value.
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.set_boolean)(component, &reference, 1, &value.into()),
+                Functions::Fmi3(functions) => (functions.set_boolean)(component, &reference, 1, &value.into(), 1),
+            }
+        }
+        .into()
+    }
+
+    /// fmi2SetString, fmi3SetString.
     pub fn set_string(&mut self, reference: u32, value: &CStr) -> Status {
-        let set = self.library.functions.set_string;
+        let component = self.component.as_ptr();
         // SAFETY: a live component, one reference, and one string that lives through the call.
-        unsafe { set(self.component.as_ptr(), &reference, 1, &value.as_ptr()) }.into()
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(functions) => (functions.set_string)(component, &reference, 1, &value.as_ptr()),
+                Functions::Fmi3(functions) => (functions.set_string)(component, &reference, 1, &value.as_ptr(), 1),
+            }
+        }
+        .into()
     }
 }

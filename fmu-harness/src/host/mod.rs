@@ -1,5 +1,5 @@
 //! An FMU, foreign or own, as a host uses it: `Fmu::open`, then `instantiate`, then a `Slave` whose type tells
-//! where in the lifecycle of FMI 2.0 §4.2.4 it is.
+//! where in the lifecycle of FMI 2.0 §4.2.4 it is. An FMU of FMI 3.0 is used in the same way, without its event mode.
 
 mod archive;
 mod description;
@@ -13,7 +13,7 @@ mod value;
 pub use archive::{Archive, PLATFORM};
 pub use description::{Attributes, Description, Kind, Structure, Unknown, Variable};
 pub use error::HostError;
-pub use library::{Library, Status};
+pub use library::{Library, Status, Version};
 pub use log::{Log, LogLine};
 pub use selection::Selection;
 pub use value::{Setting, Value};
@@ -38,11 +38,15 @@ impl Fmu {
     pub fn open(file: &Path) -> Result<Self, HostError> {
         let mut archive = Archive::open(file)?;
         let description = Description::parse(&archive.description()?)?;
-        let binary = binary_of(&description, &archive)?;
+        let (binary, version) = binary_of(&description, &archive)?;
         let directory = TempDir::with_prefix("fmu-")?;
         archive.unpack(directory.path())?;
-        let library = Arc::new(Library::load(&directory.path().join(binary))?);
-        let resources = file_uri(&directory.path().join("resources"));
+        let library = Arc::new(Library::load(&directory.path().join(binary), version)?);
+        let resources = directory.path().join("resources");
+        let resources = match version {
+            Version::Fmi2 => file_uri(&resources),
+            Version::Fmi3 => format!("{}{}", resources.display(), std::path::MAIN_SEPARATOR),
+        };
         Ok(Self { description, library, resources, _directory: directory })
     }
 
@@ -53,28 +57,36 @@ impl Fmu {
 
     /// Makes an instance whose log lines go to `log`.
     pub fn instantiate(&self, name: &str, log: Arc<Log>, logging: bool) -> Result<Slave<'_, Instantiated>, HostError> {
-        let guid = self.description.model.get("guid").unwrap_or_default();
+        let model = &self.description.model;
+        let guid = model.get("guid").or_else(|| model.get("instantiationToken")).unwrap_or_default();
         let instance = Instance::new(Arc::clone(&self.library), name, guid, &self.resources, log, logging)?;
         Ok(Slave { instance, description: &self.description, phase: PhantomData })
     }
 }
 
-/// Path of this platform's binary inside the archive; an error unless it is an FMI 2.0 co-simulation FMU with one.
-fn binary_of(description: &Description, archive: &Archive) -> Result<PathBuf, HostError> {
+/// Path of this platform's binary inside the archive; an error unless it is a co-simulation FMU with one.
+fn binary_of(description: &Description, archive: &Archive) -> Result<(PathBuf, Version), HostError> {
     let fault = |fault: String| HostError::Description { position: 0, fault };
-    match description.model.get("fmiVersion") {
-        Some("2.0") => {}
-        version => return Err(fault(format!("FMI version {}, wanted 2.0", version.unwrap_or("not given")))),
-    }
+    let (version, platform) = match description.version() {
+        "2.0" => (Version::Fmi2, PLATFORM.to_owned()),
+        three if three == "3.0" || three.starts_with("3.0.") => (Version::Fmi3, platform_of_fmi3()),
+        version => return Err(fault(format!("FMI version {version}, wanted 2.0 or 3.0"))),
+    };
     let identifier = description.co_simulation.as_ref().and_then(|element| element.get("modelIdentifier"));
     let identifier = identifier.ok_or_else(|| fault("no co-simulation is offered".into()))?;
-    let wanted = format!("binaries/{PLATFORM}/{identifier}{}", std::env::consts::DLL_SUFFIX);
+    let wanted = format!("binaries/{platform}/{identifier}{}", std::env::consts::DLL_SUFFIX);
     if archive.names().contains(&wanted) {
-        return Ok(wanted.into());
+        return Ok((wanted.into(), version));
     }
     let platforms = archive.platforms();
     let offered = if platforms.is_empty() { "none".into() } else { platforms.join(", ") };
     Err(HostError::NoBinary { wanted, offered })
+}
+
+/// FMI 3.0's name of the platform that this program runs on.
+fn platform_of_fmi3() -> String {
+    let system = if cfg!(target_os = "macos") { "darwin" } else { std::env::consts::OS };
+    format!("{}-{system}", std::env::consts::ARCH)
 }
 
 /// `file:///…` with every byte escaped that RFC 3986 wants escaped.
@@ -111,8 +123,11 @@ impl<'a, Phase> Slave<'a, Phase> {
         let reference = [variable.reference];
         let status = match value {
             Value::Real(number) => self.instance.set_real(&reference, &[*number]),
+            Value::Integer(number) if variable.kind == Kind::Enumeration => {
+                self.instance.set_enumeration(variable.reference, *number)
+            }
             Value::Integer(number) => self.instance.set_integer(&reference, &[*number]),
-            Value::Boolean(flag) => self.instance.set_boolean(&reference, &[(*flag).into()]),
+            Value::Boolean(flag) => self.instance.set_boolean(variable.reference, *flag),
             Value::String(text) => {
                 let text = CString::new(text.as_str()).map_err(|_| HostError::Value {
                     name: variable.name.clone(),
@@ -128,14 +143,27 @@ impl<'a, Phase> Slave<'a, Phase> {
     /// Sets real variables by reference.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), HostError> {
         let status = self.instance.set_real(references, values);
-        self.check(status, || format!("fmi2SetReal of {references:?}"))
+        self.check(status, || format!("setting the reals {references:?}"))
     }
 
     /// OK and Warning pass; anything else is an error that carries the FMU's last log line.
     fn check(&self, status: Status, call: impl FnOnce() -> String) -> Result<(), HostError> {
         match status {
             Status::Ok | Status::Warning => Ok(()),
-            status => Err(HostError::Call { call: call(), status, log: self.instance.last_log() }),
+            status => Err(HostError::Call { call: call(), status: self.named(status), log: self.instance.last_log() }),
+        }
+    }
+
+    /// A function of the FMU's version of FMI.
+    fn function(&self, name: &str) -> String {
+        format!("{}{name}", self.instance.version().prefix())
+    }
+
+    /// A status by its name in the FMU's version of FMI.
+    fn named(&self, status: Status) -> String {
+        match status {
+            Status::Unknown(_) => status.to_string(),
+            known => self.function(&known.to_string()),
         }
     }
 
@@ -145,7 +173,7 @@ impl<'a, Phase> Slave<'a, Phase> {
 }
 
 impl<'a> Slave<'a, Instantiated> {
-    /// fmi2SetupExperiment and fmi2EnterInitializationMode.
+    /// Sets the experiment up and enters initialization mode.
     pub fn enter_initialization(
         mut self,
         tolerance: Option<f64>,
@@ -153,33 +181,33 @@ impl<'a> Slave<'a, Instantiated> {
         stop: Option<f64>,
     ) -> Result<Slave<'a, Initialising>, HostError> {
         let status = self.instance.setup_experiment(tolerance, start, stop);
-        self.check(status, || "fmi2SetupExperiment".into())?;
+        self.check(status, || self.function("SetupExperiment"))?;
         let status = self.instance.enter_initialization();
-        self.check(status, || "fmi2EnterInitializationMode".into())?;
+        self.check(status, || self.function("EnterInitializationMode"))?;
         Ok(self.into_phase())
     }
 }
 
 impl<'a> Slave<'a, Initialising> {
-    /// fmi2ExitInitializationMode.
+    /// Leaves initialization mode.
     pub fn exit_initialization(mut self) -> Result<Slave<'a, Stepping>, HostError> {
         let status = self.instance.exit_initialization();
-        self.check(status, || "fmi2ExitInitializationMode".into())?;
+        self.check(status, || self.function("ExitInitializationMode"))?;
         Ok(self.into_phase())
     }
 }
 
 impl Slave<'_, Stepping> {
-    /// fmi2DoStep from `time` by `step`.
+    /// A step from `time` by `step`.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), HostError> {
         let status = self.instance.do_step(time, step);
-        self.check(status, || format!("fmi2DoStep from {time} s by {step} s"))
+        self.check(status, || format!("{} from {time} s by {step} s", self.function("DoStep")))
     }
 
-    /// fmi2Terminate.
+    /// Ends the run.
     pub fn terminate(mut self) -> Result<(), HostError> {
         let status = self.instance.terminate();
-        self.check(status, || "fmi2Terminate".into())
+        self.check(status, || self.function("Terminate"))
     }
 }
 
@@ -189,7 +217,7 @@ impl Readable for Initialising {}
 impl Readable for Stepping {}
 
 impl<Phase: Readable> Slave<'_, Phase> {
-    /// fmi2GetReal, fmi2GetInteger and fmi2GetBoolean of a selection.
+    /// Reads a selection.
     pub fn read(&mut self, selection: &mut Selection) -> Result<(), HostError> {
         let status = selection.read_from(&mut self.instance);
         self.check(status, || "reading outputs".into())

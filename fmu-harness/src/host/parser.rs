@@ -79,13 +79,28 @@ impl<'a> Parser<'a> {
             (["TypeDefinitions", "SimpleType"], _) => {
                 self.found.types.entry(self.open_type.clone()).or_default().attributes = attributes;
             }
-            (["TypeDefinitions", "SimpleType", "Enumeration"], "Item") => {
-                let value = attributes.get("value").and_then(|value| value.parse().ok());
-                let item = attributes.get("name").map(str::to_owned).zip(value);
-                self.found.types.entry(self.open_type.clone()).or_default().items.extend(item);
-            }
+            (["TypeDefinitions", "SimpleType", "Enumeration"], "Item") => self.item(&attributes),
             (["ModelVariables"], "ScalarVariable") => self.open_variable = attributes,
             (["ModelVariables", "ScalarVariable"], _) => self.variable(&name, attributes)?,
+            // FMI 3.0 has one element for each of these.
+            (["TypeDefinitions"], _) => {
+                self.open_type = attributes.get("name").unwrap_or_default().into();
+                self.found.types.insert(self.open_type.clone(), SimpleType { attributes, items: vec![] });
+            }
+            (["TypeDefinitions", "EnumerationType"], "Item") => self.item(&attributes),
+            (["ModelVariables"], _) => {
+                self.open_variable = attributes.clone();
+                self.variable(&name, attributes)?;
+            }
+            (["ModelStructure"], "Output" | "ContinuousStateDerivative" | "InitialUnknown") => {
+                let unknown = self.found.unknown_by_reference(&attributes);
+                let list = match name.as_str() {
+                    "Output" => &mut self.found.structure.outputs,
+                    "ContinuousStateDerivative" => &mut self.found.structure.derivatives,
+                    _ => &mut self.found.structure.initial_unknowns,
+                };
+                list.extend(unknown);
+            }
             (["ModelStructure", list], "Unknown") => {
                 let list = match *list {
                     "Outputs" => &mut self.found.structure.outputs,
@@ -111,14 +126,24 @@ impl<'a> Parser<'a> {
         Ok(Attributes(found))
     }
 
+    /// An item of the enumeration being read.
+    fn item(&mut self, attributes: &Attributes) {
+        let value = attributes.get("value").and_then(|value| value.parse().ok());
+        let item = attributes.get("name").map(str::to_owned).zip(value);
+        self.found.types.entry(self.open_type.clone()).or_default().items.extend(item);
+    }
+
     /// The type's element completes the variable that it stands in.
     fn variable(&mut self, kind: &str, of_kind: Attributes) -> Result<(), HostError> {
         let kind = match kind {
-            "Real" => Kind::Real,
-            "Integer" => Kind::Integer,
+            "Real" | "Float64" => Kind::Real,
+            "Integer" | "Int32" => Kind::Integer,
             "Boolean" => Kind::Boolean,
             "String" => Kind::String,
             "Enumeration" => Kind::Enumeration,
+            "Float32" | "Int8" | "UInt8" | "Int16" | "UInt16" | "UInt32" | "Int64" | "UInt64" | "Binary" | "Clock" => {
+                Kind::Other
+            }
             _ => return Ok(()), // Annotations are none of ours.
         };
         let attributes = std::mem::take(&mut self.open_variable);

@@ -8,6 +8,7 @@ use super::library::{Instance, Status};
 pub struct Selection {
     real: Group<f64>,
     integer: Group<i32>,
+    enumeration: Group<i32>,
     boolean: Group<i32>,
     values: Vec<f64>,
 }
@@ -50,20 +51,22 @@ impl Selection {
             selection.values.push(0.0);
             match variable.kind {
                 Kind::Real => selection.real.push(variable.reference, place),
-                Kind::Integer | Kind::Enumeration => selection.integer.push(variable.reference, place),
+                Kind::Integer => selection.integer.push(variable.reference, place),
+                Kind::Enumeration => selection.enumeration.push(variable.reference, place),
                 Kind::Boolean => selection.boolean.push(variable.reference, place),
-                Kind::String => {}
+                Kind::String | Kind::Other => {}
             }
         }
         selection
     }
 
-    /// fmi2GetReal, fmi2GetInteger and fmi2GetBoolean, each once if there is something to ask; the first complaint, if any.
+    /// The getters of FMI 2.0 or 3.0, each once if there is something to ask; the first complaint, if any.
     pub(super) fn read_from(&mut self, instance: &mut Instance) -> Status {
-        let Self { real, integer, boolean, values } = self;
+        let Self { real, integer, enumeration, boolean, values } = self;
         let calls = [
             real.read(|references, buffer| instance.get_real(references, buffer), |value| value, values),
             integer.read(|references, buffer| instance.get_integer(references, buffer), f64::from, values),
+            enumeration.read(|references, buffer| instance.get_enumeration(references, buffer), f64::from, values),
             boolean.read(
                 |references, buffer| instance.get_boolean(references, buffer),
                 |value| f64::from(value != 0),

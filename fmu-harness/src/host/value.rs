@@ -47,6 +47,7 @@ impl Value {
                 _ => None,
             },
             Kind::String => Some(Self::String(text.into())),
+            Kind::Other => None,
             Kind::Enumeration => {
                 let named = items.iter().find(|(name, _)| name == text).map(|(_, value)| *value);
                 named.or_else(|| text.parse().ok()).map(Self::Integer)
@@ -58,6 +59,7 @@ impl Value {
                 Kind::Integer => "a whole number".into(),
                 Kind::Boolean => "true or false".into(),
                 Kind::String => "a text".into(),
+                Kind::Other => "of a type whose values this program sets".into(),
                 Kind::Enumeration => {
                     let names: Vec<&str> = items.iter().map(|(name, _)| name.as_str()).collect();
                     format!("one of {}", names.join(", "))

@@ -7,6 +7,9 @@ mod licences;
 pub mod mach_o;
 pub mod platform;
 pub mod tools;
+mod version;
+
+pub use version::Version;
 
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
@@ -27,9 +30,6 @@ use std::collections::BTreeSet;
 use std::env;
 use std::fs;
 use std::path::Path;
-
-/// Drawing of the mechanism, made from `model.svg` by the test `the_picture_is_the_drawing`.
-const PICTURE: &[u8] = include_bytes!("../../assets/model.png");
 
 /// Name of the rod's modes in a package's documentation, if its scene has such.
 pub const MODES: &str = "modes.toml";
@@ -107,9 +107,14 @@ impl Stock {
         self
     }
 
-    /// Packages the library with the scenario's values as start values.
+    /// Packages the library for FMI 2.0 with the scenario's values as start values.
     pub fn package(&self, scenario: &Scenario) -> Result<Package> {
-        let parts = self.parts(scenario)?;
+        self.package_for(Version::Fmi2, scenario)
+    }
+
+    /// The same for a version of FMI.
+    pub fn package_for(&self, version: Version, scenario: &Scenario) -> Result<Package> {
+        let parts = self.parts(version, scenario)?;
         let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
         let mut platforms: Vec<Platform> = self.binaries.iter().map(|binary| binary.platform).collect();
         platforms.dedup();
@@ -117,16 +122,14 @@ impl Stock {
     }
 
     /// Everything that goes into the archive, in its order.
-    fn parts(&self, scenario: &Scenario) -> Result<Vec<Part>> {
+    fn parts(&self, version: Version, scenario: &Scenario) -> Result<Vec<Part>> {
         let scene = &scenario.file.scene;
         let declaration = model_description::load().context("the declaration of the variables")?;
         let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
-        let mut parts = vec![
-            Part::new("modelDescription.xml", description(&declaration, scenario, &starts)?),
-            Part::new("model.png", PICTURE),
-        ];
+        let mut parts = vec![Part::new("modelDescription.xml", description(version, &declaration, scenario, &starts)?)];
+        parts.extend(version.pictures(&declaration)?);
         for binary in &self.binaries {
-            parts.push(binary.part(&declaration.model.identifier, scene)?);
+            parts.extend(binary.parts(version, &declaration.model.identifier, scene)?);
         }
         parts.extend([
             Part::new("documentation/index.html", page(scenario)?),
@@ -142,8 +145,8 @@ impl Stock {
 }
 
 impl Binary {
-    /// The file of the archive, with a scene in it.
-    fn part(&self, identifier: &str, scene: &Scene) -> Result<Part> {
+    /// The files of the archive, with a scene in them.
+    fn parts(&self, version: Version, identifier: &str, scene: &Scene) -> Result<Vec<Part>> {
         let mut libraries = self.libraries.clone();
         for library in &mut libraries {
             // A library for newer processors computes scenes that the other one hands it: it needs none of its own.
@@ -155,8 +158,11 @@ impl Binary {
             }
         }
         let level = self.level.map(|level| format!(".{level}")).unwrap_or_default();
-        let name = format!("binaries/{}/{identifier}{level}{}", self.platform.folder(), self.platform.affixes().1);
-        Ok(Part::new(name, mach_o::universal(libraries)?))
+        let file = format!("{identifier}{level}{}", self.platform.affixes().1);
+        let folders = version.folders(self.platform);
+        let libraries = if folders.len() == 1 { vec![mach_o::universal(libraries)?] } else { libraries };
+        let part = |(folder, library)| Part::new(format!("binaries/{folder}/{file}"), library);
+        Ok(folders.iter().zip(libraries).map(part).collect())
     }
 }
 
@@ -175,7 +181,7 @@ impl Package {
 }
 
 /// modelDescription.xml: the scene's values are the start values, its run the default experiment.
-fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> Result<String> {
+fn description(version: Version, declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -> Result<String> {
     let SceneFile { scene, run, .. } = &scenario.file;
     let (stop, step, tolerance) = (run.stop(scene), run.step, scene.solver.tolerance);
     let experiment = Experiment { start: 0.0, stop, tolerance, step };
@@ -183,7 +189,7 @@ fn description(declaration: &Declaration, scenario: &Scenario, starts: &[f64]) -
     let exchange = exchange(scene);
     let made = xml::made(declaration, epoch()?);
     let package = xml::Package { guid: &guid, starts, exchange: exchange.as_ref(), experiment, made: Some(&made) };
-    Ok(xml::write(declaration, &package)?)
+    version.description(declaration, &package)
 }
 
 /// The variable by which builds that can be repeated are told when they are made, in seconds since 1970.

@@ -28,7 +28,7 @@ impl Platform {
             ("linux", "aarch64") => Ok(Self::LinuxAarch64),
             ("windows", "x86_64") => Ok(Self::Win64),
             ("macos", "x86_64" | "aarch64") => Ok(Self::Darwin64),
-            (os, arch) => bail!("FMI 2.0 has no name for the platform {arch} {os}"),
+            (os, arch) => bail!("no FMU has a library for the platform {arch} {os}"),
         }
     }
 
@@ -40,12 +40,6 @@ impl Platform {
             Self::Darwin64 => "darwin64",
             Self::LinuxAarch64 => "linux-aarch64",
         }
-    }
-
-    /// FMI's name of it, which is a folder of the package. FMI 2.0 has none for Linux on ARM; importers there, FMPy among
-    /// them, look for the library where they would on x86-64.
-    pub fn folder(self) -> &'static str {
-        if self == Self::LinuxAarch64 { Self::Linux64.name() } else { self.name() }
     }
 
     /// What the name of a package for this platform ends in, if the package must be a file of its own.

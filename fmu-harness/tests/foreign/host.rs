@@ -90,7 +90,7 @@ fn what_is_wrong_with_a_file_is_said_in_one_sentence() {
 
     for (from, to, words) in [
         ("</ModelStructure>", "", "expected"),
-        ("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\"", "FMI version 3.0, wanted 2.0"),
+        ("fmiVersion=\"2.0\"", "fmiVersion=\"1.0\"", "FMI version 1.0, wanted 2.0 or 3.0"),
         ("<CoSimulation", "<ModelExchange", "no co-simulation is offered"),
         ("name=\"k\" valueReference=\"2\"", "name=\"k\"", "`k` lacks a valueReference"),
     ] {

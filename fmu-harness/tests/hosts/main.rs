@@ -44,6 +44,7 @@ files! { HOSTS:
     derivatives_are_what_they_are_called            "test_derivatives.py"
     the_odd_ways_of_hosts_lead_to_the_same_result   "test_odd_hosts.py"
     two_in_a_container_equal_two_alone              "test_container.py"
+    the_package_of_fmi_3_tells_events               "test_fmi3.py"
     a_press_with_its_drive_is_a_valid_package       "test_ssp.py"
     a_press_with_its_drive_runs_alike_in_two_hosts  "test_ssp_hosts.py"
     masters_of_the_press_keep_their_books           "test_ssp_masters.py"

@@ -5,7 +5,7 @@ use crate::mechanisms::packages;
 use crate::python;
 use anyhow::Result;
 use fmu_harness::host::Fmu;
-use fmu_harness::package::{Package, Stock, build::workspace};
+use fmu_harness::package::{Package, Stock, Version, build::workspace};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::{Scenario, names};
 use fmu_harness::ssp::{PRESS, package as package_ssp};
@@ -33,6 +33,9 @@ pub fn directory() -> &'static Path {
         if let Err(error) = mechanisms(&directory.join(MECHANISMS)) {
             eprintln!("the mechanisms cannot be packaged: {error:#}");
         }
+        if let Err(error) = package_for_fmi3(&directory) {
+            eprintln!("{RUN} cannot be packaged for FMI 3.0: {error:#}");
+        }
         if let Err(error) = couple(&directory) {
             eprintln!("{PRESS} cannot be packaged with its companions: {error:#}");
         }
@@ -55,6 +58,12 @@ fn mechanisms(directory: &Path) -> Result<()> {
         replace(&directory.join(format!("{name}.fmu")), |file| Ok(fs::write(file, bytes?)?))?;
     }
     Ok(())
+}
+
+/// `wornpin3.fmu`
+fn package_for_fmi3(directory: &Path) -> Result<()> {
+    let package = Stock::build().and_then(|stock| stock.package_for(Version::Fmi3, &Scenario::find(RUN)?));
+    replace(&directory.join(format!("{RUN}3.fmu")), |file| package?.save(file))
 }
 
 fn couple(directory: &Path) -> Result<()> {

@@ -30,6 +30,21 @@ pub struct UnknownCategories {
     others: usize,
 }
 
+impl UnknownCategories {
+    fn among(categories: &[&CStr]) -> Option<Self> {
+        let declared = |name: &CStr| LogCategory::ALL.iter().any(|known| known.name().as_bytes() == name.to_bytes());
+        let mut unknown = categories.iter().filter(|name| !declared(name));
+        let first = unknown.next()?.to_string_lossy().into_owned();
+        Some(Self { first, others: unknown.count() })
+    }
+}
+
+/// Whether a choice of categories has that of remarks in it.
+fn chooses_remarks(categories: &[&CStr]) -> bool {
+    let named = |category: LogCategory| categories.iter().any(|name| name.to_bytes() == category.name().as_bytes());
+    categories.is_empty() || named(LogCategory::All) || named(LogCategory::Remark)
+}
+
 impl Display for UnknownCategories {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { first, others } = self;
@@ -54,13 +69,17 @@ impl Logger {
     /// Chooses whether remarks are sent: if logging is on, and their category is named or none is. The names that are not
     /// declared, if there are such; the others count.
     pub fn enable(&mut self, logging_on: bool, categories: &[&CStr]) -> Option<UnknownCategories> {
-        let named = |category: LogCategory| categories.iter().any(|name| name.to_bytes() == category.name().as_bytes());
-        let wanted = categories.is_empty() || named(LogCategory::All) || named(LogCategory::Remark);
-        self.remarks = logging_on && wanted;
-        let declared = |name: &CStr| LogCategory::ALL.iter().any(|known| known.name().as_bytes() == name.to_bytes());
-        let mut unknown = categories.iter().filter(|name| !declared(name));
-        let first = unknown.next()?.to_string_lossy().into_owned();
-        Some(UnknownCategories { first, others: unknown.count() })
+        self.remarks = logging_on && chooses_remarks(categories);
+        UnknownCategories::among(categories)
+    }
+
+    /// Switches the named categories on or off and leaves the others as they are; all of them if no category is named. The
+    /// names that are not declared, if there are such; the others count.
+    pub fn switch(&mut self, on: bool, categories: &[&CStr]) -> Option<UnknownCategories> {
+        if chooses_remarks(categories) {
+            self.remarks = on;
+        }
+        UnknownCategories::among(categories)
     }
 
     /// Sends one line about a call to `function` that did not simply succeed, whatever is enabled.

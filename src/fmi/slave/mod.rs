@@ -12,6 +12,7 @@
 //! A refused call changes nothing: values set together are applied all or none.
 
 pub mod access;
+mod adjoint;
 pub mod course;
 pub mod difference;
 pub mod engine;
@@ -26,6 +27,7 @@ pub mod settings;
 pub mod severity;
 pub mod start_sensitivity;
 pub mod states;
+pub mod steps;
 pub mod variables;
 
 pub use access::{Permission, ValueType};
@@ -313,19 +315,6 @@ impl Slave {
             })?;
         }
         Ok(end)
-    }
-
-    /// Moves the slave to `end`, counted from the start, or as far as it gets.
-    pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
-        let outcome = match self.live()? {
-            Course::Own(simulation) => simulation.advance_to(end),
-            // The lifecycle lets no step in here.
-            Course::Hosted(_) => return Err(Error::Interface),
-        };
-        self.settings.inputs.move_on();
-        self.outputs = None;
-        let start = self.settings.experiment.start;
-        Ok(outcome.map_err(|error| error.counted_from(start))?)
     }
 
     /// Everything that the slave is: what was set, and the simulation once initialization is over.

@@ -6,6 +6,7 @@
 //! [`Touch`] say which variables they reach. And where inputs may be set in model exchange, `fmi2SetReal` sets continuous
 //! states as `fmi2SetContinuousStates` does, which CasADi takes for granted.
 
+use crate::fmi::call_table::table;
 use crate::fmi::slave::{Interface, Permission};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -106,59 +107,6 @@ impl fmt::Display for State {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
-}
-
-/// A row of the table: one bit a state.
-#[derive(Clone, Copy)]
-struct Row(u16);
-
-impl Row {
-    /// Reads `x` (allowed) and `.` (refused), one a state, spaces aside.
-    const fn read(text: &str) -> Self {
-        let bytes = text.as_bytes();
-        let (mut mask, mut column, mut at) = (0, 0_usize, 0);
-        while at < bytes.len() {
-            match bytes[at] {
-                b'x' => mask |= 1 << column,
-                b' ' => column -= 1,
-                other => assert!(other == b'.', "a row holds x, . and spaces only"),
-            }
-            column += 1;
-            at += 1;
-        }
-        assert!(column == State::ALL.len(), "a row has one entry for each state");
-        Self(mask)
-    }
-
-    fn holds(self, state: State) -> bool {
-        self.0 & (1 << state as u16) != 0
-    }
-}
-
-/// Declares an enumeration whose items each have a row.
-macro_rules! table {
-    ($(#[$doc:meta])* $name:ident, $prefix:literal; $($item:ident $row:literal)+) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[allow(missing_docs, reason = "the names are the standard's")]
-        pub enum $name { $($item),+ }
-
-        impl $name {
-            /// All rows, from top to bottom.
-            pub const ALL: &[Self] = &[$(Self::$item),+];
-            const ROWS: &[Row] = &[$(Row::read($row)),+];
-
-            /// The name that the importer knows it by.
-            pub fn name(self) -> &'static str {
-                match self { $(Self::$item => concat!($prefix, stringify!($item))),+ }
-            }
-
-            /// Whether it is allowed in this state.
-            pub fn allowed(self, state: State) -> bool {
-                Self::ROWS[self as usize].holds(state)
-            }
-        }
-    };
 }
 
 table! {

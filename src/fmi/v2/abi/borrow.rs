@@ -17,6 +17,8 @@ unsafe impl AnyBits for u8 {}
 // SAFETY: an integer.
 unsafe impl AnyBits for i32 {}
 // SAFETY: an integer.
+unsafe impl AnyBits for i64 {}
+// SAFETY: an integer.
 unsafe impl AnyBits for u32 {}
 // SAFETY: an integer.
 unsafe impl AnyBits for usize {}

@@ -1,0 +1,61 @@
+//! What differs between packages of FMI 2.0 and 3.0.
+
+use super::archive::Part;
+use super::platform::Platform;
+use anyhow::Result;
+use clap::ValueEnum;
+use slidercrank::model_description::rows::Declaration;
+use slidercrank::model_description::xml::{self, Package};
+use slidercrank::model_description::{terminals, xml_v3};
+
+/// Drawing of the mechanism, made from `model.svg` by the test `the_picture_is_the_drawing`.
+const PICTURE: &[u8] = include_bytes!("../../assets/model.png");
+const DRAWING: &[u8] = include_bytes!("../../assets/model.svg");
+
+/// A version of FMI that packages are made for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Version {
+    /// FMI 2.0.
+    #[default]
+    #[value(name = "2")]
+    Fmi2,
+    /// FMI 3.0.
+    #[value(name = "3")]
+    Fmi3,
+}
+
+impl Version {
+    /// modelDescription.xml.
+    pub fn description(self, declaration: &Declaration, package: &Package) -> Result<String> {
+        Ok(match self {
+            Self::Fmi2 => xml::write(declaration, package)?,
+            Self::Fmi3 => xml_v3::write(declaration, package)?,
+        })
+    }
+
+    /// The picture, and the terminals where the version has them.
+    pub fn pictures(self, declaration: &Declaration) -> Result<Vec<Part>> {
+        Ok(match self {
+            Self::Fmi2 => vec![Part::new("model.png", PICTURE)],
+            Self::Fmi3 => vec![
+                Part::new("terminalsAndIcons/terminalsAndIcons.xml", terminals::write(declaration)?),
+                Part::new("terminalsAndIcons/icon.png", PICTURE),
+                Part::new("terminalsAndIcons/icon.svg", DRAWING),
+            ],
+        })
+    }
+
+    /// The folders of a platform's libraries: one, or one for each of its processors.
+    pub fn folders(self, platform: Platform) -> &'static [&'static str] {
+        match (self, platform) {
+            // FMI 2.0 has no name for Linux on ARM; importers there, FMPy among them, look where they would on x86-64.
+            (Self::Fmi2, Platform::Linux64 | Platform::LinuxAarch64) => &["linux64"],
+            (Self::Fmi2, Platform::Win64) => &["win64"],
+            (Self::Fmi2, Platform::Darwin64) => &["darwin64"],
+            (Self::Fmi3, Platform::Linux64) => &["x86_64-linux"],
+            (Self::Fmi3, Platform::LinuxAarch64) => &["aarch64-linux"],
+            (Self::Fmi3, Platform::Win64) => &["x86_64-windows"],
+            (Self::Fmi3, Platform::Darwin64) => &["x86_64-darwin", "aarch64-darwin"],
+        }
+    }
+}

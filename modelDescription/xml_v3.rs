@@ -1,0 +1,115 @@
+//! Rows → `modelDescription.xml` of FMI 3.0.
+//!
+//! Value references are those of FMI 2.0. Behind them is that of the independent variable, which FMI 2.0 does not declare.
+
+use super::definitions::unit_definition;
+use super::element::{Xml, leaf, parent};
+use super::rows::{Declaration, Kind, Role, Row};
+use super::xml::{
+    Package, begin, capabilities, experiment, general, log_categories, root, rows_with_starts, text, type_and_range,
+};
+use std::io;
+
+/// The model description of a package.
+pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
+    let mut xml = begin()?;
+    parent(&mut xml, "fmiModelDescription", root(declaration, package, "3.0", "instantiationToken"), |xml| {
+        leaf(xml, "CoSimulation", capabilities(declaration, &declaration.capabilities_fmi3))?;
+        parent(xml, "UnitDefinitions", vec![], |xml| {
+            declaration.units.iter().try_for_each(|unit| unit_definition(xml, unit))
+        })?;
+        parent(xml, "TypeDefinitions", vec![], |xml| type_definitions(xml, declaration))?;
+        log_categories(xml, declaration)?;
+        leaf(xml, "DefaultExperiment", experiment(&package.experiment))?;
+        parent(xml, "ModelVariables", vec![], |xml| {
+            independent(xml, declaration.rows.len())?;
+            rows_with_starts(declaration, package)
+                .try_for_each(|(reference, row, start)| variable(xml, declaration, reference, row, start))
+        })?;
+        parent(xml, "ModelStructure", vec![], |xml| {
+            unknowns(xml, declaration, "Output", |depends, _| Some(depends.to_vec()))?;
+            unknowns(xml, declaration, "InitialUnknown", |_, at_start| at_start.map(<[usize]>::to_vec))
+        })
+    })?;
+    text(xml)
+}
+
+/// Every type of reals and every enumeration.
+fn type_definitions(xml: &mut Xml, declaration: &Declaration) -> io::Result<()> {
+    for real in &declaration.types {
+        let mut attributes = vec![
+            ("name", real.name.clone()),
+            ("description", real.description.clone()),
+            ("quantity", real.quantity.clone()),
+            ("unit", real.unit.clone()),
+        ];
+        attributes.extend(real.display.clone().map(|display| ("displayUnit", display)));
+        leaf(xml, "Float64Type", attributes)?;
+    }
+    for enumeration in &declaration.enumerations {
+        let (name, description) = (enumeration.name.clone(), enumeration.description.clone());
+        parent(xml, "EnumerationType", vec![("name", name), ("description", description)], |xml| {
+            enumeration.items.iter().try_for_each(|item| {
+                let (name, description) = (item.name.clone(), item.description.clone());
+                let value = item.value.to_string();
+                leaf(xml, "Item", vec![("name", name), ("value", value), ("description", description)])
+            })
+        })?;
+    }
+    Ok(())
+}
+
+/// The time.
+fn independent(xml: &mut Xml, reference: usize) -> io::Result<()> {
+    let attributes = [
+        ("name", "time"),
+        ("valueReference", &reference.to_string()),
+        ("description", "Simulation time"),
+        ("causality", "independent"),
+        ("variability", "continuous"),
+        ("unit", "s"),
+    ];
+    leaf(xml, "Float64", attributes.map(|(name, value)| (name, value.to_owned())).to_vec())
+}
+
+fn variable(
+    xml: &mut Xml,
+    declaration: &Declaration,
+    reference: usize,
+    row: &Row,
+    start: Option<f64>,
+) -> io::Result<()> {
+    let (of_type, range) = type_and_range(declaration, &row.kind, start);
+    let name = match row.kind {
+        Kind::Real { .. } => "Float64",
+        Kind::Integer { .. } => "Int32",
+        Kind::Boolean | Kind::Enumeration { .. } => of_type,
+    };
+    let mut attributes = general(reference, row);
+    // Values within a step: of what is continuous.
+    let continuous = matches!(row.kind, Kind::Real { .. }) && !matches!(row.role, Role::Parameter { .. });
+    attributes.extend(continuous.then(|| ("intermediateUpdate", "true".into())));
+    attributes.extend(range);
+    leaf(xml, name, attributes)
+}
+
+/// One entry for each output; `choose` picks from what it depends on at communication points and at the start. An entry
+/// without the attribute depends on everything.
+fn unknowns(
+    xml: &mut Xml,
+    declaration: &Declaration,
+    element: &str,
+    choose: impl Fn(&[usize], Option<&[usize]>) -> Option<Vec<usize>>,
+) -> io::Result<()> {
+    for (reference, Row { role, .. }) in declaration.rows.iter().enumerate() {
+        let Role::Output { depends, at_start, .. } = role else {
+            continue;
+        };
+        let mut attributes = vec![("valueReference", reference.to_string())];
+        let references = |rows: Vec<usize>| rows.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
+        let chosen = choose(depends, at_start.as_deref());
+        attributes.extend(chosen.map(|rows| ("dependencies", references(rows))));
+        leaf(xml, element, attributes)?;
+    }
+    Ok(())
+}

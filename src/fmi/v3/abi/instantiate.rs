@@ -1,0 +1,35 @@
+//! An instance for the importer, or the reason why there is none.
+
+use super::super::error::Error;
+use super::super::instance::{Instance, Request};
+use super::super::lifecycle::Call;
+use super::call::Hosted;
+use super::host_logger::HostLogger;
+use super::host_update::HostUpdate;
+use super::types::fmi3Instance;
+use crate::fmi::slave::log::Logger;
+use crate::fmi::v2::abi::component::give;
+use crate::fmi::v2::abi::panic_guard::guarded;
+use std::ffi::{CStr, CString};
+use std::ptr::null_mut;
+
+/// Makes an instance whose messages go to `host`; NULL, and one line in the log, if that cannot be.
+pub fn instantiate(request: &Request<'_>, host: HostLogger, update: Option<HostUpdate>) -> fmi3Instance {
+    let made = guarded(|| Instance::instantiate(request, host));
+    match made.unwrap_or_else(|fault| Err(Error::Panic(fault))) {
+        Ok(instance) => give(Hosted { instance, update }),
+        Err(error) => refuse(Call::InstantiateCoSimulation, request.name, host, &error),
+    }
+}
+
+/// NULL, and the reason in the log. There is no instance yet, so the line is sent whether logging is on or not.
+pub fn refuse(call: Call, name: Option<&CStr>, host: HostLogger, error: &Error) -> fmi3Instance {
+    let name = name.map(CString::from).unwrap_or_default();
+    Logger::new(Box::new(host), name, true).say(error.severity(), call.name(), error);
+    null_mut()
+}
+
+/// NULL: the FMU has not this kind of interface.
+pub fn refuse_kind(call: Call, name: Option<&CStr>, host: HostLogger) -> fmi3Instance {
+    refuse(call, name, host, &Error::NotProvided(call.not_provided().unwrap_or_default()))
+}

@@ -1,0 +1,48 @@
+//! The standard's FMU state: where an instance is in its life, and all that its slave is.
+
+use super::lifecycle::{Call, State};
+use crate::fmi::slave::error::SavedStateError;
+use crate::fmi::slave::{Settings, sealed};
+use crate::simulation::Snapshot;
+use serde::{Deserialize, Serialize};
+
+/// To be raised with every change of [`FmuState`] or of what it holds. The upper half tells the version of FMI.
+const VERSION: u32 = 3 << 16 | 1;
+
+/// Everything that an instance is, aside from its name, its log, and what the importer said of itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FmuState {
+    /// Where it is in its life.
+    pub state: State,
+    /// Whether it shows the left limit of an event.
+    pub before_event: bool,
+    /// What the importer set.
+    pub settings: Settings,
+    /// The simulation, once initialization is over.
+    pub snapshot: Option<Snapshot>,
+}
+
+impl FmuState {
+    /// The bytes.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, SavedStateError> {
+        sealed::seal(VERSION, self)
+    }
+
+    /// The state in these bytes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SavedStateError> {
+        let state: Self = sealed::open(VERSION, bytes)?;
+        if state.makes_sense() { Ok(state) } else { Err(SavedStateError::Content) }
+    }
+
+    /// Whether an instance can be in this state. The snapshot is checked when it is restored.
+    fn makes_sense(&self) -> bool {
+        let Self { state, before_event, settings, snapshot } = self;
+        let running = !matches!(state, State::Instantiated | State::InitializationMode);
+        let side = match state {
+            State::EventPending => *before_event,
+            State::EventMode | State::Terminated => true,
+            _ => !before_event,
+        };
+        Call::GetFMUState.allowed(*state) && running == snapshot.is_some() && side && settings.are_sound()
+    }
+}

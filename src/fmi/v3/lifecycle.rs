@@ -1,0 +1,203 @@
+//! Which call is allowed in which state: the state machine of FMI 3.0 for co-simulation (4.2.1) as a table, one row a
+//! call.
+//!
+//! Configuration mode and reconfiguration mode are left out: without structural parameters no call leads there.
+//! Step mode is told apart by whether an event is to be handled first, since the importer has to enter event mode then.
+//!
+//! Two deviations, both towards the importer. A refused call leaves the instance where it was, where the standard
+//! terminates it. Reading inputs and parameters works from instantiation on, reading outputs from initialization mode on.
+
+use crate::fmi::call_table::table;
+use crate::fmi::slave::Permission;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// State of an instance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum State {
+    /// No instance yet, or no longer.
+    StartAndEnd,
+    /// Start values may be set.
+    Instantiated,
+    /// Start values may be set and outputs follow them.
+    InitializationMode,
+    /// Between steps, while an event is handled or inputs jump.
+    EventMode,
+    /// At a communication point.
+    StepMode,
+    /// At a communication point where a contact has closed or opened; event mode has to follow.
+    EventPending,
+    /// Within a step, while the importer's callback runs.
+    IntermediateUpdateMode,
+    /// After `fmi3Terminate` or a step that failed.
+    Terminated,
+    /// A fault of ours; only the end can follow.
+    Fatal,
+}
+
+impl State {
+    /// All states, in the order of the table's columns.
+    pub const ALL: [Self; 9] = [
+        Self::StartAndEnd,
+        Self::Instantiated,
+        Self::InitializationMode,
+        Self::EventMode,
+        Self::StepMode,
+        Self::EventPending,
+        Self::IntermediateUpdateMode,
+        Self::Terminated,
+        Self::Fatal,
+    ];
+
+    /// Name for messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StartAndEnd => "not instantiated",
+            Self::Instantiated => "instantiated",
+            Self::InitializationMode => "initialization mode",
+            Self::EventMode => "event mode",
+            Self::StepMode => "step mode",
+            Self::EventPending => "step mode, event to be handled",
+            Self::IntermediateUpdateMode => "intermediate update mode",
+            Self::Terminated => "terminated",
+            Self::Fatal => "fatal",
+        }
+    }
+
+    /// What a call may read in this state.
+    pub fn reading(self) -> Permission {
+        self.permission([Touch::GetInput, Touch::GetOutput, Touch::GetParameter])
+    }
+
+    /// What a call may write in this state.
+    pub fn writing(self) -> Permission {
+        self.permission([Touch::SetInput, Touch::SetOutput, Touch::SetParameter])
+    }
+
+    fn permission(self, touches: [Touch; 3]) -> Permission {
+        let [inputs, outputs, parameters] = touches.map(|touch| touch.allowed(self));
+        Permission { inputs, outputs, parameters, state: self.name() }
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+table! {
+    /// A function of the standard.
+    Call, "fmi3";
+    //                                start   initialization mode pending   terminated
+    //                                |  instantiated   step mode |   intermediate update
+    //                                |    |    |  event mode  |    |    |    |  fatal
+    //                                |    |    |    |    |    |    |    |    |
+    GetVersion                       "x    x    x    x    x    x    x    x    ."
+    SetDebugLogging                  ".    x    x    x    x    x    .    x    ."
+    InstantiateCoSimulation          "x    .    .    .    .    .    .    .    ."
+    FreeInstance                     ".    x    x    x    x    x    .    x    x"
+    EnterInitializationMode          ".    x    .    .    .    .    .    .    ."
+    ExitInitializationMode           ".    .    x    .    .    .    .    .    ."
+    EnterEventMode                   ".    .    .    .    x    x    .    .    ."
+    UpdateDiscreteStates             ".    .    .    x    .    .    .    .    ."
+    EnterStepMode                    ".    .    .    x    .    .    .    .    ."
+    DoStep                           ".    .    .    .    x    .    .    .    ."
+    Terminate                        ".    .    .    x    x    x    .    .    ."
+    Reset                            ".    x    x    x    x    x    .    x    ."
+    GetFloat32                       ".    x    x    x    x    x    x    x    ."
+    GetFloat64                       ".    x    x    x    x    x    x    x    ."
+    GetInt8                          ".    x    x    x    x    x    x    x    ."
+    GetUInt8                         ".    x    x    x    x    x    x    x    ."
+    GetInt16                         ".    x    x    x    x    x    x    x    ."
+    GetUInt16                        ".    x    x    x    x    x    x    x    ."
+    GetInt32                         ".    x    x    x    x    x    x    x    ."
+    GetUInt32                        ".    x    x    x    x    x    x    x    ."
+    GetInt64                         ".    x    x    x    x    x    x    x    ."
+    GetUInt64                        ".    x    x    x    x    x    x    x    ."
+    GetBoolean                       ".    x    x    x    x    x    x    x    ."
+    GetString                        ".    x    x    x    x    x    x    x    ."
+    GetBinary                        ".    x    x    x    x    x    x    x    ."
+    SetFloat32                       ".    x    x    x    x    x    x    .    ."
+    SetFloat64                       ".    x    x    x    x    x    x    .    ."
+    SetInt8                          ".    x    x    x    x    x    x    .    ."
+    SetUInt8                         ".    x    x    x    x    x    x    .    ."
+    SetInt16                         ".    x    x    x    x    x    x    .    ."
+    SetUInt16                        ".    x    x    x    x    x    x    .    ."
+    SetInt32                         ".    x    x    x    x    x    x    .    ."
+    SetUInt32                        ".    x    x    x    x    x    x    .    ."
+    SetInt64                         ".    x    x    x    x    x    x    .    ."
+    SetUInt64                        ".    x    x    x    x    x    x    .    ."
+    SetBoolean                       ".    x    x    x    x    x    x    .    ."
+    SetString                        ".    x    x    x    x    x    x    .    ."
+    SetBinary                        ".    x    x    x    x    x    x    .    ."
+    GetFMUState                      ".    x    x    x    x    x    .    x    ."
+    SetFMUState                      ".    x    x    x    x    x    .    x    ."
+    FreeFMUState                     ".    x    x    x    x    x    .    x    ."
+    SerializedFMUStateSize           ".    x    x    x    x    x    .    x    ."
+    SerializeFMUState                ".    x    x    x    x    x    .    x    ."
+    DeserializeFMUState              ".    x    x    x    x    x    .    x    ."
+    GetDirectionalDerivative         ".    .    x    x    x    x    .    x    ."
+    GetAdjointDerivative             ".    .    x    x    x    x    .    x    ."
+    GetOutputDerivatives             ".    .    .    .    x    x    x    x    ."
+    // Model exchange.
+    InstantiateModelExchange         ".    .    .    .    .    .    .    .    ."
+    EnterContinuousTimeMode          ".    .    .    .    .    .    .    .    ."
+    CompletedIntegratorStep          ".    .    .    .    .    .    .    .    ."
+    SetTime                          ".    .    .    .    .    .    .    .    ."
+    SetContinuousStates              ".    .    .    .    .    .    .    .    ."
+    GetContinuousStateDerivatives    ".    .    .    .    .    .    .    .    ."
+    GetEventIndicators               ".    .    .    .    .    .    .    .    ."
+    GetContinuousStates              ".    .    .    .    .    .    .    .    ."
+    GetNominalsOfContinuousStates    ".    .    .    .    .    .    .    .    ."
+    GetNumberOfEventIndicators       ".    .    .    .    .    .    .    .    ."
+    GetNumberOfContinuousStates      ".    .    .    .    .    .    .    .    ."
+    // Scheduled execution.
+    InstantiateScheduledExecution    ".    .    .    .    .    .    .    .    ."
+    ActivateModelPartition           ".    .    .    .    .    .    .    .    ."
+    // Structural parameters, of which there are none.
+    EnterConfigurationMode           ".    .    .    .    .    .    .    .    ."
+    ExitConfigurationMode            ".    .    .    .    .    .    .    .    ."
+    // Clocks, of which there are none.
+    GetClock                         ".    .    .    .    .    .    .    .    ."
+    SetClock                         ".    .    .    .    .    .    .    .    ."
+    GetIntervalDecimal               ".    .    .    .    .    .    .    .    ."
+    GetIntervalFraction              ".    .    .    .    .    .    .    .    ."
+    GetShiftDecimal                  ".    .    .    .    .    .    .    .    ."
+    GetShiftFraction                 ".    .    .    .    .    .    .    .    ."
+    SetIntervalDecimal               ".    .    .    .    .    .    .    .    ."
+    SetIntervalFraction              ".    .    .    .    .    .    .    .    ."
+    SetShiftDecimal                  ".    .    .    .    .    .    .    .    ."
+    SetShiftFraction                 ".    .    .    .    .    .    .    .    ."
+    // What the description says that the FMU does not provide.
+    EvaluateDiscreteStates           ".    .    .    .    .    .    .    .    ."
+    GetNumberOfVariableDependencies  ".    .    .    .    .    .    .    .    ."
+    GetVariableDependencies          ".    .    .    .    .    .    .    .    ."
+}
+
+table! {
+    /// What a call does to one variable.
+    Touch, "";
+    GetOutput                        ".    .    x    x    x    x    x    x    ."
+    GetInput                         ".    x    x    x    x    x    x    x    ."
+    GetParameter                     ".    x    x    x    x    x    x    x    ."
+    SetOutput                        ".    .    .    .    .    .    .    .    ."
+    SetInput                         ".    x    x    x    x    x    x    .    ."
+    SetParameter                     ".    x    x    .    .    .    .    .    ."
+}
+
+impl Call {
+    /// Why the function is refused in every state, if it is.
+    pub fn not_provided(self) -> Option<&'static str> {
+        let of = |first: Self| self as usize >= first as usize;
+        [
+            (Self::EvaluateDiscreteStates, "not provided, as the model description says"),
+            (Self::GetClock, "the FMU has no clocks"),
+            (Self::EnterConfigurationMode, "the FMU has no structural parameters"),
+            (Self::InstantiateScheduledExecution, "of scheduled execution, and this FMU is for co-simulation"),
+            (Self::InstantiateModelExchange, "of model exchange, and this FMU is for co-simulation"),
+        ]
+        .into_iter()
+        .find_map(|(first, reason)| of(first).then_some(reason))
+    }
+}

@@ -1,0 +1,17 @@
+//! The FMI 3.0 face as an importer sees it: through the C functions.
+#![allow(unsafe_code, reason = "the tests call the C functions")]
+#![allow(clippy::panic, reason = "a test that cannot go on")]
+
+#[macro_use]
+#[path = "../host/mod.rs"]
+mod host;
+
+mod derivatives;
+mod events;
+mod importer;
+mod lifecycle;
+mod product;
+mod same_bits;
+mod states;
+mod updates;
+mod values;
