@@ -1,6 +1,6 @@
 //! The table of calls and states, against the standard's told the other way round: by state.
 
-use slidercrank::fmi::v3::abi::functions::Functions;
+use slidercrank::fmi::v3::abi::functions::NAMES;
 use slidercrank::fmi::v3::lifecycle::{Call, State, Touch};
 
 use Call::*;
@@ -81,7 +81,7 @@ fn variables_are_touched_as_their_causality_says() {
 #[test]
 fn the_table_and_the_list_have_the_same_functions() {
     let mut calls: Vec<_> = Call::ALL.iter().map(|call| call.name()).collect();
-    let mut functions = Functions::NAMES.to_vec();
+    let mut functions = NAMES.to_vec();
     calls.sort_unstable();
     functions.sort_unstable();
     assert_eq!(calls, functions);

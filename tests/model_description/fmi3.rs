@@ -41,7 +41,9 @@ fn every_variable_is_that_of_fmi2_and_the_time_comes_on_top() {
     let of = |document: &Document, name: &str| {
         document.descendants().filter(|node| node.has_tag_name(name)).map(|node| node.id()).collect::<Vec<_>>()
     };
-    let old: Vec<Node> = of(&two, "ScalarVariable").into_iter().filter_map(|id| two.get_node(id)).collect();
+    let mut old: Vec<Node> = of(&two, "ScalarVariable").into_iter().filter_map(|id| two.get_node(id)).collect();
+    // States and their derivatives are there for model exchange, which FMI 3.0's file does not offer.
+    old.retain(|node| node.attribute("name").is_none_or(|name| !name.contains("state.")));
     let list = of(&three, "ModelVariables").into_iter().filter_map(|id| three.get_node(id)).next().expect("variables");
     let new: Vec<Node> = list.children().filter(Node::is_element).collect();
     let (time, new) = new.split_first().expect("variables");

@@ -10,6 +10,7 @@ mod scene;
 
 use clap::ValueEnum;
 use fmu_harness::host::{Archive, Description};
+use fmu_harness::package::Version;
 use fmu_harness::package::build::Levels;
 use fmu_harness::package::platform::Platform;
 use fmu_harness::package::{Stock, build, elf, mach_o};
@@ -227,7 +228,8 @@ fn library(stock: &Stock, platform: Platform, scenario: &Scenario) -> Vec<u8> {
     let description = Description::parse(&archive.description().expect("a text")).expect("a description");
     let element = description.co_simulation.as_ref().expect("co-simulation");
     let name = format!("{}{}", element.get("modelIdentifier").expect("a name"), platform.affixes().1);
-    std::fs::read(folder.path().join("binaries").join(platform.folder()).join(name)).expect("the library")
+    std::fs::read(folder.path().join("binaries").join(Version::Fmi2.folders(platform)[0]).join(name))
+        .expect("the library")
 }
 
 /// Without any program at hand.

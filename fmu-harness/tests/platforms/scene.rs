@@ -4,6 +4,7 @@ use super::machine::{Answer, run};
 use fmu_harness::host::{Archive, Description, Kind, Variable};
 use fmu_harness::inputs;
 use fmu_harness::package::Stock;
+use fmu_harness::package::Version;
 use fmu_harness::package::platform::Platform;
 use fmu_harness::scenes::Scenario;
 use slidercrank::scene::run::End;
@@ -33,7 +34,7 @@ impl Packaged {
         let mut archive = Archive::open(&file).expect("an archive");
         archive.unpack(folder.path()).expect("unpacked");
         let library = format!("SliderCrank{}", platform.affixes().1);
-        let binary = folder.path().join("binaries").join(platform.folder()).join(&library);
+        let binary = folder.path().join("binaries").join(Version::Fmi2.folders(platform)[0]).join(&library);
         fs::rename(binary, folder.path().join(library)).expect("the library");
         let description = Description::parse(&archive.description().expect("a text")).expect("a description");
         Self { platform, scenario, description, folder }

@@ -7,7 +7,7 @@
 use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
-use crate::simulation::{Simulation, SimulationError, Snapshot};
+use crate::simulation::{Side, Simulation, SimulationError, Snapshot};
 
 /// Assembles mechanisms.
 pub trait Engine: Sync {
@@ -24,17 +24,32 @@ pub trait Engine: Sync {
     fn restore(&self, scene: &Scene, snapshot: &Snapshot) -> Result<Box<dyn Run>, SimulationError>;
 }
 
+/// Where an advance may end before its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
+pub enum Stops {
+    /// Nowhere.
+    Nowhere,
+    /// Where a contact closes or opens.
+    Events,
+    /// Where a step of the method ends; that is so at every event, too.
+    Steps,
+}
+
 /// A mechanism at one communication point: what a slave asks of a [`Simulation`]. No method but `snapshot` allocates.
 pub trait Run: Send {
     /// [s] The communication point reached.
     fn time(&self) -> f64;
     /// As [`Simulation::set_inputs`].
     fn set_inputs(&mut self, inputs: Inputs, rates: Inputs);
-    /// As [`Simulation::advance_to`].
+    /// Moves to `time` (≥ the time reached), or to the first stop before it, and tells whether a contact has closed or
+    /// opened there. The trajectory is the same whatever the stops.
     ///
     /// # Errors
-    /// As there.
-    fn advance_to(&mut self, time: f64) -> Result<(), SimulationError>;
+    /// As [`Simulation::advance_to`].
+    fn advance(&mut self, time: f64, stops: Stops) -> Result<bool, SimulationError>;
+    /// As [`Simulation::look`].
+    fn look(&mut self, side: Side);
     /// As [`Simulation::outputs`].
     fn outputs(&mut self) -> Outputs;
     /// As [`Simulation::output_rates`].
@@ -69,8 +84,16 @@ impl Run for Simulation {
         self.set_inputs(inputs, rates);
     }
 
-    fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
-        self.advance_to(time)
+    fn advance(&mut self, time: f64, stops: Stops) -> Result<bool, SimulationError> {
+        match stops {
+            Stops::Nowhere => self.advance_to(time).map(|()| false),
+            Stops::Events => self.advance_to_event(time),
+            Stops::Steps => self.advance_by_step(time),
+        }
+    }
+
+    fn look(&mut self, side: Side) {
+        self.look(side);
     }
 
     fn outputs(&mut self) -> Outputs {

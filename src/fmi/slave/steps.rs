@@ -1,19 +1,9 @@
 //! Steps to their end, or to an earlier one: at an event, or with a step of the method; and both sides of an event.
 
 use super::course::Course;
+use super::engine::Stops;
 use super::{Error, Slave};
 use crate::simulation::Side;
-
-/// Where an advance of a slave may end before its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stops {
-    /// Nowhere.
-    Nowhere,
-    /// Where a contact closes or opens.
-    Events,
-    /// Where a step of the method ends; that is so at every event, too.
-    Steps,
-}
 
 impl Slave {
     /// [s] The communication point reached, counted from the start.
@@ -36,11 +26,7 @@ impl Slave {
     pub fn advance_with(&mut self, end: f64, stops: Stops) -> Result<bool, Error> {
         // The lifecycle lets no step into model exchange.
         let Course::Own(simulation) = self.live()? else { return Err(Error::Interface) };
-        let outcome = match stops {
-            Stops::Nowhere => simulation.advance_to(end).map(|()| false),
-            Stops::Events => simulation.advance_to_event(end),
-            Stops::Steps => simulation.advance_by_step(end),
-        };
+        let outcome = simulation.advance(end, stops);
         self.settings.inputs.move_on();
         self.outputs = None;
         let start = self.settings.experiment.start;

@@ -6,10 +6,10 @@ use super::lifecycle::{Call, State};
 use super::status::Status;
 use super::step::{Done, Ends, Stage, Update};
 use super::variables::{check_absent, check_type, has_intermediate_values, time_reference};
+use crate::fmi::slave::engine::{Engine, Stops};
 use crate::fmi::slave::error::SavedStateError;
 use crate::fmi::slave::log::{Host, Logger};
 use crate::fmi::slave::saved_states::SavedStates;
-use crate::fmi::slave::steps::Stops;
 use crate::fmi::slave::{Severity, Slave, ValueType};
 use crate::scene::slot;
 use crate::simulation::Side;
@@ -48,25 +48,17 @@ pub struct Instance {
     /// Of the step under way.
     ends: Ends,
     saved: SavedStates<FmuState>,
-    log: Log,
-}
-
-/// Where messages go: errors always, others as the importer chose.
-struct Log {
-    errors: Logger,
-    others: Logger,
-}
-
-impl Log {
-    fn say(&self, severity: Severity, call: Call, message: &dyn Display) {
-        let logger = if severity >= Severity::Error { &self.errors } else { &self.others };
-        logger.say(severity, call.name(), message);
-    }
+    logger: Logger,
 }
 
 impl Instance {
-    /// An instance with the packaged start values, whose messages go to `host`.
-    pub fn instantiate(request: &Request<'_>, host: impl Host + Clone + 'static) -> Result<Self, Error> {
+    /// An instance with the packaged start values, whose messages go to `host`. Its motions are computed by `newer`, if
+    /// there is such an engine and the scene does not ask for portable bits.
+    pub fn instantiate(
+        request: &Request<'_>,
+        host: Box<dyn Host>,
+        newer: Option<&'static dyn Engine>,
+    ) -> Result<Self, Error> {
         let Request { name, token, logging_on, event_mode_used, early_return_allowed, intermediate, has_callback } =
             *request;
         let name = name.filter(|name| !name.to_bytes().trim_ascii().is_empty()).ok_or(InstantiateError::Name)?;
@@ -81,17 +73,16 @@ impl Instance {
         if let Some(&reference) = intermediate.iter().find(|reference| !has_intermediate_values(**reference)) {
             return Err(InstantiateError::Intermediate(reference).into());
         }
-        let logger = |enabled| Logger::new(Box::new(host.clone()), CString::from(name), enabled);
         Ok(Self {
             state: State::Instantiated,
-            slave: Slave::new(packaged),
+            slave: Slave::new(packaged, newer),
             side: Side::After,
             event_mode_used,
             early_return_allowed,
             intermediate: has_callback.then(|| intermediate.to_vec()),
             ends: Ends::default(),
             saved: SavedStates::default(),
-            log: Log { errors: logger(true), others: logger(logging_on) },
+            logger: Logger::new(host, CString::from(name), logging_on),
         })
     }
 
@@ -102,7 +93,7 @@ impl Instance {
 
     /// Tells the importer what came of a call.
     pub fn say(&self, severity: Severity, call: Call, message: &dyn Display) {
-        self.log.say(severity, call, message);
+        self.logger.say(severity, call.name(), message);
     }
 
     /// Lets a call in, if it is allowed in this state.
@@ -120,8 +111,20 @@ impl Instance {
     }
 
     /// `fmi3SetDebugLogging`
-    pub fn set_debug_logging(&mut self, on: bool, categories: &[&CStr]) -> Result<(), Error> {
-        Ok(self.log.others.switch(on, categories)?)
+    pub fn set_debug_logging(&mut self, on: bool, categories: &[&CStr]) -> Result<Status, Error> {
+        let unknown = self.logger.switch(on, categories);
+        Ok(self.warn_of(Call::SetDebugLogging, unknown))
+    }
+
+    /// The status of a call that succeeded, with a reservation if there is one.
+    fn warn_of(&self, call: Call, reservation: Option<impl Display>) -> Status {
+        match reservation {
+            None => Status::Ok,
+            Some(reservation) => {
+                self.say(Severity::Warning, call, &reservation);
+                Status::Warning
+            }
+        }
     }
 
     /// `fmi3EnterInitializationMode`. A tolerance that the solver cannot meet is limited, with a warning.
@@ -133,13 +136,7 @@ impl Instance {
     ) -> Result<Status, Error> {
         let limit = self.slave.set_up(tolerance, start, stop)?;
         self.state = State::InitializationMode;
-        match limit {
-            None => Ok(Status::Ok),
-            Some(limit) => {
-                self.say(Severity::Warning, Call::EnterInitializationMode, &limit);
-                Ok(Status::Warning)
-            }
-        }
+        Ok(self.warn_of(Call::EnterInitializationMode, limit))
     }
 
     /// `fmi3ExitInitializationMode`. If the scene contradicts itself, the instance stays in initialization mode, where
@@ -299,7 +296,7 @@ impl Instance {
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        Ok(self.slave.directional_derivative(unknowns, knowns, seeds, values)?)
+        Ok(self.slave.directional_derivative(self.state.writing(), unknowns, knowns, seeds, values)?)
     }
 
     /// `fmi3GetAdjointDerivative`
@@ -310,7 +307,7 @@ impl Instance {
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        Ok(self.slave.adjoint_derivative(unknowns, knowns, seeds, values)?)
+        Ok(self.slave.adjoint_derivative(self.state.writing(), unknowns, knowns, seeds, values)?)
     }
 
     /// `fmi3DoStep`, up to where it begins. [`Instance::go_on`] has to follow.

@@ -22,12 +22,9 @@ use super::instantiate::{instantiate, refuse, refuse_kind};
 use super::types::*;
 use crate::fmi::v2::abi::borrow::{place, slice, slice_mut, text};
 use crate::fmi::v2::abi::declare::functions;
-use crate::fmi::v2::abi::dispatch_x86_64_v3::{self, Library};
 use crate::fmi::v2::abi::panic_guard::guarded;
 use crate::fmi::v2::error::ArgumentError;
-use std::mem::transmute;
 use std::ptr::{null_mut, without_provenance_mut};
-use std::sync::OnceLock;
 
 functions! {
     // The library.
@@ -603,14 +600,6 @@ functions! {
     ) -> fmi3Status {
         call(instance, Call::GetVariableDependencies, |_| Ok(()))
     }
-}
-
-/// The functions that the exports call: those of the build for newer processors where that can run,
-/// else those of this library. The choice is made once, at the first call, for the whole process.
-fn in_use() -> &'static Functions {
-    static IN_USE: OnceLock<Functions> = OnceLock::new();
-    let choose = || dispatch_x86_64_v3::open().and_then(|library| Functions::of(&library));
-    IN_USE.get_or_init(|| guarded(choose).ok().flatten().unwrap_or(Functions::OWN))
 }
 
 /// The length of an array that has to have `needed` entries.

@@ -25,11 +25,12 @@ impl HostLogger {
 }
 
 impl Host for HostLogger {
-    fn log(&self, _: &CStr, severity: Severity, category: &CStr, line: &CStr) {
+    fn log(&self, _: &CStr, severity: Option<Severity>, category: &CStr, line: &CStr) {
         if let Some(logger) = self.logger {
             // SAFETY: `new` was promised that the function may be called; the strings end in zero and outlive the call.
             unsafe {
-                logger(self.environment, Status::from(severity) as i32, category.as_ptr(), line.as_ptr());
+                let status = severity.map_or(Status::Ok, Status::from) as i32;
+                logger(self.environment, status, category.as_ptr(), line.as_ptr());
             }
         }
     }

@@ -9,13 +9,14 @@ use super::host_update::HostUpdate;
 use super::types::fmi3Instance;
 use crate::fmi::slave::log::Logger;
 use crate::fmi::v2::abi::component::give;
+use crate::fmi::v2::abi::engine::borrowed::newer;
 use crate::fmi::v2::abi::panic_guard::guarded;
 use std::ffi::{CStr, CString};
 use std::ptr::null_mut;
 
 /// Makes an instance whose messages go to `host`; NULL, and one line in the log, if that cannot be.
 pub fn instantiate(request: &Request<'_>, host: HostLogger, update: Option<HostUpdate>) -> fmi3Instance {
-    let made = guarded(|| Instance::instantiate(request, host));
+    let made = guarded(|| Instance::instantiate(request, Box::new(host), newer()));
     match made.unwrap_or_else(|fault| Err(Error::Panic(fault))) {
         Ok(instance) => give(Hosted { instance, update }),
         Err(error) => refuse(Call::InstantiateCoSimulation, request.name, host, &error),

@@ -3,12 +3,12 @@
 use super::super::dispatch_x86_64_v3::{Library, open};
 use super::super::panic_guard::guarded;
 use super::{Bytes, Failure, OFFER, Offer, Reading, Sink, Table};
-use crate::fmi::slave::engine::{Engine, Run};
+use crate::fmi::slave::engine::{Engine, Run, Stops};
 use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::scene::parameter::DECLARATION;
-use crate::simulation::{SimulationError, Snapshot};
+use crate::simulation::{Side, SimulationError, Snapshot};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_void;
@@ -99,11 +99,19 @@ impl Run for BorrowedRun {
         letter.infallible();
     }
 
-    fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
+    fn advance(&mut self, time: f64, stops: Stops) -> Result<bool, SimulationError> {
         let mut letter = Letter::default();
         // SAFETY: a live run, lent to this call alone; the sink outlives the call.
-        unsafe { (self.table.advance_to)(self.run.as_ptr(), time, letter.sink()) };
-        letter.outcome()
+        let event = unsafe { (self.table.advance)(self.run.as_ptr(), time, stops, letter.sink()) };
+        letter.outcome()?;
+        Ok(event)
+    }
+
+    fn look(&mut self, side: Side) {
+        let mut letter = Letter::default();
+        // SAFETY: a live run, lent to this call alone; the sink outlives the call.
+        unsafe { (self.table.look)(self.run.as_ptr(), side, letter.sink()) };
+        letter.infallible();
     }
 
     fn outputs(&mut self) -> Outputs {
@@ -216,7 +224,14 @@ mod tests {
         for point in 1..=20 {
             let inputs = Inputs { crank_torque: f64::from(point), slider_load: -2.0 };
             run.set_inputs(inputs, Inputs { crank_torque: 3.0, slider_load: 0.0 });
-            run.advance_to(f64::from(point) * 1e-3).expect("a step");
+            let end = f64::from(point) * 1e-3;
+            while run.time() < end {
+                let event = run.advance(end, Stops::Events).expect("a step");
+                assert!(event || run.time() == end);
+                run.look(Side::Before);
+                seen.push(run.outputs());
+                run.look(Side::After);
+            }
             seen.extend([run.outputs(), run.output_rates(), run.output_sensitivity(inputs)]);
         }
         assert_eq!(run.time(), 20.0 * 1e-3);
@@ -233,7 +248,7 @@ mod tests {
         let (_, snapshot) = course(&Own);
         let ends = [&ACROSS as &dyn Engine, &Own].map(|engine| {
             let mut run = engine.restore(&worn(), &snapshot).expect("its own snapshot");
-            run.advance_to(0.03).expect("a step");
+            run.advance(0.03, Stops::Steps).expect("a step");
             (run.outputs(), run.snapshot())
         });
         assert_eq!(ends[0], ends[1]);
@@ -260,20 +275,21 @@ mod tests {
         let lost = |engine: &dyn Engine| {
             let load = Inputs { crank_torque: 0.0, slider_load: 1e308 };
             let mut run = engine.start(&worn(), load).expect("a start");
-            (run.advance_to(1.0).expect_err("no step"), run.time().to_bits())
+            (run.advance(1.0, Stops::Nowhere).expect_err("no step"), run.time().to_bits())
         };
         assert_eq!(lost(&ACROSS), lost(&Own));
     }
 
     #[test]
     fn a_panic_crosses_the_border_as_a_panic() {
-        unsafe extern "C" fn breaks(_: *mut c_void, _: f64, sink: Sink) {
+        unsafe extern "C" fn breaks(_: *mut c_void, _: f64, _: Stops, sink: Sink) -> bool {
             super::super::offered::attempt::<()>(sink, || std::panic::panic_any("a fault on purpose"));
+            false
         }
-        static BROKEN: Table = Table { advance_to: breaks, ..TABLE };
+        static BROKEN: Table = Table { advance: breaks, ..TABLE };
         let engine = Borrowed { table: &BROKEN };
         let mut run = engine.start(&worn(), Inputs::default()).expect("a start");
-        let caught = guarded(|| run.advance_to(1.0));
+        let caught = guarded(|| run.advance(1.0, Stops::Nowhere));
         assert_eq!(caught, Err("a fault on purpose".into()));
     }
 }

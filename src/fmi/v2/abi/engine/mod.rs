@@ -9,8 +9,9 @@
 pub mod borrowed;
 pub mod offered;
 
+use crate::fmi::slave::engine::Stops;
 use crate::model::signals::{Inputs, Outputs};
-use crate::simulation::SimulationError;
+use crate::simulation::{Side, SimulationError};
 use serde::{Deserialize, Serialize};
 use std::ffi::c_void;
 
@@ -59,7 +60,9 @@ pub struct Table {
     free: unsafe extern "C" fn(run: *mut c_void),
     time: unsafe extern "C" fn(run: *mut c_void) -> f64,
     set_inputs: unsafe extern "C" fn(run: *mut c_void, inputs: *const Inputs, rates: *const Inputs, sink: Sink),
-    advance_to: unsafe extern "C" fn(run: *mut c_void, time: f64, sink: Sink),
+    /// Returns whether a contact has closed or opened at the end.
+    advance: unsafe extern "C" fn(run: *mut c_void, time: f64, stops: Stops, sink: Sink) -> bool,
+    look: unsafe extern "C" fn(run: *mut c_void, side: Side, sink: Sink),
     read: unsafe extern "C" fn(run: *mut c_void, what: Reading, seed: *const Inputs, outputs: *mut Outputs, sink: Sink),
     /// Writes states and rates, each of which have room for `MAX_STATES`, and returns their number.
     write_states: unsafe extern "C" fn(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize,

@@ -2,15 +2,16 @@
 
 use super::super::panic_guard::guarded;
 use super::{Bytes, Failure, Reading, Sink, Table};
+use crate::fmi::slave::engine::{Run, Stops};
 use crate::model::signals::{Inputs, Outputs};
-use crate::simulation::{Simulation, SimulationError};
+use crate::simulation::{Side, Simulation, SimulationError};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_void;
 use std::ptr::null_mut;
 
 /// The functions of this library.
-pub const TABLE: Table = Table { start, restore, free, time, set_inputs, advance_to, read, write_states, snapshot };
+pub const TABLE: Table = Table { start, restore, free, time, set_inputs, advance, look, read, write_states, snapshot };
 
 /// Exported by the build for newer processors only: the other one is what importers load, and has the functions of the
 /// standard and no others.
@@ -67,10 +68,19 @@ unsafe extern "C" fn set_inputs(run: *mut c_void, inputs: *const Inputs, rates: 
     });
 }
 
-unsafe extern "C" fn advance_to(run: *mut c_void, time: f64, sink: Sink) {
+unsafe extern "C" fn advance(run: *mut c_void, time: f64, stops: Stops, sink: Sink) -> bool {
     // SAFETY: a live run, in no other call.
     let run = unsafe { lent(run) };
-    attempt(sink, || run.advance_to(time));
+    attempt(sink, || Run::advance(run, time, stops)).unwrap_or_default()
+}
+
+unsafe extern "C" fn look(run: *mut c_void, side: Side, sink: Sink) {
+    // SAFETY: a live run, in no other call.
+    let run = unsafe { lent(run) };
+    attempt(sink, || {
+        run.look(side);
+        Ok(())
+    });
 }
 
 unsafe extern "C" fn read(run: *mut c_void, what: Reading, seed: *const Inputs, outputs: *mut Outputs, sink: Sink) {
