@@ -12,6 +12,7 @@ use std::io;
 
 /// The model description of a package.
 pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
+    let package = &Package { exchange: None, ..*package };
     let mut xml = begin()?;
     parent(&mut xml, "fmiModelDescription", root(declaration, package, "3.0", "instantiationToken"), |xml| {
         leaf(xml, "CoSimulation", capabilities(declaration, &declaration.capabilities_fmi3))?;

@@ -90,9 +90,10 @@ mod code {
     use object::endian::Endianness;
     use object::read::elf::{FileHeader, SectionHeader};
 
-    /// [bytes] Most machine code of one packaged library: little above what the portable one has. The goal is 2 MB, which
-    /// the one for x86-64-v3 nearly meets.
-    const MOST: u64 = 2_800_000;
+    /// [bytes] Most machine code of one packaged library: little above what the portable one has, with two versions of FMI
+    /// and model exchange. The goal is 2 MB; what is above it are the equations for numbers with derivatives and for eight
+    /// instants, each for three sizes of a flexible rod's arrays.
+    const MOST: u64 = 3_000_000;
 
     /// [bytes] Sections of a library that hold instructions.
     fn size(library: &[u8]) -> u64 {
@@ -187,13 +188,18 @@ fn the_package_of_fmi3_runs_to_the_same_bits_and_tells_the_same_variables() {
         let mut archive = Archive::open(file).expect("an archive");
         Description::parse(&archive.description().expect("text")).expect("a description")
     });
-    assert_eq!(new.variables.len(), 1 + old.variables.len());
+    // States and their derivatives, which come last, are there for model exchange, which FMI 3.0's file does not offer.
+    let shared = old.variables.iter().take_while(|variable| !variable.name.contains("state.")).count();
+    assert_eq!(new.variables.len(), 1 + shared);
     let (old, new) = (&old.structure, &new.structure);
     // The variable of the time is the first one, so all numbers are one higher.
     for (old, new) in
         old.outputs.iter().chain(&old.initial_unknowns).zip(new.outputs.iter().chain(&new.initial_unknowns))
     {
-        let higher = old.dependencies.as_ref().map(|list| list.iter().map(|index| index + 1).collect::<Vec<_>>());
+        let higher = old
+            .dependencies
+            .as_ref()
+            .map(|list| list.iter().filter(|index| **index <= shared).map(|index| index + 1).collect::<Vec<_>>());
         assert_eq!((old.index + 1, higher.as_ref()), (new.index, new.dependencies.as_ref()));
     }
 }

@@ -63,7 +63,6 @@ fn impossible() -> Vec<Attempt> {
         // NULL where data are needed.
         SetDebugLogging = fmi3SetDebugLogging(1, 1, null());
         SetDebugLogging = fmi3SetDebugLogging(1, 1, &null());
-        SetDebugLogging = fmi3SetDebugLogging(1, 1, &c"nothing".as_ptr());
         UpdateDiscreteStates =
             fmi3UpdateDiscreteStates(null_mut(), null_mut(), null_mut(), null_mut(), null_mut(), null_mut());
         UpdateDiscreteStates = fmi3UpdateDiscreteStates(&mut 7, &mut 7, &mut 7, &mut 7, &mut 7, null_mut());

@@ -54,32 +54,38 @@ fn errors_are_told_even_to_those_who_do_not_log() {
     assert_eq!(slave.set("crank.mass", -1.0), Status::Error);
     let line = slave.line();
     assert!(line.category == "logStatusError" && line.status == Status::Error as i32, "{line:?}");
-    // Remarks are not.
+    // Warnings are, too.
     assert_eq!(slave.enter_with(Some(0.5), 0.0, None), Status::Warning);
-    assert_eq!(slave.lines(), []);
+    assert_eq!(slave.line().category, "logStatusWarning");
 }
 
 #[test]
 fn categories_are_switched_one_by_one() {
-    let remark = |switches: &[(bool, &[&std::ffi::CStr])], logging: bool| {
+    // A tolerance of the importer's own makes the experiment's a remark.
+    let remarks = |switches: &[(bool, &[&std::ffi::CStr], Status)], logging: bool| {
         let slave = Slave::new(Options { logging, ..Options::default() });
-        for (on, categories) in switches {
+        for (on, categories, wanted) in switches {
             let pointers: Vec<_> = categories.iter().map(|name| name.as_ptr()).collect();
             // SAFETY: live instance, strings that end in zero.
             let status = unsafe { fmi3SetDebugLogging(slave.0, (*on).into(), pointers.len(), pointers.as_ptr()) };
-            assert_eq!(status, Status::Ok);
+            assert_eq!(status, *wanted);
+            // An unknown category is a warning; the others of the call count.
+            assert_eq!(slave.lines().len(), usize::from(*wanted == Status::Warning));
         }
-        assert_eq!(slave.enter_with(Some(0.5), 0.0, None), Status::Warning);
+        assert_eq!(slave.set("solver.tolerance", 1e-9), Status::Ok);
+        assert_eq!(slave.enter_with(Some(1e-4), 0.0, None), Status::Ok);
+        assert_eq!(slave.exit(), Status::Ok);
         slave.lines().len()
     };
-    let (warning, discard) = (c"logStatusWarning", c"logStatusDiscard");
-    assert_eq!(remark(&[], true), 1);
-    assert_eq!(remark(&[(false, &[])], true), 0);
-    assert_eq!(remark(&[(true, &[])], false), 1);
-    assert_eq!(remark(&[(false, &[discard])], true), 1);
-    assert_eq!(remark(&[(false, &[warning])], true), 0);
-    assert_eq!(remark(&[(false, &[]), (true, &[warning])], true), 1);
-    assert_eq!(remark(&[(true, &[discard])], false), 0);
+    let (remark, discard, ok) = (c"logRemark", c"logStatusDiscard", Status::Ok);
+    assert_eq!(remarks(&[], true), 1);
+    assert_eq!(remarks(&[(false, &[], ok)], true), 0);
+    assert_eq!(remarks(&[(true, &[], ok)], false), 1);
+    assert_eq!(remarks(&[(false, &[discard], ok)], true), 1);
+    assert_eq!(remarks(&[(false, &[remark], ok)], true), 0);
+    assert_eq!(remarks(&[(false, &[], ok), (true, &[remark], ok)], true), 1);
+    assert_eq!(remarks(&[(true, &[discard], ok)], false), 0);
+    assert_eq!(remarks(&[(true, &[c"nothing", remark], Status::Warning)], false), 1);
 }
 
 #[test]

@@ -239,7 +239,7 @@ def test_a_host_that_binds_every_function_finds_them(wornpin, plain):
 
 def test_only_the_standards_functions_are_exported(wornpin):
     """A host that loads several units with global symbols would mix up anything else."""
-    symbols = exported(next((wornpin.directory / "binaries" / "linux64").glob("*.so")))
+    symbols = exported(wornpin.directory / "binaries" / "linux64" / "SliderCrank.so")
     assert [sum(symbol.startswith(version) for symbol in symbols) for version in ("fmi2", "fmi3")] == [44, 75]
     assert len(symbols) == 44 + 75
 

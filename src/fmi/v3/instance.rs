@@ -144,6 +144,9 @@ impl Instance {
     pub fn exit_initialization_mode(&mut self) -> Result<(), Error> {
         self.slave.initialize()?;
         self.state = if self.event_mode_used { State::EventMode } else { State::StepMode };
+        if let Some(left_aside) = self.slave.tolerance_left_aside() {
+            self.logger.remark(Call::ExitInitializationMode.name(), &left_aside);
+        }
         Ok(())
     }
 
