@@ -21,6 +21,7 @@ const TORQUE: Dimension = [2, 4, -4, 0];
 const PRESSURE: Dimension = [2, -2, -4, 0];
 /// Torque times angle, so that a torque in joules is rejected.
 const ENERGY: Dimension = [2, 4, -4, 2];
+const POWER: Dimension = [2, 4, -6, 2];
 
 /// Symbol, dimension, and the factor to SI as a quotient, so that 50 mm is 50/1000 m to the bit.
 const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
@@ -59,6 +60,8 @@ const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
     ("mJ", ENERGY, 1.0, 1e3),
     ("kJ", ENERGY, 1e3, 1.0),
     ("MJ", ENERGY, 1e6, 1.0),
+    ("W", POWER, 1.0, 1.0),
+    ("kW", POWER, 1e3, 1.0),
     ("Pa", PRESSURE, 1.0, 1.0),
     ("kPa", PRESSURE, 1e3, 1.0),
     ("MPa", PRESSURE, 1e6, 1.0),

@@ -178,9 +178,9 @@ impl<'a> References<'a> {
         ];
         let starts = self.stage.state == State::InitializationMode;
         let inputs = [
-            (["slider.load", "slider.x"], "slider.x is not a real input, nor a real parameter in initialization mode"),
+            (["slider.load", "slider.x"], "slider.x is not a real input"),
             (["rod.length", "slider.load"], if starts { "" } else { "rod.length is not a real input" }),
-            (["slider.load", "drive.mode"], "drive.mode is not a real input, nor"),
+            (["slider.load", "drive.mode"], "drive.mode is not a real input"),
             (["slider.load", "joint.C.contact"], "joint.C.contact is not a real input"),
             // Named twice it counts twice.
             (["slider.load", "slider.load"], ""),
