@@ -114,14 +114,14 @@ pub fn begun(mechanism: usize) -> Vec<u8> {
     slave.bytes_of(slave.save())
 }
 
-/// Tries `change` at every place of the content.
+/// Tries `change` at every third place of the content: at more than two of each number.
 fn everywhere(width: usize, change: impl Fn(usize, &mut [u8])) -> Fates {
     let mut fates = Fates::default();
     for mechanism in some() {
         let bytes = begun(mechanism);
         let host = Slave::new();
         let content: Range<usize> = HEADER..bytes.len() - 4 - width;
-        for at in content {
+        for at in content.step_by(3) {
             let forged = resealed(&bytes, |sealed| change(at, &mut sealed[at..at + width]));
             fates.count(fate(&host, &forged));
         }
