@@ -114,14 +114,14 @@ pub fn begun(mechanism: usize) -> Vec<u8> {
     slave.bytes_of(slave.save())
 }
 
-/// Tries `change` at every third place of the content: at more than two of each number.
+/// Tries `change` at every place of the content.
 fn everywhere(width: usize, change: impl Fn(usize, &mut [u8])) -> Fates {
     let mut fates = Fates::default();
     for mechanism in some() {
         let bytes = begun(mechanism);
         let host = Slave::new();
         let content: Range<usize> = HEADER..bytes.len() - 4 - width;
-        for at in content.step_by(3) {
+        for at in content {
             let forged = resealed(&bytes, |sealed| change(at, &mut sealed[at..at + width]));
             fates.count(fate(&host, &forged));
         }
@@ -131,18 +131,18 @@ fn everywhere(width: usize, change: impl Fn(usize, &mut [u8])) -> Fates {
 
 #[test]
 fn a_changed_byte_under_a_sound_checksum_does_no_harm() {
-    for pattern in [0x01, 0x10, 0x80, 0xff] {
-        let fates = everywhere(1, |_, bytes| bytes[0] ^= pattern);
-        assert!(fates.refused > 0 && fates.works > 0, "{fates:?}");
-    }
+    // Every place meets one of these.
+    let patterns = [0x01, 0x10, 0x80, 0xff];
+    let fates = everywhere(1, |at, bytes| bytes[0] ^= patterns[at % patterns.len()]);
+    assert!(fates.refused > 0 && fates.works > 0, "{fates:?}");
 }
 
 #[test]
 fn absurd_numbers_anywhere_do_no_harm() {
-    for absurd in [f64::NAN, f64::INFINITY, f64::MAX, -1e300, 1e39, -1e20, 1e9, 0.0, -5e-324] {
-        let fates = everywhere(8, |_, bytes| bytes.copy_from_slice(&absurd.to_le_bytes()));
-        assert!(fates.refused > 0, "{fates:?}");
-    }
+    // Every place meets one of these.
+    let absurd = [f64::NAN, f64::INFINITY, f64::MAX, -1e300, 1e39, -1e20, 1e9, 0.0, -5e-324];
+    let fates = everywhere(8, |at, bytes| bytes.copy_from_slice(&absurd[at % absurd.len()].to_le_bytes()));
+    assert!(fates.refused > 0, "{fates:?}");
 }
 
 #[test]
