@@ -6,7 +6,7 @@ use fmu_harness::package::archive::{Part, write};
 use fmu_harness::package::{Package, Stock};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
-use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
+use slidercrank::fmi::abi::dispatch_x86_64_v3;
 use std::fs;
 use tempfile::TempDir;
 

@@ -5,7 +5,7 @@ use fmu_harness::inspect::declared;
 use fmu_harness::package::{Package, Stock, Version};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
-use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
+use slidercrank::fmi::abi::dispatch_x86_64_v3;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;

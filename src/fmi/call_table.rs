@@ -56,4 +56,33 @@ macro_rules! table {
     };
 }
 
-pub(crate) use table;
+/// Says what calls may read and write in each `State` of the calling module, by the rows of its table `Touch`, and gives
+/// states their names in messages.
+macro_rules! permissions {
+    () => {
+        impl State {
+            /// What a call may read in this state.
+            pub fn reading(self) -> Permission {
+                self.permission([Touch::GetInput, Touch::GetOutput, Touch::GetParameter])
+            }
+
+            /// What a call may write in this state.
+            pub fn writing(self) -> Permission {
+                self.permission([Touch::SetInput, Touch::SetOutput, Touch::SetParameter])
+            }
+
+            fn permission(self, touches: [Touch; 3]) -> Permission {
+                let [inputs, outputs, parameters] = touches.map(|touch| touch.allowed(self));
+                Permission { inputs, outputs, parameters, state: self.name() }
+            }
+        }
+
+        impl fmt::Display for State {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+    };
+}
+
+pub(crate) use {permissions, table};

@@ -2,6 +2,7 @@
 
 use crate::host::Slave;
 use slidercrank::fmi::slave::Settings;
+use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::fmu_state::FmuState;
 use slidercrank::fmi::v2::lifecycle::State;

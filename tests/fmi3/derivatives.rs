@@ -3,6 +3,7 @@
 use crate::importer::{Handle, Options, Slave, vr};
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;
+use slidercrank::fmi::v3::abi::types::*;
 
 impl Handle {
     /// First time derivative of an output.
@@ -23,46 +24,47 @@ impl Handle {
 const OUTPUTS: [&str; 3] = ["slider.a", "joint.C.force.x", "crank.acceleration"];
 const INPUTS: [&str; 2] = ["crank.torque", "slider.load"];
 
-/// J·seed.
-fn forward(slave: &Slave, seed: [f64; 2]) -> [f64; 3] {
-    let (unknowns, knowns, mut answer) = (OUTPUTS.map(vr), INPUTS.map(vr), [f64::NAN; 3]);
+/// A function of the standard that takes a product with the Jacobian of outputs by inputs, or with its transpose.
+type Product = unsafe extern "C" fn(
+    fmi3Instance,
+    *const fmi3ValueReference,
+    usize,
+    *const fmi3ValueReference,
+    usize,
+    *const fmi3Float64,
+    usize,
+    *mut fmi3Float64,
+    usize,
+) -> fmi3Status;
+
+fn product<const SEEDS: usize, const ANSWERS: usize>(of: Product, slave: &Slave, seed: [f64; SEEDS]) -> [f64; ANSWERS] {
+    let (unknowns, knowns, mut answer) = (OUTPUTS.map(vr), INPUTS.map(vr), [f64::NAN; ANSWERS]);
     // SAFETY: live instance, arrays of the lengths said.
     let status = unsafe {
-        fmi3GetDirectionalDerivative(
+        of(
             slave.0,
             unknowns.as_ptr(),
-            3,
+            unknowns.len(),
             knowns.as_ptr(),
-            2,
+            knowns.len(),
             seed.as_ptr(),
-            2,
+            SEEDS,
             answer.as_mut_ptr(),
-            3,
+            ANSWERS,
         )
     };
     assert_eq!(status, Status::Ok);
     answer
 }
 
+/// J·seed.
+fn forward(slave: &Slave, seed: [f64; 2]) -> [f64; 3] {
+    product(fmi3GetDirectionalDerivative, slave, seed)
+}
+
 /// Jᵀ·seed.
 fn adjoint(slave: &Slave, seed: [f64; 3]) -> [f64; 2] {
-    let (unknowns, knowns, mut answer) = (OUTPUTS.map(vr), INPUTS.map(vr), [f64::NAN; 2]);
-    // SAFETY: live instance, arrays of the lengths said.
-    let status = unsafe {
-        fmi3GetAdjointDerivative(
-            slave.0,
-            unknowns.as_ptr(),
-            3,
-            knowns.as_ptr(),
-            2,
-            seed.as_ptr(),
-            3,
-            answer.as_mut_ptr(),
-            2,
-        )
-    };
-    assert_eq!(status, Status::Ok);
-    answer
+    product(fmi3GetAdjointDerivative, slave, seed)
 }
 
 #[test]

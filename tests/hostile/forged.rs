@@ -7,6 +7,7 @@ use crate::scenes::MECHANISMS;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
+use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::fmu_state::FmuState;

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! With `--tool=helgrind` and the filter `concurrency`, what is reported are atomics of the standard library, of the C library
-//! and of [`slidercrank::fmi::v2::abi::component`]: valgrind takes them for plain memory.
+//! and of [`slidercrank::fmi::abi::component`]: valgrind takes them for plain memory.
 #![allow(unsafe_code, reason = "the tests call the C functions")]
 #![allow(clippy::panic, reason = "a test that cannot go on")]
 

@@ -6,6 +6,7 @@ use crate::forged::{Fate, begun, fate};
 use crate::host::Slave;
 use crate::scenes::MECHANISMS;
 use slidercrank::fmi::slave::Settings;
+use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::fmu_state::FmuState;
 use slidercrank::fmi::v2::lifecycle::State;

@@ -3,6 +3,7 @@
 use crate::host::Slave;
 use crate::invoke::{NULL, Word};
 use slidercrank::fmi::slave::Interface;
+use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
 use slidercrank::fmi::v2::fmu_state::FmuState;

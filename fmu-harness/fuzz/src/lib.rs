@@ -5,6 +5,7 @@
 //! `cd fmu-harness && RUSTC_BOOTSTRAP=1 cargo fuzz run scene fuzz/seeds/scene -- -max_total_time=120`.
 
 use slidercrank::fmi::slave::log::Silent;
+use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::fmi::v2::fmu_state::FmuState;
 use slidercrank::fmi::v2::instance::{Instance, Request};

@@ -5,7 +5,7 @@ use super::tools;
 use crate::python::Missing;
 use anyhow::{Context, Result, ensure};
 use rayon::prelude::*;
-use slidercrank::fmi::v2::abi::dispatch_x86_64_v3;
+use slidercrank::fmi::abi::dispatch_x86_64_v3;
 use std::env;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

@@ -3,6 +3,7 @@
 //! What is timed is a host in Python, which calls the FMU for every evaluation: of its cost, the calls are the greater part.
 
 use super::Subject;
+use super::hosts::outcomes;
 use super::reference::Reference;
 use super::ruler::Ruler;
 use crate::inputs;
@@ -48,15 +49,7 @@ pub fn measure(
     ruler: &Ruler,
     reference: &Reference,
 ) -> Vec<ExchangePoint> {
-    let found = match python {
-        Ok(python) => found(python, subject, file, ruler, reference).map_err(|error| format!("{error:#}")),
-        Err(error) => Err(format!("{error:#}")),
-    };
-    let outcome = |place: usize| match &found {
-        // One line of it is enough.
-        Err(why) => Err(why.lines().last().unwrap_or_default().to_owned()),
-        Ok(found) => found.get(place).cloned().unwrap_or_else(|| Err("the host left it out".to_owned())),
-    };
+    let outcome = outcomes(python, |python| found(python, subject, file, ruler, reference));
     let scene = &subject.file.name;
     let point = |(place, tolerance)| ExchangePoint { scene: scene.clone(), tolerance, outcome: outcome(place) };
     TOLERANCES.into_iter().enumerate().map(point).collect()

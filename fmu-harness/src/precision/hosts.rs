@@ -52,6 +52,22 @@ pub struct Found {
     pub window: f64,
 }
 
+/// What a host's runs came to, each by its place, or why nothing came of it.
+pub fn outcomes<T: Clone>(
+    python: &Result<std::path::PathBuf>,
+    run: impl FnOnce(&Path) -> Result<Vec<Result<T, String>>>,
+) -> impl Fn(usize) -> Result<T, String> {
+    let found = match python {
+        Ok(python) => run(python).map_err(|error| format!("{error:#}")),
+        Err(error) => Err(format!("{error:#}")),
+    };
+    move |place| match &found {
+        // One line of it is enough.
+        Err(why) => Err(why.lines().last().unwrap_or_default().to_owned()),
+        Ok(found) => found.get(place).cloned().unwrap_or_else(|| Err("the host left it out".to_owned())),
+    }
+}
+
 /// Runs the scene in `file` under the FMPy of the interpreter `python`, over `span` [s] for its cost.
 pub fn measure(
     python: &Result<std::path::PathBuf>,
@@ -61,15 +77,9 @@ pub fn measure(
     reference: &Reference,
     span: f64,
 ) -> Vec<HostPoint> {
-    let found = match python {
-        Ok(python) => found(python, subject, file, ruler, reference, span).map_err(|error| format!("{error:#}")),
-        Err(error) => Err(format!("{error:#}")),
-    };
-    let outcome = |place: usize| match &found {
-        // One line of it is enough.
-        Err(why) => Err(why.lines().last().unwrap_or_default().to_owned()),
-        Ok(found) => found.get(place).cloned().ok_or_else(|| "the host left it out".to_owned()),
-    };
+    let outcome = outcomes(python, |python| {
+        Ok(found(python, subject, file, ruler, reference, span)?.into_iter().map(Ok).collect())
+    });
     let scene = &subject.file.name;
     let point = |(place, step): (usize, f64)| HostPoint { scene: scene.clone(), step, outcome: outcome(place) };
     STEPS.into_iter().enumerate().map(point).collect()

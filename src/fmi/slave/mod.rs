@@ -176,11 +176,11 @@ impl Slave {
         // Inputs are set every step: the scene is copied only where one of its parameters is set.
         let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.elapsed());
         let mut tolerance_set = self.settings.tolerance_set;
-        let mut states = [None; MAX_STATES];
+        let mut states: Option<[Option<f64>; MAX_STATES]> = None;
         for (&reference, &value) in references.iter().zip(values) {
             let variable = typed(reference, asked)?;
             if let Some(place) = self.settable_state(variable, permission) {
-                states[place] = Some(finite(variable, convert(value))?);
+                states.get_or_insert([None; MAX_STATES])[place] = Some(finite(variable, convert(value))?);
                 continue;
             }
             permission.check_write(variable)?;
@@ -203,7 +203,9 @@ impl Slave {
             self.settings.scene = scene;
         }
         self.settings.tolerance_set = tolerance_set;
-        self.take_states(&states);
+        if let Some(states) = states {
+            self.take_states(&states);
+        }
         self.drop_what_followed_from_settings();
         Ok(())
     }

@@ -1,7 +1,30 @@
 //! The saved states of one slave, under the handles that the importer holds.
 
 use super::error::SavedStateError;
+use super::sealed;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
+
+/// What a version of FMI saves of an instance.
+pub trait Saved: Serialize + DeserializeOwned {
+    /// Version of the bytes' format, to be raised with every change of the type or of what it holds.
+    const FORMAT: u32;
+
+    /// Whether an instance can be in this state. The snapshot in it is checked when it is restored.
+    fn makes_sense(&self) -> bool;
+
+    /// The bytes.
+    fn to_bytes(&self) -> Result<Vec<u8>, SavedStateError> {
+        sealed::seal(Self::FORMAT, self)
+    }
+
+    /// The state in these bytes.
+    fn from_bytes(bytes: &[u8]) -> Result<Self, SavedStateError> {
+        let state: Self = sealed::open(Self::FORMAT, bytes)?;
+        if state.makes_sense() { Ok(state) } else { Err(SavedStateError::Content) }
+    }
+}
 
 /// The saved states of one slave. The importer holds their addresses, which are looked up and never
 /// followed: a made-up or freed one is refused.
@@ -45,5 +68,22 @@ impl<T> SavedStates<T> {
             (0, _) | (_, Some(_)) => Ok(()),
             (_, None) => Err(SavedStateError::Foreign),
         }
+    }
+}
+
+impl<T: Saved> SavedStates<T> {
+    /// How many bytes the state kept under `handle` has.
+    pub fn serialized_size(&self, handle: usize) -> Result<usize, SavedStateError> {
+        Ok(self.get(handle)?.to_bytes()?.len())
+    }
+
+    /// Writes the bytes of the state kept under `handle`. The rest of a longer buffer becomes 0.
+    pub fn serialize(&self, handle: usize, buffer: &mut [u8]) -> Result<(), SavedStateError> {
+        let bytes = self.get(handle)?.to_bytes()?;
+        let (given, needed) = (buffer.len(), bytes.len());
+        let (front, rest) = buffer.split_at_mut_checked(needed).ok_or(SavedStateError::Buffer { given, needed })?;
+        front.copy_from_slice(&bytes);
+        rest.fill(0);
+        Ok(())
     }
 }

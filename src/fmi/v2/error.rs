@@ -2,9 +2,11 @@
 
 use super::lifecycle::State;
 use super::status_kind::StatusKind;
+use crate::fmi::abi::ArgumentError;
 use crate::fmi::slave;
 use crate::fmi::slave::error::SavedStateError;
 use crate::fmi::slave::{Interface, Severity};
+use crate::fmi::status::Status;
 use crate::scene::slot::SlotError;
 use std::fmt;
 
@@ -44,27 +46,6 @@ impl Error {
             | Self::NotAStatusKind(_) => Severity::Error,
         }
     }
-}
-
-/// Why a pointer from outside cannot be used. Each holds the argument's name.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ArgumentError {
-    /// NULL where data are needed.
-    Null(&'static str),
-    /// Not where such a datum can lie.
-    Misaligned(&'static str),
-    /// More elements than any sensible call has.
-    TooLong(&'static str, usize),
-    /// Not as many elements as there are states or event indicators.
-    Count {
-        /// The argument.
-        argument: &'static str,
-        /// What it says.
-        given: usize,
-        /// What it has to be.
-        expected: usize,
-    },
 }
 
 /// Why there is no instance.
@@ -110,6 +91,12 @@ impl From<InstantiateError> for Error {
     }
 }
 
+impl From<&Error> for Status {
+    fn from(error: &Error) -> Self {
+        error.severity().into()
+    }
+}
+
 impl std::error::Error for Error {}
 
 impl fmt::Display for Error {
@@ -128,21 +115,6 @@ impl fmt::Display for Error {
             Self::StatusKind(kind) => write!(f, "there is no {} to tell here", kind.name()),
             Self::NotAStatusKind(value) => write!(f, "{value} is not an fmi2StatusKind"),
             Self::Panic(what) => write!(f, "fault of the FMU: {what}"),
-        }
-    }
-}
-
-impl fmt::Display for ArgumentError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Null(argument) => write!(f, "argument '{argument}' is NULL"),
-            Self::Misaligned(argument) => {
-                write!(f, "argument '{argument}' is not aligned for its type")
-            }
-            Self::TooLong(argument, length) => {
-                write!(f, "argument '{argument}' cannot have {length} elements")
-            }
-            Self::Count { argument, given, expected } => write!(f, "argument '{argument}' is {given}, not {expected}"),
         }
     }
 }

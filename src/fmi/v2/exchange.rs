@@ -1,8 +1,9 @@
 //! The functions of model exchange as safe methods of an instance.
 
-use super::error::{ArgumentError, Error};
+use super::error::Error;
 use super::instance::Instance;
 use super::lifecycle::State;
+use crate::fmi::abi::ArgumentError;
 use crate::simulation::Update;
 
 /// What the importer is told of an event: `fmi2EventInfo` without what this FMU never has. One iteration is enough, nominal

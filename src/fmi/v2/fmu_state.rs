@@ -1,14 +1,11 @@
 //! The standard's FMU state: where an instance is in its life, and all that its slave is.
 
 use super::lifecycle::{Call, State};
-use super::status::Status;
-use crate::fmi::slave::error::SavedStateError;
-use crate::fmi::slave::{Settings, sealed};
+use crate::fmi::slave::Settings;
+use crate::fmi::slave::saved_states::Saved;
+use crate::fmi::status::Status;
 use crate::simulation::Snapshot;
 use serde::{Deserialize, Serialize};
-
-/// To be raised with every change of [`FmuState`] or of what it holds.
-const VERSION: u32 = 8;
 
 /// Everything that an instance is, its name and its logging aside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,17 +22,8 @@ pub struct FmuState {
     pub snapshot: Option<Snapshot>,
 }
 
-impl FmuState {
-    /// The bytes.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, SavedStateError> {
-        sealed::seal(VERSION, self)
-    }
-
-    /// The state in these bytes.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SavedStateError> {
-        let state: Self = sealed::open(VERSION, bytes)?;
-        if state.makes_sense() { Ok(state) } else { Err(SavedStateError::Content) }
-    }
+impl Saved for FmuState {
+    const FORMAT: u32 = 8;
 
     /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over, and nothing in
     /// it is what an importer cannot set. The snapshot is checked when it is restored.

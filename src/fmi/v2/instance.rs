@@ -4,14 +4,14 @@ use super::error::{Error, InstantiateError};
 use super::fmu_state::FmuState;
 use super::lifecycle::{Call, State};
 use super::resource_location;
-use super::status::Status;
 use super::status_kind::StatusKind;
 use crate::fmi::slave;
 use crate::fmi::slave::engine::Engine;
 use crate::fmi::slave::error::SavedStateError;
 use crate::fmi::slave::log::{Host, Logger};
-use crate::fmi::slave::saved_states::SavedStates;
+use crate::fmi::slave::saved_states::{Saved, SavedStates};
 use crate::fmi::slave::{Interface, Severity, Slave, ValueType};
+use crate::fmi::status::Status;
 use crate::scene::{Scene, slot};
 use crate::simulation::SimulationError;
 use std::ffi::{CStr, CString};
@@ -314,17 +314,12 @@ impl Instance {
 
     /// `fmi2SerializedFMUstateSize`
     pub fn serialized_size(&self, handle: usize) -> Result<usize, Error> {
-        Ok(self.saved.get(handle)?.to_bytes()?.len())
+        Ok(self.saved.serialized_size(handle)?)
     }
 
     /// `fmi2SerializeFMUstate`. The rest of a longer buffer becomes 0.
     pub fn serialize(&self, handle: usize, buffer: &mut [u8]) -> Result<(), Error> {
-        let bytes = self.saved.get(handle)?.to_bytes()?;
-        let (given, needed) = (buffer.len(), bytes.len());
-        let (front, rest) = buffer.split_at_mut_checked(needed).ok_or(SavedStateError::Buffer { given, needed })?;
-        front.copy_from_slice(&bytes);
-        rest.fill(0);
-        Ok(())
+        Ok(self.saved.serialize(handle, buffer)?)
     }
 
     /// `fmi2DeSerializeFMUstate`: keeps under `handle`, or under a new one if that is 0.

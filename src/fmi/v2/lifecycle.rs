@@ -6,7 +6,7 @@
 //! [`Touch`] say which variables they reach. And where inputs may be set in model exchange, `fmi2SetReal` sets continuous
 //! states as `fmi2SetContinuousStates` does, which CasADi takes for granted.
 
-use crate::fmi::call_table::table;
+use crate::fmi::call_table::{permissions, table};
 use crate::fmi::slave::{Interface, Permission};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -86,28 +86,9 @@ impl State {
             _ => None,
         }
     }
-
-    /// What a call may read in this state.
-    pub fn reading(self) -> Permission {
-        self.permission([Touch::GetInput, Touch::GetOutput, Touch::GetParameter])
-    }
-
-    /// What a call may write in this state.
-    pub fn writing(self) -> Permission {
-        self.permission([Touch::SetInput, Touch::SetOutput, Touch::SetParameter])
-    }
-
-    fn permission(self, touches: [Touch; 3]) -> Permission {
-        let [inputs, outputs, parameters] = touches.map(|touch| touch.allowed(self));
-        Permission { inputs, outputs, parameters, state: self.name() }
-    }
 }
 
-impl fmt::Display for State {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+permissions!();
 
 table! {
     /// A function of the standard.

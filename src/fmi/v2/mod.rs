@@ -2,7 +2,7 @@
 //! [`Slave`](crate::fmi::slave::Slave).
 //!
 //! `abi` turns pointers into borrows, [`lifecycle`] says which call is allowed when, the [`Instance`]
-//! does what was asked, [`status`] turns every outcome into one of the standard's statuses, and the
+//! does what was asked, [`Status`] turns every outcome into one of the standard's statuses, and the
 //! slave's log gives the importer the reason in one line.
 //!
 //! To add a function of the standard: an entry in the list of `abi/functions.rs`, the safe method of
@@ -17,9 +17,8 @@ pub mod fmu_state;
 pub mod instance;
 pub mod lifecycle;
 pub mod resource_location;
-pub mod status;
 pub mod status_kind;
 
+pub use crate::fmi::status::Status;
 pub use error::Error;
 pub use instance::Instance;
-pub use status::Status;

@@ -1,10 +1,11 @@
 //! Why a call is refused: what the slave says, and what FMI 3.0 and its C interface add.
 
 use super::lifecycle::State;
+use crate::fmi::abi::ArgumentError;
 use crate::fmi::slave;
 use crate::fmi::slave::Severity;
 use crate::fmi::slave::error::{SavedStateError, VariableError};
-use crate::fmi::v2::error::ArgumentError;
+use crate::fmi::status::Status;
 use crate::scene::slot::SlotError;
 use std::fmt;
 
@@ -90,6 +91,12 @@ from! {
     VariableError => Self::Slave,
     ArgumentError => Self::Argument,
     InstantiateError => Self::Instantiate,
+}
+
+impl From<&Error> for Status {
+    fn from(error: &Error) -> Self {
+        error.severity().into()
+    }
 }
 
 impl std::error::Error for Error {}

@@ -1,13 +1,10 @@
 //! The standard's FMU state: where an instance is in its life, and all that its slave is.
 
 use super::lifecycle::{Call, State};
-use crate::fmi::slave::error::SavedStateError;
-use crate::fmi::slave::{Settings, sealed};
+use crate::fmi::slave::Settings;
+use crate::fmi::slave::saved_states::Saved;
 use crate::simulation::Snapshot;
 use serde::{Deserialize, Serialize};
-
-/// To be raised with every change of [`FmuState`] or of what it holds. The upper half tells the version of FMI.
-const VERSION: u32 = 3 << 16 | 1;
 
 /// Everything that an instance is, aside from its name, its log, and what the importer said of itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,17 +19,9 @@ pub struct FmuState {
     pub snapshot: Option<Snapshot>,
 }
 
-impl FmuState {
-    /// The bytes.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, SavedStateError> {
-        sealed::seal(VERSION, self)
-    }
-
-    /// The state in these bytes.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SavedStateError> {
-        let state: Self = sealed::open(VERSION, bytes)?;
-        if state.makes_sense() { Ok(state) } else { Err(SavedStateError::Content) }
-    }
+impl Saved for FmuState {
+    // The upper half tells the version of FMI.
+    const FORMAT: u32 = 3 << 16 | 1;
 
     /// Whether an instance can be in this state. The snapshot is checked when it is restored.
     fn makes_sense(&self) -> bool {

@@ -3,14 +3,13 @@
 use super::error::{Error, InstantiateError};
 use super::fmu_state::FmuState;
 use super::lifecycle::{Call, State};
-use super::status::Status;
 use super::step::{Done, Ends, Stage, Update};
 use super::variables::{check_absent, check_type, has_intermediate_values, time_reference};
 use crate::fmi::slave::engine::{Engine, Stops};
-use crate::fmi::slave::error::SavedStateError;
 use crate::fmi::slave::log::{Host, Logger};
-use crate::fmi::slave::saved_states::SavedStates;
+use crate::fmi::slave::saved_states::{Saved, SavedStates};
 use crate::fmi::slave::{Severity, Slave, ValueType};
+use crate::fmi::status::Status;
 use crate::scene::slot;
 use crate::simulation::Side;
 use std::ffi::{CStr, CString};
@@ -383,17 +382,12 @@ impl Instance {
 
     /// `fmi3SerializedFMUStateSize`
     pub fn serialized_size(&self, handle: usize) -> Result<usize, Error> {
-        Ok(self.saved.get(handle)?.to_bytes()?.len())
+        Ok(self.saved.serialized_size(handle)?)
     }
 
     /// `fmi3SerializeFMUState`. The rest of a longer buffer becomes 0.
     pub fn serialize(&self, handle: usize, buffer: &mut [u8]) -> Result<(), Error> {
-        let bytes = self.saved.get(handle)?.to_bytes()?;
-        let (given, needed) = (buffer.len(), bytes.len());
-        let (front, rest) = buffer.split_at_mut_checked(needed).ok_or(SavedStateError::Buffer { given, needed })?;
-        front.copy_from_slice(&bytes);
-        rest.fill(0);
-        Ok(())
+        Ok(self.saved.serialize(handle, buffer)?)
     }
 
     /// `fmi3DeserializeFMUState`: keeps under `handle`, or under a new one if that is 0.

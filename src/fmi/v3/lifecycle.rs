@@ -7,7 +7,7 @@
 //! Two deviations, both towards the importer. A refused call leaves the instance where it was, where the standard
 //! terminates it. Reading inputs and parameters works from instantiation on, reading outputs from initialization mode on.
 
-use crate::fmi::call_table::table;
+use crate::fmi::call_table::{permissions, table};
 use crate::fmi::slave::Permission;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -63,28 +63,9 @@ impl State {
             Self::Fatal => "fatal",
         }
     }
-
-    /// What a call may read in this state.
-    pub fn reading(self) -> Permission {
-        self.permission([Touch::GetInput, Touch::GetOutput, Touch::GetParameter])
-    }
-
-    /// What a call may write in this state.
-    pub fn writing(self) -> Permission {
-        self.permission([Touch::SetInput, Touch::SetOutput, Touch::SetParameter])
-    }
-
-    fn permission(self, touches: [Touch; 3]) -> Permission {
-        let [inputs, outputs, parameters] = touches.map(|touch| touch.allowed(self));
-        Permission { inputs, outputs, parameters, state: self.name() }
-    }
 }
 
-impl fmt::Display for State {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+permissions!();
 
 table! {
     /// A function of the standard.

@@ -2,7 +2,7 @@
 //! around a [`Slave`](crate::fmi::slave::Slave).
 //!
 //! `abi` turns pointers into borrows, [`lifecycle`] says which call is allowed when, the [`Instance`] does what was
-//! asked, and [`status`] turns every outcome into one of the standard's statuses.
+//! asked, and [`Status`] turns every outcome into one of the standard's statuses.
 //!
 //! Value references are those of FMI 2.0, with one more for the independent variable ([`variables`]). Enumerations pass
 //! as 64-bit integers.
@@ -18,10 +18,9 @@ pub mod error;
 pub mod fmu_state;
 pub mod instance;
 pub mod lifecycle;
-pub mod status;
 pub mod step;
 pub mod variables;
 
+pub use crate::fmi::status::Status;
 pub use error::Error;
 pub use instance::Instance;
-pub use status::Status;

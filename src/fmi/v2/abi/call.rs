@@ -3,10 +3,10 @@
 use super::super::error::Error;
 use super::super::instance::Instance;
 use super::super::lifecycle::Call;
-use super::super::status::Status;
-use super::component;
-use super::panic_guard::guarded;
 use super::types::fmi2Component;
+use crate::fmi::abi::component;
+use crate::fmi::abi::panic_guard::guarded;
+use crate::fmi::status::Status;
 
 /// Runs one call on a component. No panic gets past: a fault of ours ends the instance, not the
 /// importer.
@@ -53,8 +53,8 @@ fn answer<S: Into<Status>>(
 mod tests {
     use super::super::super::instance::{CO_SIMULATION, Request};
     use super::super::super::lifecycle::State;
-    use super::super::component::{give, take_back};
     use super::*;
+    use crate::fmi::abi::component::{give, take_back};
     use crate::fmi::slave::Interface;
     use crate::fmi::slave::log::Silent;
     use crate::scene::slot;

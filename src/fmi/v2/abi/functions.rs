@@ -10,17 +10,18 @@
 #![allow(clippy::missing_safety_doc, reason = "said above, once")]
 #![allow(non_snake_case, non_camel_case_types, reason = "the names are the standard's")]
 
-use super::super::error::{ArgumentError, Error};
+use super::super::error::Error;
 use super::super::instance::{Instance, Request};
 use super::super::lifecycle::Call;
-use super::borrow::{place, slice, slice_mut, structure, text};
 use super::call::call;
-use super::component::take_back;
-use super::declare::functions;
 use super::host_logger::HostLogger;
 use super::instantiate::instantiate;
-use super::panic_guard::guarded;
 use super::types::*;
+use crate::fmi::abi::ArgumentError;
+use crate::fmi::abi::borrow::{place, slice, slice_mut, structure, text};
+use crate::fmi::abi::component::take_back;
+use crate::fmi::abi::declare::functions;
+use crate::fmi::abi::panic_guard::guarded;
 use std::ptr::{null_mut, without_provenance_mut};
 
 functions! {

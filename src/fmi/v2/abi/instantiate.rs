@@ -3,11 +3,11 @@
 use super::super::error::Error;
 use super::super::instance::{Instance, Request};
 use super::super::lifecycle::Call;
-use super::component::give;
-use super::engine::borrowed::newer;
 use super::host_logger::HostLogger;
-use super::panic_guard::guarded;
 use super::types::fmi2Component;
+use crate::fmi::abi::component::give;
+use crate::fmi::abi::engine::borrowed::newer;
+use crate::fmi::abi::panic_guard::guarded;
 use crate::fmi::slave::log::Logger;
 use std::ffi::CString;
 use std::ptr::null_mut;

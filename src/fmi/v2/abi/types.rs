@@ -2,7 +2,7 @@
 #![allow(non_camel_case_types, reason = "the names are the standard's")]
 
 use super::super::exchange::EventOutcome;
-use super::borrow::AnyBits;
+use crate::fmi::abi::borrow::AnyBits;
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
 /// An instance of ours, opaque to the importer.
@@ -24,7 +24,7 @@ pub type fmi2String = *const c_char;
 /// A byte of a serialized state.
 pub type fmi2Byte = c_char;
 /// What a call answers.
-pub type fmi2Status = super::super::status::Status;
+pub type fmi2Status = crate::fmi::status::Status;
 /// `fmi2ModelExchange` = 0, `fmi2CoSimulation` = 1. A plain integer, since anything may come.
 pub type fmi2Type = c_int;
 /// Which status is asked for. A plain integer, since anything may come.

@@ -3,11 +3,11 @@
 use super::super::error::Error;
 use super::super::instance::Instance;
 use super::super::lifecycle::Call;
-use super::super::status::Status;
 use super::host_update::HostUpdate;
 use super::types::fmi3Instance;
-use crate::fmi::v2::abi::component::{Lent, lend, take_back};
-use crate::fmi::v2::abi::panic_guard::guarded;
+use crate::fmi::abi::component::{Lent, lend, take_back};
+use crate::fmi::abi::panic_guard::guarded;
+use crate::fmi::status::Status;
 
 /// What the importer's pointer stands for.
 pub struct Hosted {

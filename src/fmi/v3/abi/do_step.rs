@@ -3,12 +3,12 @@
 use super::super::error::Error;
 use super::super::instance::Instance;
 use super::super::lifecycle::Call;
-use super::super::status::Status;
 use super::super::step::{Done, Stage};
 use super::call::{Hosted, answer, call};
 use super::types::{fmi3Boolean, fmi3Float64, fmi3Instance};
-use crate::fmi::v2::abi::borrow::place;
-use crate::fmi::v2::abi::component::{Lent, lend};
+use crate::fmi::abi::borrow::place;
+use crate::fmi::abi::component::{Lent, lend};
+use crate::fmi::status::Status;
 use std::thread::yield_now;
 
 /// Where the importer wants to have the answers. The places may be one and the same, so they are borrowed one at a time.

@@ -20,10 +20,10 @@ use super::host_logger::HostLogger;
 use super::host_update::HostUpdate;
 use super::instantiate::{instantiate, refuse, refuse_kind};
 use super::types::*;
-use crate::fmi::v2::abi::borrow::{place, slice, slice_mut, text};
-use crate::fmi::v2::abi::declare::functions;
-use crate::fmi::v2::abi::panic_guard::guarded;
-use crate::fmi::v2::error::ArgumentError;
+use crate::fmi::abi::ArgumentError;
+use crate::fmi::abi::borrow::{place, slice, slice_mut, text};
+use crate::fmi::abi::declare::functions;
+use crate::fmi::abi::panic_guard::guarded;
 use std::ptr::{null_mut, without_provenance_mut};
 
 functions! {

@@ -1,9 +1,9 @@
 //! The importer's logger as a safe host of log lines.
 
-use super::super::status::Status;
 use super::types::{fmi3InstanceEnvironment, fmi3LogMessageCallback};
 use crate::fmi::slave::Severity;
 use crate::fmi::slave::log::Host;
+use crate::fmi::status::Status;
 use std::ffi::CStr;
 
 /// The importer's logger, if it has one.

@@ -7,10 +7,10 @@ use super::call::Hosted;
 use super::host_logger::HostLogger;
 use super::host_update::HostUpdate;
 use super::types::fmi3Instance;
+use crate::fmi::abi::component::give;
+use crate::fmi::abi::engine::borrowed::newer;
+use crate::fmi::abi::panic_guard::guarded;
 use crate::fmi::slave::log::Logger;
-use crate::fmi::v2::abi::component::give;
-use crate::fmi::v2::abi::engine::borrowed::newer;
-use crate::fmi::v2::abi::panic_guard::guarded;
 use std::ffi::{CStr, CString};
 use std::ptr::null_mut;
 

@@ -1,4 +1,4 @@
-//! The C interface of FMI 3.0. What knows no version comes from [`v2::abi`](crate::fmi::v2::abi).
+//! The C interface of FMI 3.0, on what [`abi`](crate::fmi::abi) has for every version.
 #![allow(unsafe_code, reason = "pointers of the C interface")]
 
 pub mod call;

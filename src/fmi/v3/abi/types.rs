@@ -26,7 +26,7 @@ pub type fmi3Byte = u8;
 /// C's `bool`; there are no clocks.
 pub type fmi3Clock = u8;
 /// What a call answers.
-pub type fmi3Status = super::super::status::Status;
+pub type fmi3Status = crate::fmi::status::Status;
 /// Never answered.
 pub type fmi3DependencyKind = c_int;
 /// Never answered.

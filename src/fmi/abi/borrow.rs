@@ -1,6 +1,6 @@
 //! Pointer + length → checked borrow. All handling of null, zero-length and hostile arguments.
 
-use super::super::error::ArgumentError;
+use super::ArgumentError;
 use std::ffi::{CStr, c_char, c_void};
 
 /// Types of which every bit pattern is a value, so that whatever the importer's memory holds may be

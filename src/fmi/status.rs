@@ -1,12 +1,11 @@
 //! What a call answers: every outcome becomes one of the standard's statuses.
 
-use super::error::Error;
-use crate::fmi::slave::Severity;
-use crate::fmi::slave::variables::LogCategory;
+use super::slave::Severity;
+use super::slave::variables::LogCategory;
 use serde::{Deserialize, Serialize};
 
-/// The standard's `fmi2Status`. A step is over when its call returns, so `fmi2Pending` is never
-/// answered and has no name here.
+/// The standard's status, the same numbers in FMI 2.0 and 3.0. A step is over when its call returns, so `fmi2Pending` is
+/// never answered and has no name here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(i32)]
 pub enum Status {
@@ -14,7 +13,7 @@ pub enum Status {
     Ok = 0,
     /// Done, with a remark in the log.
     Warning = 1,
-    /// Not done in full; the instance is sound.
+    /// Not done in full, or not at all; the instance is sound.
     Discard = 2,
     /// Refused.
     Error = 3,
@@ -36,12 +35,6 @@ impl From<Severity> for Status {
             Severity::Error => Self::Error,
             Severity::Fatal => Self::Fatal,
         }
-    }
-}
-
-impl From<&Error> for Status {
-    fn from(error: &Error) -> Self {
-        error.severity().into()
     }
 }
 
