@@ -258,8 +258,11 @@ impl Real for F64x8 {
     fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K] {
         let mut found = [(Self::ZERO, Self::ONE); K];
         unroll!(true, k < K => {
-            let of_four = x[k].0.map(sin_cos::of_four);
-            found[k] = (Self(of_four.map(|(sin, _)| sin)), Self(of_four.map(|(_, cos)| cos)));
+            // Not by `map`: the compiler leaves its closure a function of its own.
+            let [first, second] = x[k].0;
+            let ((sin_first, cos_first), (sin_second, cos_second)) =
+                (sin_cos::of_four(first), sin_cos::of_four(second));
+            found[k] = (Self([sin_first, sin_second]), Self([cos_first, cos_second]));
         });
         found
     }

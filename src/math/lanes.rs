@@ -2,6 +2,7 @@
 
 use super::fused::Fused;
 use std::array;
+use std::ops::Add;
 use wide::{CmpGt, CmpLt, f64x4};
 
 /// How many numbers a [`Lanes`] holds.
@@ -14,6 +15,8 @@ pub trait Lanes<R>: Copy {
     fn of(numbers: [R; LANES]) -> Self;
     /// Adds `factor` times each of `numbers`.
     fn add(&mut self, factor: R, numbers: &[f64; LANES]);
+    /// The sums of each two.
+    fn plus(self, other: Self) -> Self;
     /// Unpacks the four numbers.
     fn numbers(self) -> [R; LANES];
 }
@@ -44,12 +47,17 @@ impl Lanes<f64> for f64x4 {
     }
 
     #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+
+    #[inline(always)]
     fn numbers(self) -> [f64; LANES] {
         self.to_array()
     }
 }
 
-impl<R: Copy + Fused<f64>> Lanes<R> for [R; LANES] {
+impl<R: Copy + Fused<f64> + Add<Output = R>> Lanes<R> for [R; LANES] {
     #[inline(always)]
     fn of(numbers: Self) -> Self {
         numbers
@@ -58,6 +66,11 @@ impl<R: Copy + Fused<f64>> Lanes<R> for [R; LANES] {
     #[inline(always)]
     fn add(&mut self, factor: R, numbers: &[f64; LANES]) {
         *self = array::from_fn(|i| factor.multiply_add(numbers[i], self[i]));
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        array::from_fn(|i| self[i] + other[i])
     }
 
     #[inline(always)]

@@ -9,20 +9,23 @@
 //! M_ηη is positive definite and is factorised into L·D·Lᵀ. D has 2×2 blocks, because each pivot waits for the division
 //! of the pivot before it, and blocks halve the number of divisions.
 
-#![allow(clippy::needless_range_loop)] // triangles are read by their indices
+#![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
 use super::dynamics::Equations;
 use super::rod::CompiledCounts;
+use super::structure::{CRANK, ROD, SLIDER};
 use crate::math::{Real, unroll};
 
 /// The equations of at most `K` modal coordinates.
 pub struct ModalEquations<R, const K: usize> {
     /// Number of modal coordinates.
     pub size: usize,
-    /// [kg] M_ηη; the upper triangle.
+    /// Which of the angles of crank, rod and slider are coupled with the modes.
+    pub angles: [bool; 3],
+    /// [kg] M_ηη; the lower triangle.
     pub matrix: [[R; K]; K],
-    /// [kg·m] C: coupling of each mode with the angles of crank, rod and slider.
-    pub with: [[R; 3]; K],
+    /// [kg·m] C: coupling of the angles of crank, rod and slider with each mode.
+    pub with: [[R; K]; 3],
     /// [N] Q_η: right-hand side.
     pub right: [R; K],
 }
@@ -37,120 +40,163 @@ struct Block<R> {
 }
 
 impl<R: Real> Block<R> {
-    /// The adjugate of the block times a column.
+    /// The inverse of the block times a column.
     #[inline(always)]
-    fn adjugate(&self, [one, two]: [R; 2]) -> [R; 2] {
-        let Self { a, b, d, .. } = *self;
-        [d.multiply_add(one, -(b * two)), a.multiply_add(two, -(b * one))]
-    }
-
-    /// The element that remains after the elimination of the block.
-    #[inline(always)]
-    fn reduced(&self, [p, q]: [R; 2], [one, two]: [R; 2], element: R) -> R {
-        p.multiply_add(one, q * two).multiply_add(-self.per, element)
+    fn inverse(&self, [one, two]: [R; 2]) -> [R; 2] {
+        let Self { a, b, d, per } = *self;
+        [d.multiply_add(one, -(b * two)) * per, a.multiply_add(two, -(b * one)) * per]
     }
 }
 
-impl<R: Real, const K: usize> ModalEquations<R, K> {
-    /// Equations of zeros for `size` coordinates.
-    #[inline(always)]
-    pub fn new(size: usize) -> Self {
-        Self { size, matrix: [[R::ZERO; K]; K], with: [[R::ZERO; 3]; K], right: [R::ZERO; K] }
-    }
+/// p·x + q·y + `sum`.
+#[inline(always)]
+fn add_product<R: Real>([p, q]: [R; 2], [x, y]: [R; 2], sum: R) -> R {
+    p.multiply_add(x, q.multiply_add(y, sum))
+}
 
-    /// Eliminates the modal coordinates from the equations of the `angles`.
+impl<R: Real, const K: usize> ModalEquations<R, K> {
+    /// Eliminates the modal coordinates from the equations of the angles and returns the inverse determinants of the
+    /// blocks.
     #[inline(always)]
-    pub(super) fn condense<C: CompiledCounts>(&mut self, angles: &mut Equations<R>) {
-        let size = self.size;
+    pub(super) fn condense<C: CompiledCounts>(&mut self, equations: &mut Equations<R>) -> [R; K] {
+        let (size, mut per) = (self.size, [R::ZERO; K]);
         unroll!(C::KNOWN, half < size / 2, C::MODES.div_ceil(2) => {
-            let k = 2 * half;
-            let block = self.block(k);
-            unroll!(C::KNOWN, i in k + 2..size, C::MODES => {
-                self.eliminate::<C>(&block, k, i);
-            });
-            angles.reduce(&block, self.with[k], self.with[k + 1], [self.right[k], self.right[k + 1]]);
+            let block = self.block(2 * half);
+            per[half] = block.per;
+            self.eliminate::<C>(&block, 2 * half);
+            let pair = |list: &[R; K]| [list[2 * half], list[2 * half + 1]];
+            equations.reduce(self.angles, &block, [0, 1, 2].map(|angle| pair(&self.with[angle])), pair(&self.right));
         });
         if !size.is_multiple_of(2) {
-            // A last coordinate without partner is paired with one that is decoupled.
             let last = size - 1;
-            let (b, d) = (R::ZERO, R::ONE);
-            let a = self.matrix[last][last];
-            let block = Block { a, b, d, per: a.recip() };
-            angles.reduce(&block, self.with[last], [R::ZERO; 3], [self.right[last], R::ZERO]);
+            let block = self.single(last);
+            per[last / 2] = block.per;
+            let pair = |list: &[R; K]| [list[last], R::ZERO];
+            equations.reduce(self.angles, &block, [0, 1, 2].map(|angle| pair(&self.with[angle])), pair(&self.right));
         }
+        per
     }
 
-    /// Eliminates the block of coordinates `k` and `k` + 1 from the equation of `i`.
+    /// Eliminates the block of coordinates `k` and `k` + 1 from the equations of all later coordinates.
     #[inline(always)]
-    fn eliminate<C: CompiledCounts>(&mut self, block: &Block<R>, k: usize, i: usize) {
-        let own = block.adjugate([self.matrix[k][i], self.matrix[k + 1][i]]);
-        unroll!(C::KNOWN, j in i..self.size, C::MODES => {
-            let other = [self.matrix[k][j], self.matrix[k + 1][j]];
-            self.matrix[i][j] = block.reduced(own, other, self.matrix[i][j]);
+    fn eliminate<C: CompiledCounts>(&mut self, block: &Block<R>, k: usize) {
+        let Self { size, angles, matrix, with, right } = self;
+        // Numbers that stand alone are computed in whole registers, with zeros where nothing is to be eliminated.
+        let whole = const { R::PLAIN && !C::KNOWN };
+        let later = if whole { 0..K } else { k + 2..*size };
+        // M_ik and M_i,k+1, and their products with the block's inverse.
+        let (mut one, mut two, mut p, mut q) = ([R::ZERO; K], [R::ZERO; K], [R::ZERO; K], [R::ZERO; K]);
+        unroll!(C::KNOWN, i in k + 2..*size, C::MODES => {
+            (one[i], two[i]) = (matrix[i][k], matrix[i][k + 1]);
         });
-        let (one, two) = (self.with[k], self.with[k + 1]);
-        for angle in 0..3 {
-            self.with[i][angle] = block.reduced(own, [one[angle], two[angle]], self.with[i][angle]);
-        }
-        self.right[i] = block.reduced(own, [self.right[k], self.right[k + 1]], self.right[i]);
+        unroll!(C::KNOWN, i in later.clone(), C::MODES => {
+            let [first, second] = block.inverse([one[i], two[i]]);
+            (p[i], q[i]) = (-first, -second);
+        });
+        unroll!(C::KNOWN, i in k + 2..*size, C::MODES => {
+            unroll!(C::KNOWN, j in if whole { 0..K } else { k + 2..i + 1 }, C::MODES => {
+                matrix[i][j] = add_product([p[i], q[i]], [one[j], two[j]], matrix[i][j]);
+            });
+        });
+        unroll!(C::KNOWN, angle < 3 => {
+            if angles[angle] {
+                let own = [with[angle][k], with[angle][k + 1]];
+                unroll!(C::KNOWN, i in later.clone(), C::MODES => {
+                    with[angle][i] = add_product([p[i], q[i]], own, with[angle][i]);
+                });
+            }
+        });
+        let own = [right[k], right[k + 1]];
+        unroll!(C::KNOWN, i in later, C::MODES => {
+            right[i] = add_product([p[i], q[i]], own, right[i]);
+        });
     }
 
     /// The block of coordinates `k` and `k` + 1.
     #[inline(always)]
     fn block(&self, k: usize) -> Block<R> {
-        let (a, b, d) = (self.matrix[k][k], self.matrix[k][k + 1], self.matrix[k + 1][k + 1]);
+        let (a, b, d) = (self.matrix[k][k], self.matrix[k + 1][k], self.matrix[k + 1][k + 1]);
         Block { a, b, d, per: a.multiply_add(d, -(b * b)).recip() }
     }
 
-    /// The accelerations [m/s²] of the modal coordinates, given those of the angles [rad/s²].
+    /// The coordinate `k` without partner, paired with one that is decoupled.
     #[inline(always)]
-    pub(super) fn accelerations<C: CompiledCounts>(self, angles: [R; 3]) -> [R; K] {
+    fn single(&self, k: usize) -> Block<R> {
+        let a = self.matrix[k][k];
+        Block { a, b: R::ZERO, d: R::ONE, per: a.recip() }
+    }
+
+    /// The accelerations [m/s²] of the modal coordinates, given those of the angles [rad/s²] and the inverse
+    /// determinants that [`condense`](Self::condense) returned.
+    #[inline(always)]
+    pub(super) fn accelerations<C: CompiledCounts>(&self, per: &[R; K], angles: [R; 3]) -> [R; K] {
         let (size, mut found) = (self.size, self.right);
-        unroll!(C::KNOWN, k < size, C::MODES => {
-            let [with_crank, with_rod, with_slider] = self.with[k];
-            let known = with_crank.multiply_add(angles[0], with_rod.multiply_add(angles[1], with_slider * angles[2]));
-            found[k] -= known;
+        let modes = if const { R::PLAIN && !C::KNOWN } { K } else { size };
+        unroll!(C::KNOWN, angle < 3 => {
+            if self.angles[angle] {
+                unroll!(C::KNOWN, i < modes, C::MODES => {
+                    found[i] = (-self.with[angle][i]).multiply_add(angles[angle], found[i]);
+                });
+            }
         });
         if !size.is_multiple_of(2) {
             let last = size - 1;
-            found[last] = found[last] * self.matrix[last][last].recip();
+            found[last] = found[last] * per[last / 2];
+            self.substitute::<C>(last, [found[last], R::ZERO], &mut found);
         }
         unroll!(C::KNOWN, done < size / 2, C::MODES.div_ceil(2) => {
-            self.substitute::<C>(2 * (size / 2 - 1 - done), &mut found);
+            let half = size / 2 - 1 - done;
+            let k = 2 * half;
+            let (a, b, d) = (self.matrix[k][k], self.matrix[k + 1][k], self.matrix[k + 1][k + 1]);
+            let [one, two] = Block { a, b, d, per: per[half] }.inverse([found[k], found[k + 1]]);
+            (found[k], found[k + 1]) = (one, two);
+            self.substitute::<C>(k, [one, two], &mut found);
         });
         found
     }
 
-    /// Replaces the right-hand sides of `k` and `k` + 1 by the solution, given the solution of all later coordinates.
+    /// Moves the known coordinates `k` and `k` + 1 to the right-hand sides of all earlier ones.
     #[inline(always)]
-    fn substitute<C: CompiledCounts>(&self, k: usize, found: &mut [R; K]) {
-        unroll!(C::KNOWN, later in k + 2..self.size, C::MODES => {
-            found[k] = (-self.matrix[k][later]).multiply_add(found[later], found[k]);
-            found[k + 1] = (-self.matrix[k + 1][later]).multiply_add(found[later], found[k + 1]);
+    fn substitute<C: CompiledCounts>(&self, k: usize, [one, two]: [R; 2], found: &mut [R; K]) {
+        let (first, second) = (&self.matrix[k], &self.matrix[(k + 1).min(K - 1)]);
+        unroll!(C::KNOWN, i < k, C::MODES => {
+            found[i] = add_product([-first[i], -second[i]], [one, two], found[i]);
         });
-        let block = self.block(k);
-        let [one, two] = block.adjugate([found[k], found[k + 1]]);
-        (found[k], found[k + 1]) = (one * block.per, two * block.per);
     }
 }
 
 impl<R: Real> Equations<R> {
-    /// Subtracts the contribution of an eliminated block of modal coordinates. `one` and `two` are its columns of C,
-    /// `right` its right-hand sides.
+    /// Subtracts the contribution of an eliminated block of modal coordinates. `with` are the block's couplings with the
+    /// three angles, of which `angles` exist, and `right` its right-hand sides.
     #[inline(always)]
-    fn reduce(&mut self, block: &Block<R>, one: [R; 3], two: [R; 3], right: [R; 2]) {
-        let column = |angle: usize| [one[angle], two[angle]];
-        let [first, second, third] = [block.adjugate(column(0)), block.adjugate(column(1)), block.adjugate(column(2))];
-        let m = &mut self.m;
-        m.d1 = block.reduced(first, column(0), m.d1);
-        m.m12 = block.reduced(first, column(1), m.m12);
-        m.m13 = block.reduced(first, column(2), m.m13);
-        m.d2 = block.reduced(second, column(1), m.d2);
-        m.m23 = block.reduced(second, column(2), m.m23);
-        m.d3 = block.reduced(third, column(2), m.d3);
-        self.q1 = block.reduced(first, right, self.q1);
-        self.q2 = block.reduced(second, right, self.q2);
-        self.q3 = block.reduced(third, right, self.q3);
+    fn reduce(&mut self, angles: [bool; 3], block: &Block<R>, with: [[R; 2]; 3], right: [R; 2]) {
+        let Self { m, q1, q2, q3, .. } = self;
+        let [crank, rod, slider] = with;
+        let negative = |pair: [R; 2]| block.inverse(pair).map(|number| -number);
+        if angles[CRANK] {
+            let own = negative(crank);
+            m.d1 = add_product(own, crank, m.d1);
+            *q1 = add_product(own, right, *q1);
+            if angles[ROD] {
+                m.m12 = add_product(own, rod, m.m12);
+            }
+            if angles[SLIDER] {
+                m.m13 = add_product(own, slider, m.m13);
+            }
+        }
+        if angles[ROD] {
+            let own = negative(rod);
+            m.d2 = add_product(own, rod, m.d2);
+            *q2 = add_product(own, right, *q2);
+            if angles[SLIDER] {
+                m.m23 = add_product(own, slider, m.m23);
+            }
+        }
+        if angles[SLIDER] {
+            let own = negative(slider);
+            m.d3 = add_product(own, slider, m.d3);
+            *q3 = add_product(own, right, *q3);
+        }
     }
 }
 
@@ -180,19 +226,22 @@ mod tests {
     /// equations.
     fn found<C: CompiledCounts>(size: usize) -> ([f64; ROOM], [f64; 3]) {
         let right = |i: usize| (0..size + 3).map(|j| element(i, j) * solution(j)).sum::<f64>();
-        let mut modal = ModalEquations::<f64, ROOM>::new(size);
+        let (matrix, with) = ([[0.0; ROOM]; ROOM], [[0.0; ROOM]; 3]);
+        let mut modal = ModalEquations { size, angles: [true; 3], matrix, with, right: [0.0; ROOM] };
         for i in 0..size {
-            for j in i..size {
+            for j in 0..=i {
                 modal.matrix[i][j] = element(i, j);
             }
-            modal.with[i] = [0, 1, 2].map(|k| element(i, size + k));
+            for k in 0..3 {
+                modal.with[k][i] = element(i, size + k);
+            }
             modal.right[i] = right(i);
         }
         let of = |i: usize, j: usize| element(size + i, size + j);
         let m = MassMatrix { d1: of(0, 0), d2: of(1, 1), d3: of(2, 2), m12: of(0, 1), m23: of(1, 2), m13: of(0, 2) };
         let [q1, q2, q3] = [0, 1, 2].map(|k| right(size + k));
         let mut angles = Equations { m, q1, q2, q3, h1: Vec2::ZERO, h2: Vec2::ZERO };
-        modal.condense::<C>(&mut angles);
+        let per = modal.condense::<C>(&mut angles);
         let wanted = [0, 1, 2].map(|k| solution(size + k));
         let [a1, a2, a3] = wanted;
         let Equations { m, q1, q2, q3, .. } = angles;
@@ -201,7 +250,7 @@ mod tests {
             q2 - m.m12 * a1 - m.d2 * a2 - m.m23 * a3,
             q3 - m.m13 * a1 - m.m23 * a2 - m.d3 * a3,
         ];
-        (modal.accelerations::<C>(wanted), left)
+        (modal.accelerations::<C>(&per, wanted), left)
     }
 
     #[test]

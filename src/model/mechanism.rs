@@ -376,9 +376,10 @@ impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
         let mut opening = Vec2::<R>::ZERO;
         let (mut with_turning, mut modal_energy) = (R::ZERO, R::ZERO);
         for (a, (&forced, &rate_a)) in forced.iter().zip(rate).enumerate() {
-            force += forced * rotation.apply(inertia.first_slope[a]);
+            let first_slope = Vec2::new(inertia.first_slope.x[a], inertia.first_slope.y[a]);
+            force += forced * rotation.apply(first_slope);
             moment += forced * inertia.with_angle[a];
-            opening += rate_a * inertia.first_slope[a];
+            opening += rate_a * first_slope;
             with_turning += rate_a * inertia.with_angle[a];
             let with = inertia.modal[a].iter().zip(rate).take(a);
             let row = with.fold(R::ZERO, |sum, (m, rate)| sum + *m * *rate);

@@ -40,7 +40,7 @@ use super::ideal::IdealMotion;
 use super::kinematics::{Arms, BodyRotations};
 use super::loads::Loads;
 use super::plane::{Rotation, Vec2, cross, perp};
-use super::rod::{Arrays, CompiledCounts, FEW_MODES, Inertia, Shape};
+use super::rod::{Arrays, CompiledCounts, Inertia, Shape};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
 use crate::math::{Real, unroll};
 
@@ -115,7 +115,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
         loads: &Loads<R>,
         modal: &mut [R],
     ) -> Accelerations<R> {
-        let Self { modes, chain, shape, inertia, eta, rate } = self;
+        let Self { modes, chain, shape, inertia, .. } = self;
         let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
         let RodInChain { far, big_end, first: kappa, second, .. } = *chain;
         let length = shape.chord.length;
@@ -211,8 +211,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             root,
             closed: of.closed,
             inwards,
-            turns_crank,
-            with_slider,
+            angles: [turns_crank, !of.closed, with_slider],
             rod: *chain,
             weight: if of.weighs[ROD] { gravity } else { 0.0 },
             per_mass,
@@ -234,24 +233,14 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             rod_couple,
             following,
         };
-        let mut all = ModalEquations::<R, K>::new(n);
-        let (mut momentum, mut with_rod) = ([Vec2::<R>::ZERO; K], [R::ZERO; K]);
-        unroll!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
-            let (slope, own) = (shape.chord_slope[a], inertia.first_slope[a]);
-            momentum[a] = chain.momentum(slope, own);
-            with_rod[a] = chain.with_rod(slope, own, inertia.with_angle[a]);
-            all.with[a] = chain.with_angles(slope, momentum[a], with_rod[a]);
-            let elastic = modes.force(a, eta[a], rate[a], &loads.end_couple) - inertia.modal_force[a];
-            all.right[a] = chain.force(slope, own, momentum[a], with_rod[a], elastic);
-            self.write_pairs(&chain, a, &momentum, &with_rod, &mut all);
-        });
-        all.condense::<C>(&mut equations);
+        let (mut all, momentum) = self.modal_equations::<C>(&chain, &loads.end_couple);
+        let per = all.condense::<C>(&mut equations);
         let Equations { m, q1, q2, q3, .. } = equations;
         let mut angle =
             if of.slider_angle.is_some() { m.solve(of, [q1, q2, q3]) } else { m.solve_crank_and_rod(of, [q1, q2]) };
-        let found = all.accelerations::<C>(angle);
+        let found = all.accelerations::<C>(&per, angle);
         let mut lengthening = R::ZERO;
-        unroll!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
+        unroll!(C::KNOWN, a < n, K => {
             modal[a] = found[a];
             lengthening = found[a].multiply_add(shape.chord_slope[a], lengthening);
         });
@@ -271,8 +260,8 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             if with_slider {
                 own = per3.multiply_add(-angle[SLIDER], own);
             }
-            unroll!(const { R::PLAIN && K <= FEW_MODES }, a < n, K => {
-                own = momentum[a].multiply_add(-(found[a] * per_mass), own);
+            unroll!(C::KNOWN, a < n, K => {
+                own = Vec2::new(momentum.x[a], momentum.y[a]).multiply_add(-(found[a] * per_mass), own);
             });
             let falling = own - Vec2::new(0.0, gravity);
             match (root, of.rod) {
@@ -284,22 +273,70 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
         Accelerations { roots, angle }
     }
 
-    /// Writes M_ab of mode `a` and all modes up to it.
+    /// The equations of the modal coordinates with their couplings, and the momentum of each mode. `end_couple` are the
+    /// couples [N·m] on the rod's end sections.
     #[inline(always)]
-    fn write_pairs(
+    fn modal_equations<C: CompiledCounts>(
         &self,
         chain: &Chain<R>,
-        a: usize,
-        momentum: &[Vec2<R>; K],
-        with_rod: &[R; K],
-        all: &mut ModalEquations<R, K>,
-    ) {
-        let (slope, own) = (&self.shape.chord_slope, &self.inertia.first_slope);
-        unroll!(const { R::PLAIN && K <= FEW_MODES }, b < a + 1, K => {
-            let pair = self.inertia.modal[a][b];
-            let pair = chain.inertia([slope[a], slope[b]], [own[a], own[b]], [momentum[a], momentum[b]], pair);
-            all.matrix[b][a] = chain.closed_inertia([slope[a], slope[b]], [with_rod[a], with_rod[b]], pair);
+        end_couple: &[R; 2],
+    ) -> (ModalEquations<R, K>, Vec2<[R; K]>) {
+        let Self { modes, shape, inertia, eta, rate, .. } = self;
+        let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
+        // Numbers that stand alone are computed in whole registers: the lists are zero beyond the modes.
+        let whole = const { R::PLAIN && !C::KNOWN };
+        let count = if whole { K } else { n };
+        let (slope, first) = (&shape.chord_slope, &inertia.first_slope);
+        let own = |a: usize| Vec2::new(first.x[a], first.y[a]);
+        let mut momentum = Vec2::new([R::ZERO; K], [R::ZERO; K]);
+        let (mut with_rod, mut right) = ([R::ZERO; K], [R::ZERO; K]);
+        unroll!(C::KNOWN, a < n, K => {
+            right[a] = modes.force(a, eta[a], rate[a], end_couple) - inertia.modal_force[a];
         });
+        unroll!(C::KNOWN, a < count, K => {
+            let along = chain.momentum(slope[a], own(a));
+            (momentum.x[a], momentum.y[a]) = (along.x, along.y);
+            with_rod[a] = chain.with_rod(slope[a], own(a), inertia.with_angle[a]);
+            right[a] = chain.force(slope[a], own(a), along, right[a]);
+        });
+        let mut with = [[R::ZERO; K]; 3];
+        let [turns_crank, turns_rod, turns_slider] = chain.angles;
+        if chain.closed {
+            unroll!(C::KNOWN, a < count, K => {
+                right[a] = chain.closed_force(slope[a], with_rod[a], right[a]);
+            });
+        }
+        if turns_crank {
+            unroll!(C::KNOWN, a < count, K => {
+                let along = Vec2::new(momentum.x[a], momentum.y[a]);
+                with[CRANK][a] = chain.with_crank(slope[a], along, with_rod[a]);
+            });
+            chain.move_root::<C, K>(chain.p1, &momentum, &mut with[CRANK], count);
+        }
+        if turns_rod {
+            with[ROD] = with_rod;
+            chain.move_root::<C, K>(chain.p2, &momentum, &mut with[ROD], count);
+        }
+        if turns_slider {
+            unroll!(C::KNOWN, a < count, K => {
+                with[SLIDER][a] = slope[a] * chain.slider_by_length;
+            });
+            chain.move_root::<C, K>(chain.p3, &momentum, &mut with[SLIDER], count);
+        }
+        let mut matrix = inertia.modal;
+        unroll!(C::KNOWN, a < n, K => {
+            let (row, end) = (&mut matrix[a], if whole { K } else { a + 1 });
+            unroll!(C::KNOWN, b < end, K => {
+                row[b] = chain.inertia([slope[a], slope[b]], [first.x[a], first.x[b]], row[b]);
+            });
+            if chain.closed {
+                unroll!(C::KNOWN, b < end, K => {
+                    row[b] = chain.closed_inertia([slope[a], slope[b]], [with_rod[a], with_rod[b]], row[b]);
+                });
+            }
+            chain.move_root::<C, K>(Vec2::new(momentum.x[a], momentum.y[a]), &momentum, row, end);
+        });
+        (ModalEquations { size: n, angles: chain.angles, matrix, with, right }, momentum)
     }
 }
 
@@ -309,8 +346,8 @@ struct Chain<R> {
     root: Root,
     closed: bool,
     inwards: bool,
-    turns_crank: bool,
-    with_slider: bool,
+    /// Which of the angles of crank, rod and slider are coordinates that the modes are coupled with.
+    angles: [bool; 3],
     rod: RodInChain,
     /// [m/s²] Gravity; 0 if the chain floats.
     weight: f64,
@@ -359,63 +396,70 @@ impl<R: Real> Chain<R> {
         (self.length * own.y - self.first.y * slope).multiply_add(self.rod.big_end, with_angle)
     }
 
-    /// [kg·m] Coupling with those angles of crank, rod and slider that are coordinates.
+    /// [kg·m] Coupling with the crank's angle while the root rests.
     #[inline(always)]
-    fn with_angles(&self, slope: R, momentum: Vec2<R>, with_rod: R) -> [R; 3] {
-        let Self { root, closing, .. } = self;
-        let shared = momentum * self.per_mass;
-        let mut all = [R::ZERO; 3];
-        if self.closed {
-            if self.turns_crank {
-                let follows = closing.rod_per_length * slope;
-                let open = closing.rod_ratio.multiply_add(with_rod, self.across.dot(momentum));
-                all[CRANK] = self.following.multiply_add(follows, open);
-            }
-            return all;
-        }
-        all[ROD] = with_rod - root.product(self.p2, shared);
-        if self.turns_crank {
-            let crank = if self.inwards { slope * self.crank_by_length } else { self.across.dot(momentum) };
-            all[CRANK] = crank - root.product(self.p1, shared);
-        }
-        if self.with_slider {
-            all[SLIDER] = slope * self.slider_by_length - root.product(self.p3, shared);
-        }
-        all
-    }
-
-    /// [N] Q_a; `elastic` is the force of the mode itself.
-    #[inline(always)]
-    fn force(&self, slope: R, own: Vec2<R>, momentum: Vec2<R>, with_rod: R, elastic: R) -> R {
-        let mut force = slope.multiply_add(self.by_length, elastic);
-        force -= own.x.multiply_add(self.along, own.y * self.sliding) * self.rod.big_end;
-        force -= momentum.dot(self.resting) + momentum.y * self.weight;
+    fn with_crank(&self, slope: R, momentum: Vec2<R>, with_rod: R) -> R {
         if self.closed {
             let follows = self.closing.rod_per_length * slope;
-            let inertia = self.rod_inertia.multiply_add(follows, with_rod);
-            force = (-inertia).multiply_add(self.closing.rod_bias, follows.multiply_add(self.rod_couple, force));
+            let open = self.closing.rod_ratio.multiply_add(with_rod, self.across.dot(momentum));
+            self.following.multiply_add(follows, open)
+        } else if self.inwards {
+            slope * self.crank_by_length
+        } else {
+            self.across.dot(momentum)
         }
-        force
     }
 
-    /// [kg] M_ab of two modes; `own_inertia` is m_ab of the rod.
+    /// Subtracts p·p_a/m, the part of a root that moves, from the first `count` entries of a list: `p` is the momentum
+    /// of a coordinate, `momentum` that of each mode.
     #[inline(always)]
-    fn inertia(&self, slope: [R; 2], own: [Vec2<R>; 2], momentum: [Vec2<R>; 2], own_inertia: R) -> R {
-        let [a, b] = slope;
-        let crossed = own[0].x.multiply_add(b, own[1].x * a);
-        let both = crossed.multiply_add(self.rod.big_end, (a * b).multiply_add(self.rod.second, own_inertia));
+    fn move_root<C: CompiledCounts, const K: usize>(
+        &self,
+        p: Vec2<R>,
+        momentum: &Vec2<[R; K]>,
+        list: &mut [R; K],
+        count: usize,
+    ) {
+        let p = p * -self.per_mass;
         match self.root {
-            Root::Ground => both,
-            root => (-root.product(momentum[0], momentum[1])).multiply_add(self.per_mass, both),
+            Root::Ground => {}
+            Root::Rail => unroll!(C::KNOWN, a < count, K => {
+                list[a] = p.x.multiply_add(momentum.x[a], list[a]);
+            }),
+            Root::Free => unroll!(C::KNOWN, a < count, K => {
+                list[a] = p.x.multiply_add(momentum.x[a], p.y.multiply_add(momentum.y[a], list[a]));
+            }),
         }
     }
 
-    /// [kg] M_ab of two modes with the rod's angle eliminated if the loop is closed; `open` is that of the open chain.
+    /// [N] Q_a in an open chain; `own_force` is the force that the rod itself exerts on the mode.
+    #[inline(always)]
+    fn force(&self, slope: R, own: Vec2<R>, momentum: Vec2<R>, own_force: R) -> R {
+        let force = slope.multiply_add(self.by_length, own_force);
+        let force = own.x.multiply_add(self.along, own.y * self.sliding).multiply_add(-self.rod.big_end, force);
+        force - (momentum.dot(self.resting) + momentum.y * self.weight)
+    }
+
+    /// [N] Q_a with the rod's angle eliminated in a closed loop; `open` is that of the open chain.
+    #[inline(always)]
+    fn closed_force(&self, slope: R, with_rod: R, open: R) -> R {
+        let follows = self.closing.rod_per_length * slope;
+        let inertia = self.rod_inertia.multiply_add(follows, with_rod);
+        (-inertia).multiply_add(self.closing.rod_bias, follows.multiply_add(self.rod_couple, open))
+    }
+
+    /// [kg] M_ab of two modes while the root rests; `own_x` are the x components of their ∂D/∂η, and `own_inertia` is
+    /// m_ab of the rod.
+    #[inline(always)]
+    fn inertia(&self, slope: [R; 2], own_x: [R; 2], own_inertia: R) -> R {
+        let [a, b] = slope;
+        let crossed = own_x[0].multiply_add(b, own_x[1] * a);
+        crossed.multiply_add(self.rod.big_end, (a * b).multiply_add(self.rod.second, own_inertia))
+    }
+
+    /// [kg] M_ab of two modes with the rod's angle eliminated in a closed loop; `open` is that of the open chain.
     #[inline(always)]
     fn closed_inertia(&self, slope: [R; 2], with_rod: [R; 2], open: R) -> R {
-        if !self.closed {
-            return open;
-        }
         let [a, b] = slope.map(|slope| self.closing.rod_per_length * slope);
         let crossed = a.multiply_add(with_rod[1], b * with_rod[0]);
         open + (a * b).multiply_add(self.rod_inertia, crossed)

@@ -20,7 +20,7 @@ pub struct Inertia<R, const K: usize> {
     /// [kg·m²] Moment of inertia J = ∫|ρ|² dm about the frame's origin.
     pub about_origin: R,
     /// [kg] ∂D/∂η.
-    pub first_slope: [Vec2<R>; K],
+    pub first_slope: Vec2<[R; K]>,
     /// [kg·m] T_a: coupling of the frame's angle with η.
     pub with_angle: [R; K],
     /// [kg] m_ab: coupling of η with η; the lower triangle.
@@ -51,11 +51,6 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         let Shape { xi, xi_rate, xi_bias, .. } = shape;
         let (functions, pairs, none) = (counts.functions(), 1 + axial..counts.functions(), [R::ZERO; F]);
         let (square, twice) = (speed * speed, speed * 2.0);
-        // Of each function, its part of the acceleration along x at q̈ = 0, relative to the frame's origin.
-        let mut asking = none;
-        unroll!(C::KNOWN, k < functions, C::FUNCTIONS => {
-            asking[k] = (-square).multiply_add(xi[k], xi_bias[k]);
-        });
         let mut twist = none;
         unroll!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.twists(i);
@@ -78,19 +73,18 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         );
         add_rows::<R, ModesToModes<C>, _, _>([&mut first_slope], shifting, 0..shortening, [q], columns);
         let (mut spread, mut asked, mut product) = (none, none, none);
-        add_rows::<R, FunctionsToFunctions<C>, _, _>(
-            [&mut spread, &mut asked],
-            second,
-            0..functions,
-            [xi, &asking],
-            functions,
-        );
+        add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut spread], second, 0..functions, [xi], functions);
+        add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut asked], second, pairs.clone(), [xi_bias], functions);
         add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut product], products, pairs, [xi], counts.pairs());
+        // The acceleration along x at q̈ = 0 has a centrifugal part.
+        unroll!(C::KNOWN, k in 1..functions, C::FUNCTIONS => {
+            asked[k] = (-square).multiply_add(spread[k], asked[k]);
+        });
 
         let mut inertia = Inertia {
             first: Vec2::new(place[n], R::ZERO),
             about_origin: R::ZERO,
-            first_slope: [Vec2::ZERO; K],
+            first_slope: Vec2::new([R::ZERO; K], [R::ZERO; K]),
             with_angle: [R::ZERO; K],
             modal: [[R::ZERO; K]; K],
             force: Vec2::ZERO,
@@ -103,7 +97,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             inertia.about_origin = xi[k].multiply_add(spread[k], inertia.about_origin);
             spreading = xi_rate[k].multiply_add(spread[k], spreading);
         });
-        for i in 0..n {
+        unroll!(C::KNOWN, i < n, C::MODES => {
             let (m, moment) = (self.modal_mass[i], self.moment[i]);
             let weighted = q[i] * m;
             inertia.first.y = q[i].multiply_add(moment, inertia.first.y);
@@ -111,20 +105,21 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             inertia.about_origin = weighted.multiply_add(q[i], inertia.about_origin);
             spreading = weighted.multiply_add(dq[i], spreading);
             inertia.couple = (-q[i]).multiply_add(bias[i], inertia.couple);
-            inertia.first_slope[i] = Vec2::new(first_slope[i], R::constant(moment));
+            inertia.first_slope.x[i] = first_slope[i];
+            inertia.first_slope.y[i] = R::constant(moment);
             inertia.with_angle[i] = place[i];
             inertia.modal_force[i] = twice.multiply_add(moved[i], -(square * weighted));
             inertia.modal[i][i] = R::constant(m);
-        }
-        for j in 0..axial {
+        });
+        unroll!(C::KNOWN, j < axial, C::MODES => {
             let (a, function) = (n + j, 1 + j);
-            inertia.first_slope[a] = Vec2::constant(Vec2::new(with_modes[function][n], 0.0));
+            inertia.first_slope.x[a] = R::constant(with_modes[function][n]);
             inertia.modal_force[a] = asked[function];
-            for i in 0..n {
+            unroll!(C::KNOWN, i < n, C::MODES => {
                 let number = with_modes[function][i];
                 inertia.with_angle[a] = (-q[i]).multiply_add(number, inertia.with_angle[a]);
                 inertia.modal_force[a] = (-(twice * number)).multiply_add(dq[i], inertia.modal_force[a]);
-            }
+            });
             add_rows::<R, ModesToModes<C>, _, _>(
                 [&mut inertia.modal[a]],
                 self.tables.stretching(j),
@@ -132,10 +127,10 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 [q],
                 n,
             );
-            for i in 0..=j {
+            unroll!(C::KNOWN, i < j + 1, C::MODES => {
                 inertia.modal[a][n + i] = R::constant(second[function][1 + i]);
-            }
-        }
+            });
+        });
         unroll!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
             unroll!(C::KNOWN, further < shortening - i, C::MODES => {

@@ -61,13 +61,13 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             chord.bias = rate[i].multiply_add(with_rate[i], chord.bias);
         });
         xi[0] = R::ONE;
-        for j in 0..axial {
+        unroll!(C::KNOWN, j < axial, C::MODES => {
             let (place, end) = (1 + j, self.end[1 + j]);
             (xi[place], xi_rate[place]) = (eta[bending + j], rate[bending + j]);
             chord_slope[bending + j] = R::constant(end);
             chord.stretch = xi[place].multiply_add(end, chord.stretch);
             chord.rate = xi_rate[place].multiply_add(end, chord.rate);
-        }
+        });
         chord.length = chord.stretch + self.length;
         unroll!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
@@ -79,11 +79,11 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 xi_bias[place] = rate[i] * (-2.0 * twice) * rate[j];
             });
         });
-        for i in 0..bending {
+        unroll!(C::KNOWN, i < bending, C::MODES => {
             for (end, slope) in slope_rate.iter_mut().zip(&self.slope) {
                 *end = rate[i].multiply_add(slope[i], *end);
             }
-        }
+        });
         shape
     }
 }

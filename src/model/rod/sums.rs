@@ -55,8 +55,8 @@ pub fn add_rows<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize>(
     let fours = columns.div_ceil(LANES);
     let (table, factors) = (&table[rows.clone()], factors.map(|factors| &factors[rows.clone()]));
     let most = const { most_fours::<R, B>(WIDTH, LISTS) };
-    for first in (0..fours).step_by(most) {
-        let sums = &mut sums;
+    unroll!(B::COLUMNS < usize::MAX, turn < fours.div_ceil(most), WIDTH / LANES => {
+        let (sums, first) = (&mut sums, turn * most);
         match (fours - first).min(most) {
             2 if const { most_fours::<R, B>(WIDTH, LISTS) >= 2 } => {
                 add_fours::<R, B, WIDTH, LISTS, 2>(sums, table, factors, first);
@@ -69,7 +69,7 @@ pub fn add_rows<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize>(
             }
             _ => add_fours::<R, B, WIDTH, LISTS, 1>(sums, table, factors, first),
         }
-    }
+    });
 }
 
 /// Number of groups of four sums of each list that are computed at a time.
@@ -81,7 +81,8 @@ const fn most_fours<R: Real, B: Bounds>(width: usize, lists: usize) -> usize {
     if R::PLAIN { smaller(smaller(FOURS / lists, there), 4) } else { 1 }
 }
 
-/// Adds the rows in `COUNT` groups of four columns from group `first` on; the groups do not wait for each other.
+/// Adds the rows in `COUNT` groups of four columns from group `first` on; the groups do not wait for each other. Rows
+/// with even and with odd numbers are summed separately, so that a sum waits only for every other product.
 #[inline(always)]
 fn add_fours<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize, const COUNT: usize>(
     sums: &mut [&mut [R; WIDTH]; LISTS],
@@ -89,11 +90,12 @@ fn add_fours<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize, const C
     factors: [&[R]; LISTS],
     first: usize,
 ) {
-    let mut fours: [[R::Lanes; COUNT]; LISTS] = array::from_fn(|list| {
+    let mut even: [[R::Lanes; COUNT]; LISTS] = array::from_fn(|list| {
         let (numbers, _) = sums[list].as_chunks();
         array::from_fn(|four| R::Lanes::of(numbers[first + four]))
     });
-    unroll!(B::ROWS < usize::MAX, row < table.len(), B::ROWS => {
+    let mut odd = [[R::Lanes::of([R::ZERO; LANES]); COUNT]; LISTS];
+    let add = |fours: &mut [[R::Lanes; COUNT]; LISTS], row: usize| {
         let (numbers, _) = table[row].as_chunks();
         for list in 0..LISTS {
             let factor = factors[list][row];
@@ -101,11 +103,29 @@ fn add_fours<R: Real, B: Bounds, const WIDTH: usize, const LISTS: usize, const C
                 fours[list][four].add(factor, &numbers[first + four]);
             }
         }
-    });
-    for (sums, fours) in sums.iter_mut().zip(fours) {
+    };
+    let pairs = table.len() / 2;
+    if R::PLAIN {
+        unroll!(B::ROWS < usize::MAX, pair < pairs, B::ROWS.div_ceil(2) => {
+            add(&mut even, 2 * pair);
+            add(&mut odd, 2 * pair + 1);
+        });
+    } else {
+        // Both sums at once would not stay in registers.
+        unroll!(B::ROWS < usize::MAX, pair < pairs, B::ROWS.div_ceil(2) => {
+            add(&mut even, 2 * pair);
+        });
+        unroll!(B::ROWS < usize::MAX, pair < pairs, B::ROWS.div_ceil(2) => {
+            add(&mut odd, 2 * pair + 1);
+        });
+    }
+    if !table.len().is_multiple_of(2) {
+        add(&mut even, table.len() - 1);
+    }
+    for ((sums, even), odd) in sums.iter_mut().zip(even).zip(odd) {
         let (places, _) = sums.as_chunks_mut();
         for four in 0..COUNT {
-            places[first + four] = fours[four].numbers();
+            places[first + four] = even[four].plus(odd[four]).numbers();
         }
     }
 }
