@@ -4,7 +4,9 @@ use super::error::IntegrationError;
 use super::method::Attempt;
 use super::state::StepPoint;
 use super::system::System;
-use crate::math;
+use crate::math::{self, LANES, larger};
+use std::array;
+use wide::f64x4;
 
 /// Accuracy and cost of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,27 +73,41 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 /// Root mean square of the error of a step from `y` over the tolerance, for the states that have a scale. A step is
 /// accepted if the norm is at most 1. With `coarse` the second, lower-order estimate is included.
 pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], coarse: bool, tolerance: f64) -> f64 {
-    let n = scales.len().max(1) as f64;
-    let weight = |scale: &f64, y: &f64| tolerance * scale + ROUNDINGS * y.abs();
-    let (mut fine, mut unseen_error) = (0.0, false);
-    for (((scale, y), error), unseen) in scales.iter().zip(y).zip(&attempt.error).zip(&attempt.unseen) {
-        let weight = weight(scale, y);
-        unseen_error |= *unseen > UNSEEN_LIMIT * weight;
-        fine += (error / weight).powi(2);
+    let n = scales.len();
+    let states = y.len().min(n);
+    let (mut fine, mut of_coarse, mut largest_unseen) = (f64x4::ZERO, f64x4::ZERO, f64x4::ZERO);
+    for at in (0..states).step_by(LANES) {
+        // Beyond the last state, errors of 0 over weights of 1.
+        let four = |list: &[f64], beyond: f64| match list[at..states].first_chunk() {
+            Some(four) => f64x4::new(*four),
+            None => f64x4::new(array::from_fn(|i| if at + i < states { list[at + i] } else { beyond })),
+        };
+        let weight =
+            f64x4::splat(tolerance) * four(scales, 1.0 / tolerance) + f64x4::splat(ROUNDINGS) * four(y, 0.0).abs();
+        let per_weight = f64x4::ONE / weight;
+        let square = |error: &[f64]| {
+            let share = four(error, 0.0) * per_weight;
+            share * share
+        };
+        fine += square(&attempt.error);
+        if coarse {
+            of_coarse += square(&attempt.coarse_error);
+        }
+        largest_unseen = larger(four(&attempt.unseen, 0.0) * per_weight, largest_unseen);
     }
-    if unseen_error {
+    if largest_unseen.to_array().iter().any(|unseen| *unseen > UNSEEN_LIMIT) {
         return f64::INFINITY;
     }
-    let fine = fine / n;
+    let mean = |squares: f64x4| {
+        let [a, b, c, d] = squares.to_array();
+        ((a + b) + (c + d)) / n.max(1) as f64
+    };
+    let fine = mean(fine);
     if !coarse {
         return fine.sqrt();
     }
     // As in DOP853: the coarse estimate keeps the fine one from vanishing by chance.
-    let mut of_coarse = 0.0;
-    for ((scale, y), error) in scales.iter().zip(y).zip(&attempt.coarse_error) {
-        of_coarse += (error / weight(scale, y)).powi(2);
-    }
-    let sum = fine + 0.01 * (of_coarse / n);
+    let sum = fine + 0.01 * mean(of_coarse);
     if sum == 0.0 { 0.0 } else { fine / sum.sqrt() }
 }
 
