@@ -54,12 +54,15 @@ impl F64x8 {
 impl F64x8 {
     #[inline(always)]
     fn each(self, of: impl Fn(f64x4) -> f64x4) -> Self {
-        Self(self.0.map(of))
+        // Not by `map`, which the compiler does not always inline.
+        let [first, second] = self.0;
+        Self([of(first), of(second)])
     }
 
     #[inline(always)]
     fn with(self, other: Self, of: impl Fn(f64x4, f64x4) -> f64x4) -> Self {
-        Self(std::array::from_fn(|k| of(self.0[k], other.0[k])))
+        let ([first, second], [other_first, other_second]) = (self.0, other.0);
+        Self([of(first, other_first), of(second, other_second)])
     }
 
     /// Applies a function that has no implementation for four numbers at a time.
@@ -258,7 +261,6 @@ impl Real for F64x8 {
     fn sin_cos<const K: usize>(x: [Self; K]) -> [(Self, Self); K] {
         let mut found = [(Self::ZERO, Self::ONE); K];
         unroll!(true, k < K => {
-            // Not by `map`: the compiler leaves its closure a function of its own.
             let [first, second] = x[k].0;
             let ((sin_first, cos_first), (sin_second, cos_second)) =
                 (sin_cos::of_four(first), sin_cos::of_four(second));

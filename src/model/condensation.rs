@@ -64,15 +64,17 @@ impl<R: Real, const K: usize> ModalEquations<R, K> {
             let block = self.block(2 * half);
             per[half] = block.per;
             self.eliminate::<C>(&block, 2 * half);
-            let pair = |list: &[R; K]| [list[2 * half], list[2 * half + 1]];
-            equations.reduce(self.angles, &block, [0, 1, 2].map(|angle| pair(&self.with[angle])), pair(&self.right));
+            let (k, [crank, rod, slider]) = (2 * half, &self.with);
+            let with = [[crank[k], crank[k + 1]], [rod[k], rod[k + 1]], [slider[k], slider[k + 1]]];
+            equations.reduce(self.angles, &block, with, [self.right[k], self.right[k + 1]]);
         });
         if !size.is_multiple_of(2) {
             let last = size - 1;
             let block = self.single(last);
             per[last / 2] = block.per;
-            let pair = |list: &[R; K]| [list[last], R::ZERO];
-            equations.reduce(self.angles, &block, [0, 1, 2].map(|angle| pair(&self.with[angle])), pair(&self.right));
+            let [crank, rod, slider] = &self.with;
+            let with = [[crank[last], R::ZERO], [rod[last], R::ZERO], [slider[last], R::ZERO]];
+            equations.reduce(self.angles, &block, with, [self.right[last], R::ZERO]);
         }
         per
     }
@@ -172,7 +174,10 @@ impl<R: Real> Equations<R> {
     fn reduce(&mut self, angles: [bool; 3], block: &Block<R>, with: [[R; 2]; 3], right: [R; 2]) {
         let Self { m, q1, q2, q3, .. } = self;
         let [crank, rod, slider] = with;
-        let negative = |pair: [R; 2]| block.inverse(pair).map(|number| -number);
+        let negative = |pair: [R; 2]| {
+            let [one, two] = block.inverse(pair);
+            [-one, -two]
+        };
         if angles[CRANK] {
             let own = negative(crank);
             m.d1 = add_product(own, crank, m.d1);

@@ -243,7 +243,8 @@ impl Mechanism {
         let mut moving = arms.moving(rotations.speed);
         moving.reach.velocity += rotations.rotation[ROD].axis(chord.rate);
         let centres = self.centres(of, positions, rates, &moving);
-        let section_speed = shape.slope_rate.map(|rate| rotations.speed[ROD] + rate);
+        let ([big_end, small_end], speed) = (shape.slope_rate, rotations.speed[ROD]);
+        let section_speed = [speed + big_end, speed + small_end];
         let pose = Pose { rotations, place: centres.places(), velocity: centres.velocities(), section_speed };
         Configuration { pose, arms, closing }
     }

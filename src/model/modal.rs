@@ -460,7 +460,7 @@ impl<R: Real> Chain<R> {
     /// [kg] M_ab of two modes with the rod's angle eliminated in a closed loop; `open` is that of the open chain.
     #[inline(always)]
     fn closed_inertia(&self, slope: [R; 2], with_rod: [R; 2], open: R) -> R {
-        let [a, b] = slope.map(|slope| self.closing.rod_per_length * slope);
+        let [a, b] = [self.closing.rod_per_length * slope[0], self.closing.rod_per_length * slope[1]];
         let crossed = a.multiply_add(with_rod[1], b * with_rod[0]);
         open + (a * b).multiply_add(self.rod_inertia, crossed)
     }

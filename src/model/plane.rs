@@ -1,6 +1,6 @@
 //! Vectors and rotations of the plane.
 
-use crate::math::{Fused, Real};
+use crate::math::{Fused, Real, unroll};
 use std::ops::Mul;
 
 pub use crate::math::Vec2;
@@ -40,7 +40,12 @@ impl<R: Real> Rotation<R> {
     /// The rotations by each of `angles` [rad].
     #[inline(always)]
     pub fn all<const K: usize>(angles: [R; K]) -> [Self; K] {
-        R::sin_cos(angles).map(|(sin, cos)| Self { cos, sin })
+        let (found, mut all) = (R::sin_cos(angles), [Self::NONE; K]);
+        unroll!(true, k < K => {
+            let (sin, cos) = found[k];
+            all[k] = Self { cos, sin };
+        });
+        all
     }
 
     /// The vector `v`, given in body axes, in inertial axes.

@@ -1,8 +1,5 @@
 //! Numbers of modes of a rod, and whether they are known at compile time.
 
-/// Up to this number of modes, arrays have a size of their own and loops over modes are written out.
-pub const FEW_MODES: usize = 4;
-
 /// Numbers of modes, in the order of the modal coordinates, and of those with foreshortening.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
