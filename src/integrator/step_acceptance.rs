@@ -166,9 +166,8 @@ fn judged<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, 
     }
     let start = stepper.state.start();
     let t = start.t + h;
-    let weighted = stepper.layout.weighted;
-    let error =
-        control::norm(&stepper.attempt, &start.y, &system.scales()[..weighted], stepper.properties.coarse, tolerance);
+    let Stepper { attempt, layout, properties, .. } = &*stepper;
+    let error = control::norm(attempt, &start.y, system.scales(), *layout, properties.coarse, tolerance);
     if error <= 1.0 {
         stepper.evaluate_end_if_missing(system, t);
         if stepper.properties.adaptive && first_invalid(&stepper.state.attempt().rates).is_some() {

@@ -3,7 +3,7 @@
 use super::error::IntegrationError;
 use super::method::Attempt;
 use super::state::StepPoint;
-use super::system::System;
+use super::system::{StateLayout, System};
 use crate::math::{self, LANES, larger};
 use std::array;
 use wide::f64x4;
@@ -72,35 +72,47 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// Root mean square of the error of a step from `y` over the tolerance, for the states that have a scale. A step is
 /// accepted if the norm is at most 1. With `coarse` the second, lower-order estimate is included.
-pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], coarse: bool, tolerance: f64) -> f64 {
-    let n = scales.len();
-    let states = y.len().min(n);
+///
+/// The rounding of a position disturbs accelerations, hence velocities, by that rounding times the fastest frequency,
+/// which is the ratio of their scales. A tolerance below this is out of reach: the estimate of an error would be
+/// rounding alone and fall with the first power of the step, and the roundings of ever more steps would add up.
+pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], layout: StateLayout, coarse: bool, tolerance: f64) -> f64 {
+    let StateLayout { positions: p, weighted, .. } = layout;
     let (mut fine, mut of_coarse, mut largest_unseen) = (f64x4::ZERO, f64x4::ZERO, f64x4::ZERO);
-    for at in (0..states).step_by(LANES) {
-        // Beyond the last state, errors of 0 over weights of 1.
-        let four = |list: &[f64], beyond: f64| match list[at..states].first_chunk() {
-            Some(four) => f64x4::new(*four),
-            None => f64x4::new(array::from_fn(|i| if at + i < states { list[at + i] } else { beyond })),
-        };
-        let weight =
-            f64x4::splat(tolerance) * four(scales, 1.0 / tolerance) + f64x4::splat(ROUNDINGS) * four(y, 0.0).abs();
-        let per_weight = f64x4::ONE / weight;
-        let square = |error: &[f64]| {
-            let share = four(error, 0.0) * per_weight;
-            share * share
-        };
-        fine += square(&attempt.error);
-        if coarse {
-            of_coarse += square(&attempt.coarse_error);
+    for range in [0..p, p..2 * p, 2 * p..weighted] {
+        let is_velocity = range.start == p;
+        for at in range.clone().step_by(LANES) {
+            // Beyond the last state of a kind, errors of 0 over weights of 1.
+            let four = |list: &[f64], behind: usize, beyond: f64| match list[at - behind..range.end - behind]
+                .first_chunk()
+            {
+                Some(four) => f64x4::new(*four),
+                None => f64x4::new(array::from_fn(|i| if at + i < range.end { list[at + i - behind] } else { beyond })),
+            };
+            let scale = four(scales, 0, 1.0 / tolerance);
+            let rounding = |behind: usize| f64x4::splat(ROUNDINGS) * four(y, behind, 0.0).abs();
+            let mut tolerable = f64x4::splat(tolerance) * scale;
+            if is_velocity {
+                tolerable = larger(tolerable, rounding(p) / four(scales, p, 1.0) * scale);
+            }
+            let per_weight = f64x4::ONE / (tolerable + rounding(0));
+            let square = |error: &[f64]| {
+                let share = four(error, 0, 0.0) * per_weight;
+                share * share
+            };
+            fine += square(&attempt.error);
+            if coarse {
+                of_coarse += square(&attempt.coarse_error);
+            }
+            largest_unseen = larger(four(&attempt.unseen, 0, 0.0) * per_weight, largest_unseen);
         }
-        largest_unseen = larger(four(&attempt.unseen, 0.0) * per_weight, largest_unseen);
     }
     if largest_unseen.to_array().iter().any(|unseen| *unseen > UNSEEN_LIMIT) {
         return f64::INFINITY;
     }
     let mean = |squares: f64x4| {
         let [a, b, c, d] = squares.to_array();
-        ((a + b) + (c + d)) / n.max(1) as f64
+        ((a + b) + (c + d)) / weighted.max(1) as f64
     };
     let fine = mean(fine);
     if !coarse {

@@ -8,6 +8,7 @@ mod claims;
 mod ends;
 mod law;
 mod regressions;
+mod rounding;
 mod run;
 mod special;
 mod statistics;
