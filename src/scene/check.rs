@@ -1,7 +1,7 @@
 //! Consistency checks between the parameters of a scene.
 
 use super::closure::{rise, rod_sine};
-use super::data::{Contact, Point, Scene};
+use super::data::{Contact, Point, Revolute, Scene};
 use super::enumerations::{JointModel, Method, Surface};
 use super::error::{SceneError, rule};
 use super::parameter::{PARAMETERS, Parameter};
@@ -9,6 +9,8 @@ use crate::model_description::number::number;
 
 /// Smallest restitution for a damping law whose factor is unbounded as the restitution tends to 0.
 pub const LEAST_RESTITUTION: f64 = 0.02;
+/// Largest Poisson's ratio of an elastic layer; an incompressible layer would be rigid.
+const MAX_POISSON_OF_LAYER: f64 = 0.49;
 
 impl Scene {
     /// Checks every parameter's range and the consistency of all parameters. Parameters that an ideal joint does not
@@ -42,6 +44,9 @@ impl Scene {
             rule(!elasticity.has("needs width") || width > 0.0, letter, "width", width, || {
                 format!("above 0 m for elasticity {}", elasticity.name())
             })?;
+            if elasticity.has("has a layer") && joint.layer.stiffness == 0.0 {
+                check_layer(letter, joint)?;
+            }
             check_contact(letter, &joint.contact)?;
         }
         let guide = &joints.t;
@@ -85,6 +90,17 @@ impl Scene {
         let allowed = format!("above {} m, for the rod to reach the slider at the start", number(rise(self).abs()));
         Err(SceneError::Conflict { name: "rod.length".into(), value: self.rod.length, allowed })
     }
+}
+
+/// An elastic layer whose stiffness follows from its material: its thickness and Poisson's ratio.
+fn check_layer(letter: &str, joint: &Revolute) -> Result<(), SceneError> {
+    let (law, thickness, poisson) = (joint.elasticity.name(), joint.layer.thickness, joint.contact.poisson.bearing);
+    rule(thickness > 0.0, letter, "layer.thickness", thickness, || {
+        format!("above 0 m for elasticity {law}, unless joint.{letter}.layer.stiffness is given")
+    })?;
+    rule(poisson <= MAX_POISSON_OF_LAYER, letter, "poisson.bearing", poisson, || {
+        format!("0 to {MAX_POISSON_OF_LAYER} for elasticity {law}, unless joint.{letter}.layer.stiffness is given")
+    })
 }
 
 fn check_contact(letter: &str, contact: &Contact) -> Result<(), SceneError> {

@@ -151,8 +151,19 @@ pub struct Revolute {
     pub eccentricity_start: Point,
     /// Elastic law.
     pub elasticity: Elasticity,
+    /// Elastic layer on the bearing, if the elastic law has one.
+    pub layer: Layer,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
+}
+
+/// An elastic layer on a bearing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Layer {
+    /// [m] Thickness.
+    pub thickness: f64,
+    /// [N/m³] Pressure per compression; 0 selects that of the thickness and the bearing's material.
+    pub stiffness: f64,
 }
 
 /// The guide as a joint. An ideal guide uses only `damping`.

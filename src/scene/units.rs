@@ -70,7 +70,7 @@ const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
 ];
 
 /// Compound units that messages suggest; other compound units are accepted, too.
-const COMPOUNDS: &[&str] = &["mm2", "cm2", "mm4", "cm4", "g/cm3", "N/mm2", "1/mm", "s/mm"];
+const COMPOUNDS: &[&str] = &["mm2", "cm2", "mm4", "cm4", "g/cm3", "N/mm2", "N/mm3", "1/mm", "s/mm"];
 
 /// A text is not a quantity of the required dimension.
 #[derive(Clone, Debug, PartialEq)]

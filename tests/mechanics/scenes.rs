@@ -162,6 +162,14 @@ fn contact_variants() -> Vec<Case> {
             (joint.elasticity, joint.contact.ratio_limit) = (Elasticity::BaiZhao, 0.0);
             (joint.contact.law, joint.contact.friction.law) = (DampingLaw::ZhiyingQishao, FrictionLaw::Ambrosio);
         }),
+        case("winkler in A, B, C: of the bearing's material, thin, given", brisk(DriveMode::Torque, ALL), |s| {
+            for joint in [&mut s.joint.a, &mut s.joint.b, &mut s.joint.c] {
+                (joint.elasticity, joint.contact.width) = (Elasticity::Winkler, 0.015);
+                (joint.contact.young.bearing, joint.contact.poisson.bearing) = (5e9, 0.4);
+            }
+            (s.joint.b.layer.thickness, s.joint.c.layer.stiffness) = (2e-4, 3e12);
+            s.joint.a.contact.friction.law = FrictionLaw::Ambrosio;
+        }),
         case("four different joints", brisk(DriveMode::Torque, ALL), |s| {
             let j = &mut s.joint;
             (j.a.radius, j.b.radius, j.c.radius) = (0.02, 0.015, 0.008);

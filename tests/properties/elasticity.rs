@@ -90,6 +90,65 @@ fn bai_and_zhaos_force_and_energy_are_those_of_an_independent_computation() {
     }
 }
 
+/// A bushing of bronze, 1 mm thick.
+fn bushing(clearance: f64) -> Revolute {
+    let mut joint = joint(Elasticity::Winkler, clearance);
+    (joint.contact.young.bearing, joint.contact.poisson.bearing) = (110e9, 0.34);
+    joint
+}
+
+#[test]
+fn a_layers_force_and_energy_are_those_of_an_independent_computation() {
+    // F [N] and potential [J], made elsewhere, in nine digits.
+    let tables = [
+        (0.5e-3, [(2851.78408, 1.14113669e-3), (89145.4160, 0.357886442), (949350.688, 19.3149348)]),
+        (20e-6, [(13833.4111, 5.58288029e-3), (349622.511, 1.49290444), (2387497.96, 55.4833311)]),
+    ];
+    for (clearance, table) in tables {
+        let law = Elastic::new(&bushing(clearance));
+        for (depth, (force, energy)) in [1e-6, 1e-5, 5e-5].into_iter().zip(table) {
+            let (found, stored) = (law.force(depth), law.energy(depth));
+            assert!((found / force - 1.0).abs() <= 5e-9, "c = {clearance} m, {depth} m: {found} N, not {force}");
+            assert!((stored / energy - 1.0).abs() <= 5e-9, "c = {clearance} m, {depth} m: {stored} J, not {energy}");
+        }
+    }
+}
+
+#[test]
+fn a_layer_deep_inside_presses_with_half_its_circumference() {
+    let (clearance, depth) = (1e-9, 1e-2);
+    let law = Elastic::new(&bushing(clearance));
+    let stiffness = law.for_small_penetrations().stiffness * clearance.sqrt() * 3.0 / (4.0 * std::f64::consts::SQRT_2);
+    let wanted = stiffness * (std::f64::consts::FRAC_PI_2 * (clearance + depth) - 2.0 * clearance);
+    assert!((law.force(depth) / wanted - 1.0).abs() < 1e-9, "{} N, not {wanted}", law.force(depth));
+}
+
+#[test]
+fn a_layer_of_given_stiffness_needs_no_material() {
+    let plain = bushing(1e-4);
+    let mut given = plain.clone();
+    let poisson: f64 = 0.34;
+    given.layer.stiffness = (1.0 - poisson) * 110e9 / ((1.0 + poisson) * (1.0 - 2.0 * poisson) * 1e-3);
+    (given.layer.thickness, given.contact.poisson.bearing, given.contact.young.journal) = (0.0, 0.5, 1e6);
+    assert_eq!(Elastic::new(&plain), Elastic::new(&given));
+    let refused = |edit: fn(&mut Revolute)| {
+        let mut scene = Scene::default();
+        scene.joint.c = bushing(1e-4);
+        scene.joint.c.model = JointModel::Clearance;
+        scene.check().expect("a bushing");
+        edit(&mut scene.joint.c);
+        scene.check().expect_err("a layer without stiffness").to_string()
+    };
+    assert_eq!(
+        refused(|joint| joint.layer.thickness = 0.0),
+        "joint.C.layer.thickness = 0 is not allowed: above 0 m for elasticity winkler, unless joint.C.layer.stiffness is given"
+    );
+    assert_eq!(
+        refused(|joint| joint.contact.poisson.bearing = 0.495),
+        "joint.C.poisson.bearing = 0.495 is not allowed: 0 to 0.49 for elasticity winkler, unless joint.C.layer.stiffness is given"
+    );
+}
+
 #[test]
 fn bai_and_zhaos_force_lies_between_lius_and_three_halves_of_it() {
     for clearance in CLEARANCES {

@@ -131,6 +131,7 @@ fn it_is_exact_for_every_friction_and_elasticity() {
             (Elasticity::Hertz, 1.3, DampingLaw::LankaraniNikravesh),
             (Elasticity::Liu, 1.5, DampingLaw::HuGuo),
             (Elasticity::BaiZhao, 1.5, DampingLaw::ZhiyingQishao),
+            (Elasticity::Winkler, 1.5, DampingLaw::Flores),
         ] {
             let mut scene = with_play(rattling(), ALL);
             for joint in revolutes(&mut scene) {

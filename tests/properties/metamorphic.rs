@@ -186,6 +186,7 @@ fn other_units_of_length_mass_and_time_tell_the_same_motion() {
         ("power", Elasticity::Hertz, 1.8),
         ("liu", Elasticity::Liu, 1.5),
         ("bai-zhao", Elasticity::BaiZhao, 1.5),
+        ("winkler", Elasticity::Winkler, 1.5),
     ] {
         for play in [[true, true, true, true], [false, false, true, false], [false, false, false, true]] {
             let mut scene = rubbing(play);

@@ -102,6 +102,7 @@ fn restitution_does_not_depend_on_the_elastic_law() {
         (Elasticity::Hertz, 1.5, 1e9),
         (Elasticity::Liu, 1.5, 0.0),
         (Elasticity::BaiZhao, 1.5, 0.0),
+        (Elasticity::Winkler, 1.5, 0.0),
     ] {
         for law in laws().filter(|&law| law != DampingLaw::Hertz) {
             let (mut scene, mass) = in_line(2);

@@ -54,8 +54,13 @@ fn laws(play: Play, drive: DriveMode) -> Vec<(String, Scene)> {
     let mut all = vec![];
     let frictions =
         [FrictionLaw::None, FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck, FrictionLaw::Lugre];
-    let elastic =
-        [(Elasticity::Hertz, 1.5), (Elasticity::Hertz, 1.4), (Elasticity::Liu, 1.5), (Elasticity::BaiZhao, 1.5)];
+    let elastic = [
+        (Elasticity::Hertz, 1.5),
+        (Elasticity::Hertz, 1.4),
+        (Elasticity::Liu, 1.5),
+        (Elasticity::BaiZhao, 1.5),
+        (Elasticity::Winkler, 1.5),
+    ];
     for friction in frictions {
         for (elasticity, exponent) in elastic {
             for (damping, surface) in

@@ -28,6 +28,7 @@ pub fn usual(name: &str, start: f64, scene: &Scene, place: f64) -> f64 {
         _ if name.contains("eccentricity_start") || last == "offset_start" => signed * 0.7 * clearance,
         _ if name.contains(".com.") || name.contains(".centre.") => signed * 0.02,
         (_, "damping") => logarithmic(1e-5, 1.0, place),
+        _ if name.ends_with("layer.stiffness") => logarithmic(1e12, 1e15, place),
         (_, "stiffness") => logarithmic(1e8, 1e12, place),
         (_, "foundation_stiffness") => logarithmic(1e8, 1e11, place),
         (_, "sigma2") => logarithmic(1e-5, 1e-2, place),

@@ -55,6 +55,12 @@ fn scenes() -> Vec<(String, Scene)> {
     liu.joint.t.foundation_stiffness = 1e9;
     let mut bai_zhao = liu.clone();
     bai_zhao.joint.b.elasticity = Elasticity::BaiZhao;
+    let mut winkler = liu.clone();
+    winkler.joint.b.elasticity = Elasticity::Winkler;
+    let mut given_layer = winkler.clone();
+    given_layer.joint.b.layer.stiffness = 1e14;
+    all.push(("winkler".into(), winkler));
+    all.push(("winkler of a given stiffness".into(), given_layer));
     all.push(("liu and a given foundation".into(), liu));
     all.push(("bai_zhao and a given foundation".into(), bai_zhao));
     all
@@ -113,12 +119,17 @@ fn is_unused(parameter: &str, scene: &Scene) -> bool {
         let Some(own) = parameter.strip_prefix("joint.").and_then(|name| name.strip_prefix(letter)) else { continue };
         let own = own.trim_start_matches('.');
         let conformal = joint.elasticity != Elasticity::Hertz;
+        let layer = joint.elasticity == Elasticity::Winkler;
+        let layer_of_material = layer && joint.layer.stiffness == 0.0;
         return if joint.model == JointModel::Ideal {
             is_of_clearance(own)
         } else {
             match own {
                 "width" => !conformal,
                 "stiffness" | "exponent" => conformal,
+                "layer.stiffness" => !layer,
+                "layer.thickness" => !layer_of_material,
+                own if is_material(own) && layer => !layer_of_material || own.ends_with("journal"),
                 own if is_material(own) => !conformal && joint.contact.stiffness > 0.0,
                 own => is_unused_by_laws(own, &joint.contact),
             }

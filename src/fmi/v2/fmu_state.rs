@@ -23,7 +23,7 @@ pub struct FmuState {
 }
 
 impl Saved for FmuState {
-    const FORMAT: u32 = 8;
+    const FORMAT: u32 = 9;
 
     /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over, and nothing in
     /// it is what an importer cannot set. The snapshot is checked when it is restored.

@@ -12,6 +12,8 @@ enum Elastic {
     Conformal { modulus_width: f64, clearance: f64 },
     /// (π/8)·E*·L·√(2δ·(3c + 2δ)²/(c + δ)³)·δ.
     Hybrid { modulus_width: f64, clearance: f64 },
+    /// A layer of springs on the bearing: k_w·R_b·L·((c + δ)·β − c·sin β), cos β = c/(c + δ).
+    Layer { stiffness: f64, clearance: f64 },
 }
 
 /// The laws of one contact.
@@ -33,6 +35,20 @@ pub fn compliance(contact: &Contact) -> f64 {
     sigma(contact.poisson.bearing, contact.young.bearing) + sigma(contact.poisson.journal, contact.young.journal)
 }
 
+/// β − sin β.
+fn segment(angle: f64) -> f64 {
+    if angle > 0.6 {
+        return angle - angle.sin();
+    }
+    let mut term = angle.powi(3) / 6.0;
+    let mut sum = 0.0;
+    for n in 2..12 {
+        sum += term;
+        term *= -angle * angle / f64::from(2 * n * (2 * n + 1));
+    }
+    sum
+}
+
 impl Laws {
     /// Hertz: K = 4/(3(σ_b + σ_j))·√(R_b·R_j/(R_b − R_j)).
     pub fn of_revolute(joint: &Revolute) -> Self {
@@ -48,6 +64,15 @@ impl Laws {
                 modulus_width: joint.contact.width / compliance(&joint.contact),
                 clearance: joint.clearance,
             },
+            Elasticity::Winkler => {
+                let (young, poisson) = (joint.contact.young.bearing, joint.contact.poisson.bearing);
+                // Plane strain without strain along the layer: λ + 2μ over the thickness.
+                let shear = young / (2.0 * (1.0 + poisson));
+                let lame = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
+                let own = (lame + 2.0 * shear) / joint.layer.thickness;
+                let springs = if joint.layer.stiffness > 0.0 { joint.layer.stiffness } else { own };
+                Elastic::Layer { stiffness: springs * joint.radius * joint.contact.width, clearance: joint.clearance }
+            }
         };
         Self::new(elastic, &joint.contact)
     }
@@ -85,6 +110,12 @@ impl Laws {
                 let reach = clearance + penetration;
                 let steep = 2.0 * penetration * (2.0 * reach + clearance).powi(2) / reach.powi(3);
                 PI / 8.0 * modulus_width * steep.sqrt() * penetration
+            }
+            Elastic::Layer { stiffness, clearance } => {
+                let reach = clearance + penetration;
+                // 1 − cos β = δ/(c + δ).
+                let angle = 2.0 * (penetration / (2.0 * reach)).sqrt().asin();
+                stiffness * (penetration * angle + clearance * segment(angle))
             }
         }
     }

@@ -163,6 +163,8 @@ pub struct Revolute {
     pub eccentricity_start: Point,
     /// Elastic force as a function of penetration.
     pub elasticity: Elasticity,
+    /// The layer of that law.
+    pub layer: Layer,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
 }
@@ -176,6 +178,17 @@ pub enum Elasticity {
     Liu,
     /// Elastic foundation beneath conformal cylinders, Bai and Zhao 2012.
     BaiZhao,
+    /// An elastic layer on the bearing.
+    Winkler,
+}
+
+/// An elastic layer on a bearing.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub struct Layer {
+    /// [m] Thickness.
+    pub thickness: f64,
+    /// [N/m³] Pressure over compression; 0: from thickness and material.
+    pub stiffness: f64,
 }
 
 /// The guide as a joint. Of an ideal one only `damping` counts.

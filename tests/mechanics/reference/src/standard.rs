@@ -2,7 +2,7 @@
 
 use crate::mechanism::{
     Contact, Crank, DampingLaw, Drive, DriveMode, Elasticity, Energy, Flexible, Friction, FrictionLaw, Guide,
-    GuideLines, JointModel, Joints, Mechanism, Pair, Point, Revolute, Rod, Slider, Surface,
+    GuideLines, JointModel, Joints, Layer, Mechanism, Pair, Point, Revolute, Rod, Slider, Surface,
 };
 
 impl Default for Mechanism {
@@ -50,6 +50,7 @@ fn revolute() -> Revolute {
         clearance: 5e-4,
         eccentricity_start: Point::default(),
         elasticity: Elasticity::Hertz,
+        layer: Layer { thickness: 1e-3, stiffness: 0.0 },
         contact: contact(),
     }
 }

@@ -23,7 +23,7 @@ fn until_crossing(reference: &mut Reference, step: f64, count: usize) -> Crossin
 
 #[test]
 fn energy_stays_where_nothing_dissipates() {
-    for elasticity in [Elasticity::Hertz, Elasticity::Liu, Elasticity::BaiZhao] {
+    for elasticity in [Elasticity::Hertz, Elasticity::Liu, Elasticity::BaiZhao, Elasticity::Winkler] {
         let mut mechanism = brisk(DriveMode::Torque, ALL);
         mechanism.gravity = 9.81;
         mechanism.guide.offset = 0.01;
