@@ -29,6 +29,8 @@ const MARGIN: f64 = 0.1;
 pub struct ContactReport {
     /// The event indicators, as many as the scene has; those behind them are 0.
     pub indicators: [f64; CONTACTS],
+    /// [m] Penetration at each pin and at each corner of the slider, also where faces touch; negative across a gap.
+    pub penetration: [f64; CONTACTS],
     /// Whether each contact is closed.
     pub closed: [bool; CONTACTS],
     /// Whether each contact closes or opens at this instant.
@@ -99,6 +101,8 @@ impl ContactWatch {
     pub fn report(&self, at: &Instant<'_>, before: &Contacts, after: &Contacts) -> ContactReport {
         let mut report = ContactReport::default();
         self.write_indicators(at, &mut report.indicators[..self.indicators]);
+        let evaluation = at.model.evaluation(at.conditions, at.time, at.states);
+        report.penetration = at.model.penetration(&evaluation.pose);
         report.closed = at.conditions.contacts.map(|contact| contact.closed);
         for (change, (before, after)) in report.changes.iter_mut().zip(before.iter().zip(after)) {
             *change = before.closed != after.closed;

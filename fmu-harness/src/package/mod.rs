@@ -16,7 +16,7 @@ use anyhow::{Context, Result};
 use archive::Part;
 use build::{Levels, Library};
 use platform::Platform;
-use slidercrank::fmi::slave::states::exchange;
+use slidercrank::fmi::slave::states::{clocks, exchange};
 use slidercrank::fmi::v2::description::documentation;
 use slidercrank::model_description::raw::Experiment;
 use slidercrank::model_description::rows::Declaration;
@@ -188,7 +188,15 @@ fn description(version: Version, declaration: &Declaration, scenario: &Scenario,
     let guid = slot::guid(scene);
     let exchange = exchange(scene);
     let made = xml::made(declaration, epoch()?);
-    let package = xml::Package { guid: &guid, starts, exchange: exchange.as_ref(), experiment, made: Some(&made) };
+    let clocks = clocks(scene);
+    let package = xml::Package {
+        guid: &guid,
+        starts,
+        exchange: exchange.as_ref(),
+        clocks: &clocks,
+        experiment,
+        made: Some(&made),
+    };
     version.description(declaration, &package)
 }
 
