@@ -6,6 +6,7 @@ pub mod elf;
 mod licences;
 pub mod mach_o;
 pub mod platform;
+pub mod references;
 pub mod tools;
 mod version;
 
@@ -140,6 +141,7 @@ impl Stock {
         if let Some(table) = &scene.rod.flexible.table {
             parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
         }
+        parts.extend(references::parts(&scenario.file)?);
         Ok(parts)
     }
 }
