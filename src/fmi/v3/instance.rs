@@ -231,19 +231,21 @@ impl Instance {
     /// `fmi3GetClock`: active where its contact closes or opens, until the update that ends the event.
     pub fn get_clock(&mut self, references: &[u32], values: &mut [u8]) -> Result<(), Error> {
         check_type(references, CLOCK)?;
-        let mut active = Vec::with_capacity(references.len());
         let handled = match self.slave.interface() {
             Interface::CoSimulation => self.side == Side::After,
             Interface::ModelExchange => self.state != State::EventMode,
         };
-        for reference in references {
-            let contact = match Meaning::of(*reference)? {
-                Meaning::Clock(contact) if self.slave.has_contact(contact) => contact,
-                _ => return Err(VariableError::Absent("contact of this clock").into()),
-            };
-            active.push((!handled && self.slave.contacts()?.changes[contact]).into());
+        let changes = self.slave.contacts()?.changes;
+        let contacts: Result<Vec<usize>, VariableError> = references
+            .iter()
+            .map(|reference| match Meaning::of(*reference)? {
+                Meaning::Clock(contact) if self.slave.has_contact(contact) => Ok(contact),
+                _ => Err(VariableError::Absent("contact of this clock")),
+            })
+            .collect();
+        for (value, contact) in values.iter_mut().zip(contacts?) {
+            *value = (!handled && changes[contact]).into();
         }
-        values.copy_from_slice(&active);
         Ok(())
     }
 
