@@ -34,6 +34,11 @@ impl Clock {
         ]
     }
 
+    /// Its entry among the initial unknowns: inactive, whatever else there is.
+    pub(super) fn initial_unknown(&self, numbering: Numbering) -> Attributes<'static> {
+        numbering.unknown(self.reference() as usize, Some(vec![]))
+    }
+
     /// Its entry among the outputs, which depends on all states.
     pub(super) fn output(&self, numbering: Numbering) -> Attributes<'static> {
         numbering.unknown(self.reference() as usize, Some(numbering.states().collect()))

@@ -49,6 +49,8 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
             let derivatives = exchange.map(|exchange| exchange::derivatives(declaration, exchange, numbering));
             leaves(xml, "ContinuousStateDerivative", derivatives.unwrap_or_default())?;
             leaves(xml, "InitialUnknown", numbering.initial_outputs(declaration))?;
+            let clocks = package.clocks.iter().map(|clock| clock.initial_unknown(numbering));
+            leaves(xml, "InitialUnknown", clocks.collect())?;
             let states = exchange.map(|exchange| exchange::initial_unknowns(exchange, numbering));
             leaves(xml, "InitialUnknown", states.unwrap_or_default())?;
             let indicators = exchange.map(exchange::indicators).unwrap_or_default().into_iter();

@@ -20,7 +20,7 @@ const SCENES: [(&str, f64); 2] = [("wornpin", 0.24), ("allplay", 0.08)];
 /// [s] Communication steps.
 const STEPS: [f64; 2] = [1e-4, 1e-5];
 /// The fastest of so many runs counts.
-const REPEATS: usize = 5;
+const REPEATS: usize = 15;
 
 /// What the importer asks for.
 #[derive(Clone, Copy, PartialEq)]
