@@ -190,7 +190,7 @@ fn description(version: Version, declaration: &Declaration, scenario: &Scenario,
     let guid = slot::guid(scene);
     let exchange = exchange(scene);
     let made = xml::made(declaration, epoch()?);
-    let clocks = clocks(scene);
+    let clocks = if version.has_clocks() { clocks(scene) } else { vec![] };
     let package = xml::Package {
         guid: &guid,
         starts,

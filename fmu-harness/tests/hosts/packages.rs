@@ -37,8 +37,12 @@ pub fn directory() -> &'static Path {
                 eprintln!("the mechanisms cannot be packaged: {error:#}");
             }
         }
-        for scene in [RUN, CORNERS] {
-            if let Err(error) = package_for_fmi3(scene, &directory) {
+        for (scene, version, ending) in [
+            (RUN, Version::Fmi3, "3"),
+            (RUN, Version::Fmi3WithoutClocks, "3-without-clocks"),
+            (CORNERS, Version::Fmi3, "3"),
+        ] {
+            if let Err(error) = package_for_fmi3(scene, version, &directory.join(format!("{scene}{ending}.fmu"))) {
                 eprintln!("{scene} cannot be packaged for FMI 3.0: {error:#}");
             }
         }
@@ -66,10 +70,9 @@ fn mechanisms(version: Version, directory: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Such as `wornpin3.fmu`.
-fn package_for_fmi3(scene: &str, directory: &Path) -> Result<()> {
-    let package = Stock::build().and_then(|stock| stock.package_for(Version::Fmi3, &Scenario::find(scene)?));
-    replace(&directory.join(format!("{scene}3.fmu")), |file| package?.save(file))
+fn package_for_fmi3(scene: &str, version: Version, file: &Path) -> Result<()> {
+    let package = Stock::build().and_then(|stock| stock.package_for(version, &Scenario::find(scene)?));
+    replace(file, |file| package?.save(file))
 }
 
 fn couple(directory: &Path) -> Result<()> {
