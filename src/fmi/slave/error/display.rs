@@ -17,7 +17,7 @@ impl fmt::Display for Error {
             }
             Self::Simulation(error) => error.fmt(f),
             Self::Interface => f.write_str("for the other kind of interface: co-simulation or model exchange"),
-            Self::Count { of, given, needed } => write!(f, "room for {given} {of}, and there are {needed}"),
+            Self::Count { of, given, needed } => write!(f, "{given} {of}, where there are {needed}"),
         }
     }
 }
