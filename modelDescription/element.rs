@@ -25,6 +25,11 @@ pub(super) fn leaf(xml: &mut Xml, name: &str, attributes: Attributes) -> io::Res
     Ok(())
 }
 
+/// An element without children for each of these.
+pub(super) fn leaves(xml: &mut Xml, name: &str, all: Vec<Attributes>) -> io::Result<()> {
+    all.into_iter().try_for_each(|attributes| leaf(xml, name, attributes))
+}
+
 fn borrowed<'a>(attributes: &'a Attributes) -> impl Iterator<Item = (&'a str, &'a str)> {
     attributes.iter().map(|(name, value)| (*name, value.as_str()))
 }

@@ -2,21 +2,23 @@
 //!
 //! They are no rows of the declaration, since the scene decides which there are.
 
-use super::element::{Attributes, Xml, leaf, parent};
+use super::element::Attributes;
 use super::rows::{Declaration, Role};
-use std::io;
+use super::structure::Numbering;
 
 /// Value reference of the first state; the others follow. No row of the declaration comes near.
 pub const FIRST_STATE: u32 = 10_000;
 /// Value reference of the first state's derivative.
 pub const FIRST_DERIVATIVE: u32 = 20_000;
+/// Value reference of the first event indicator, which is a variable in FMI 3.0.
+pub const FIRST_INDICATOR: u32 = 30_000;
 
 /// Model exchange of one scene.
 pub struct Exchange {
     /// The continuous states, in order.
     pub states: Vec<State>,
-    /// Number of event indicators.
-    pub indicators: usize,
+    /// The event indicators, in order.
+    pub indicators: Vec<Indicator>,
 }
 
 /// A continuous state.
@@ -33,71 +35,76 @@ pub struct State {
     pub nominal: f64,
     /// Whether it grows for ever, as an angle does.
     pub unbounded: bool,
+    /// Whether an event may set it.
+    pub reset: bool,
     /// The states on which its derivative depends.
     pub feels: Vec<usize>,
     /// Whether its derivative depends on the inputs.
     pub feels_inputs: bool,
 }
 
-/// Places in ModelVariables, from 1.
-#[derive(Clone, Copy)]
-pub(super) struct Places {
-    rows: usize,
-    states: usize,
+/// An event indicator.
+pub struct Indicator {
+    /// Such as `indicator.joint.C`.
+    pub name: String,
+    /// What it is.
+    pub description: String,
 }
 
-impl Places {
-    /// Behind the rows of the declaration come the states, and then their derivatives.
-    pub(super) fn of(declaration: &Declaration, exchange: &Exchange) -> Self {
-        Self { rows: declaration.rows.len(), states: exchange.states.len() }
-    }
+/// A variable of model exchange, which is local and continuous and follows from others at the start.
+pub(super) struct Local {
+    /// Its value reference.
+    pub reference: u32,
+    /// What every variable has.
+    pub general: Attributes<'static>,
+    /// What a real number has.
+    pub real: Attributes<'static>,
+}
 
-    pub(super) fn state(self, state: usize) -> usize {
-        self.rows + 1 + state
-    }
-
-    fn derivative(self, state: usize) -> usize {
-        self.rows + 1 + self.states + state
-    }
-
-    pub(super) fn states(self) -> impl Iterator<Item = usize> {
-        (0..self.states).map(move |state| self.state(state))
+impl Local {
+    fn new(reference: u32, name: &str, description: &str, real: Attributes<'static>) -> Self {
+        let general = vec![
+            ("name", name.into()),
+            ("valueReference", reference.to_string()),
+            ("description", description.into()),
+            ("causality", "local".into()),
+            ("variability", "continuous".into()),
+            ("initial", "calculated".into()),
+        ];
+        Self { reference, general, real }
     }
 }
 
-/// ModelVariables: states, then derivatives.
-pub(super) fn variables(xml: &mut Xml, declaration: &Declaration, exchange: &Exchange) -> io::Result<()> {
-    let places = Places::of(declaration, exchange);
-    for (reference, state) in (FIRST_STATE..).zip(&exchange.states) {
-        let State { name, description, of_type, nominal, unbounded, .. } = state;
+/// States, then derivatives, whose states have these numbers.
+pub(super) fn states(declaration: &Declaration, exchange: &Exchange, numbering: Numbering) -> Vec<Local> {
+    let states = (FIRST_STATE..).zip(&exchange.states).map(|(reference, state)| {
+        let State { name, description, of_type, nominal, unbounded, reset, .. } = state;
         let mut real = typed(declaration, of_type);
         real.push(("nominal", format!("{nominal:?}")));
         real.extend(unbounded.then(|| ("unbounded", "true".into())));
-        local(xml, name, reference, description, real)?;
-    }
-    for ((place, reference), state) in (FIRST_DERIVATIVE..).enumerate().zip(&exchange.states) {
-        let State { name, rate_type, .. } = state;
+        real.extend(reset.then(|| ("reinit", "true".into())));
+        Local::new(reference, name, description, real)
+    });
+    let derivatives = (FIRST_DERIVATIVE..).zip(exchange.states.iter().enumerate());
+    let derivatives = derivatives.map(|(reference, (place, State { name, rate_type, .. }))| {
         let mut real = typed(declaration, rate_type);
-        real.push(("derivative", places.state(place).to_string()));
-        local(xml, &format!("der({name})"), reference, &format!("Derivative of {name}"), real)?;
-    }
-    Ok(())
+        real.push(("derivative", numbering.state(place).to_string()));
+        Local::new(reference, &format!("der({name})"), &format!("Derivative of {name}"), real)
+    });
+    states.chain(derivatives).collect()
 }
 
-fn local(xml: &mut Xml, name: &str, reference: u32, description: &str, real: Attributes) -> io::Result<()> {
-    let attributes = vec![
-        ("name", name.into()),
-        ("valueReference", reference.to_string()),
-        ("description", description.into()),
-        ("causality", "local".into()),
-        ("variability", "continuous".into()),
-        ("initial", "calculated".into()),
-    ];
-    parent(xml, "ScalarVariable", attributes, |xml| leaf(xml, "Real", real))
+/// Event indicators.
+pub(super) fn indicators(exchange: &Exchange) -> Vec<Local> {
+    let indicators = (FIRST_INDICATOR..).zip(&exchange.indicators);
+    let of = |(reference, Indicator { name, description }): (u32, &Indicator)| {
+        Local::new(reference, name, description, vec![("unit", "1".into())])
+    };
+    indicators.map(of).collect()
 }
 
 /// Declared type and unit.
-fn typed<'a>(declaration: &'a Declaration, name: &str) -> Attributes<'a> {
+fn typed(declaration: &Declaration, name: &str) -> Attributes<'static> {
     let mut attributes: Attributes = vec![("declaredType", name.into())];
     if let Some(of) = declaration.types.iter().find(|declared| declared.name == name) {
         attributes.push(("unit", of.unit.clone()));
@@ -106,27 +113,26 @@ fn typed<'a>(declaration: &'a Declaration, name: &str) -> Attributes<'a> {
     attributes
 }
 
-/// ModelStructure, Derivatives: each with the inputs and states that it depends on.
-pub(super) fn derivatives(xml: &mut Xml, declaration: &Declaration, exchange: &Exchange) -> io::Result<()> {
-    let places = Places::of(declaration, exchange);
-    let rows = declaration.rows.iter().zip(1_usize..);
+/// ModelStructure: each derivative with the inputs and states that it depends on.
+pub(super) fn derivatives(
+    declaration: &Declaration,
+    exchange: &Exchange,
+    numbering: Numbering,
+) -> Vec<Attributes<'static>> {
+    let rows = declaration.rows.iter().enumerate();
     let inputs: Vec<usize> =
-        rows.filter(|(row, _)| matches!(row.role, Role::Input { .. })).map(|(_, place)| place).collect();
-    for (place, state) in exchange.states.iter().enumerate() {
+        rows.filter(|(_, row)| matches!(row.role, Role::Input { .. })).map(|(row, _)| numbering.row(row)).collect();
+    let of = |(place, state): (usize, &State)| {
         let inputs = inputs.iter().copied().filter(|_| state.feels_inputs);
-        let knowns = inputs.chain(state.feels.iter().map(|state| places.state(*state)));
-        let knowns = knowns.map(|known| known.to_string()).collect::<Vec<_>>().join(" ");
-        leaf(xml, "Unknown", vec![("index", places.derivative(place).to_string()), ("dependencies", knowns)])?;
-    }
-    Ok(())
+        let knowns = inputs.chain(state.feels.iter().map(|state| numbering.state(*state)));
+        numbering.unknown(numbering.derivative(place), Some(knowns.collect()))
+    };
+    exchange.states.iter().enumerate().map(of).collect()
 }
 
-/// ModelStructure, InitialUnknowns: states and derivatives, which follow from all inputs and parameters.
-pub(super) fn initial_unknowns(xml: &mut Xml, declaration: &Declaration, exchange: &Exchange) -> io::Result<()> {
-    let places = Places::of(declaration, exchange);
-    let derivatives = (0..exchange.states.len()).map(|state| places.derivative(state));
-    for place in places.states().chain(derivatives) {
-        leaf(xml, "Unknown", vec![("index", place.to_string())])?;
-    }
-    Ok(())
+/// ModelStructure: states and derivatives at the start, which follow from all inputs and parameters.
+pub(super) fn initial_unknowns(exchange: &Exchange, numbering: Numbering) -> Vec<Attributes<'static>> {
+    let places = 0..exchange.states.len();
+    let derivatives = places.clone().map(|place| numbering.derivative(place));
+    places.map(|place| numbering.state(place)).chain(derivatives).map(|at| numbering.unknown(at, None)).collect()
 }

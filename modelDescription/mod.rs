@@ -1,6 +1,8 @@
 //! The declaration of the FMU's face and what is made from it. Both build.rs and the library
 //! compile this directory: the one for the tables, the other for the package's XML and page.
 
+pub mod arrays;
+pub mod clocks;
 mod definitions;
 mod element;
 pub mod exchange;
@@ -11,6 +13,7 @@ pub mod page;
 pub mod raw;
 mod restitution;
 pub mod rows;
+mod structure;
 pub mod tables;
 pub mod terminals;
 mod typed;

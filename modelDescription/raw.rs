@@ -12,6 +12,7 @@ pub(super) struct Raw {
     pub capabilities: BTreeMap<String, Flag>,
     pub model_exchange: BTreeMap<String, Flag>,
     pub capabilities_fmi3: BTreeMap<String, Flag>,
+    pub model_exchange_fmi3: BTreeMap<String, Flag>,
     pub terminal: Vec<Terminal>,
     pub experiment: Experiment,
     pub log: Vec<LogCategory>,

@@ -14,8 +14,10 @@ pub struct Declaration {
     pub capabilities: BTreeMap<String, Flag>,
     /// What the element ModelExchange promises.
     pub model_exchange: BTreeMap<String, Flag>,
-    /// The same of FMI 3.0.
+    /// The capability flags of FMI 3.0.
     pub capabilities_fmi3: BTreeMap<String, Flag>,
+    /// What FMI 3.0's element ModelExchange promises.
+    pub model_exchange_fmi3: BTreeMap<String, Flag>,
     /// Terminals of FMI 3.0.
     pub terminals: Vec<Terminal>,
     /// Default experiment.
@@ -129,6 +131,7 @@ pub fn read(text: &str) -> Result<Declaration, RowError> {
         capabilities: raw.capabilities,
         model_exchange: raw.model_exchange,
         capabilities_fmi3: raw.capabilities_fmi3,
+        model_exchange_fmi3: raw.model_exchange_fmi3,
         terminals: raw.terminal,
         experiment: raw.experiment,
         log: raw.log,

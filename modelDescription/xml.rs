@@ -1,9 +1,11 @@
 //! Rows → `modelDescription.xml`.
 
+use super::clocks::Clock;
 use super::definitions::{type_definitions, unit_definition};
-use super::element::{Attributes, Xml, date, leaf, parent};
-use super::exchange::{self, Exchange, Places};
+use super::element::{Attributes, Xml, date, leaf, leaves, parent};
+use super::exchange::{self, Exchange, Local};
 use super::rows::{Declaration, Experiment, Flag, Kind, Role, Row};
+use super::structure::Numbering;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::collections::BTreeMap;
@@ -18,6 +20,8 @@ pub struct Package<'a> {
     pub starts: &'a [f64],
     /// Model exchange, where the scene's equations can be handed to another integrator.
     pub exchange: Option<&'a Exchange>,
+    /// The clocks, which FMI 2.0 does not know.
+    pub clocks: &'a [Clock],
     /// Default experiment.
     pub experiment: Experiment,
     /// When it was made, as [`made`] tells it; none leaves the date out.
@@ -27,7 +31,7 @@ pub struct Package<'a> {
 impl<'a> Package<'a> {
     /// A package with no guid and the declared experiment: the text that a guid is made from.
     pub fn anonymous(declaration: &Declaration, starts: &'a [f64]) -> Self {
-        Self { guid: "", starts, exchange: None, experiment: declaration.experiment, made: None }
+        Self { guid: "", starts, exchange: None, clocks: &[], experiment: declaration.experiment, made: None }
     }
 }
 
@@ -39,7 +43,10 @@ pub fn made(declaration: &Declaration, seconds: Option<u64>) -> String {
 /// The model description of a package.
 pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
     let mut xml = begin()?;
-    let root = root(declaration, package, "2.0", "guid");
+    let mut root = root(declaration, package, "2.0", "guid");
+    let indicators = package.exchange.map(|exchange| exchange.indicators.len().to_string());
+    root.extend(indicators.map(|count| ("numberOfEventIndicators", count)));
+    let numbering = Numbering::by_place(declaration, package.exchange);
     parent(&mut xml, "fmiModelDescription", root, |xml| {
         if package.exchange.is_some() {
             leaf(xml, "ModelExchange", capabilities(declaration, &declaration.model_exchange))?;
@@ -54,20 +61,22 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
         parent(xml, "ModelVariables", vec![], |xml| {
             rows_with_starts(declaration, package)
                 .try_for_each(|(reference, row, start)| variable(xml, declaration, reference, row, start))?;
-            package.exchange.map_or(Ok(()), |exchange| exchange::variables(xml, declaration, exchange))
+            let locals = package.exchange.map(|exchange| exchange::states(declaration, exchange, numbering));
+            locals.unwrap_or_default().into_iter().try_for_each(|Local { general, real, .. }| {
+                parent(xml, "ScalarVariable", general, |xml| leaf(xml, "Real", real))
+            })
         })?;
         parent(xml, "ModelStructure", vec![], |xml| {
-            parent(xml, "Outputs", vec![], |xml| {
-                let states = |kind: &Kind| package.exchange.filter(|_| matches!(kind, Kind::Real { .. }));
-                unknowns(xml, declaration, |kind, depends, _| Some((depends.to_vec(), states(kind))))
-            })?;
+            parent(xml, "Outputs", vec![], |xml| leaves(xml, "Unknown", numbering.outputs(declaration)))?;
             // The schema takes no list without entries: an ideal mechanism at a prescribed speed has no states.
             if let Some(exchange) = package.exchange.filter(|exchange| !exchange.states.is_empty()) {
-                parent(xml, "Derivatives", vec![], |xml| exchange::derivatives(xml, declaration, exchange))?;
+                let derivatives = exchange::derivatives(declaration, exchange, numbering);
+                parent(xml, "Derivatives", vec![], |xml| leaves(xml, "Unknown", derivatives))?;
             }
             parent(xml, "InitialUnknowns", vec![], |xml| {
-                unknowns(xml, declaration, |_, _, at_start| Some((at_start?.to_vec(), None)))?;
-                package.exchange.map_or(Ok(()), |exchange| exchange::initial_unknowns(xml, declaration, exchange))
+                leaves(xml, "Unknown", numbering.initial_outputs(declaration))?;
+                let states = package.exchange.map(|exchange| exchange::initial_unknowns(exchange, numbering));
+                leaves(xml, "Unknown", states.unwrap_or_default())
             })
         })
     })?;
@@ -109,8 +118,6 @@ pub(super) fn root(
     ];
     attributes.extend(package.made.map(|made| ("generationDateAndTime", made.into())));
     attributes.push(("variableNamingConvention", "structured".into()));
-    let indicators = package.exchange.map(|exchange| exchange.indicators.to_string());
-    attributes.extend(indicators.map(|count| ("numberOfEventIndicators", count)));
     attributes
 }
 
@@ -233,31 +240,4 @@ pub(super) fn type_and_range<'a>(
         }
     };
     (name, attributes)
-}
-
-/// Rows that an output depends on at the start.
-type AtStart<'a> = Option<&'a [usize]>;
-/// Rows that an output depends on, and whether it depends on all of the states, too.
-type Chosen<'a> = Option<(Vec<usize>, Option<&'a Exchange>)>;
-
-/// One entry for each output; `choose` picks from what it depends on at communication points and
-/// at the start. An entry without the attribute depends on everything.
-fn unknowns<'a>(
-    xml: &mut Xml,
-    declaration: &Declaration,
-    choose: impl Fn(&Kind, &[usize], AtStart) -> Chosen<'a>,
-) -> io::Result<()> {
-    for (row, Row { role, kind, .. }) in declaration.rows.iter().enumerate() {
-        let Role::Output { depends, at_start, .. } = role else {
-            continue;
-        };
-        let mut attributes = vec![("index", (row + 1).to_string())];
-        let chosen = choose(kind, depends, at_start.as_deref()).map(|(rows, exchange)| {
-            let states = exchange.into_iter().flat_map(|exchange| Places::of(declaration, exchange).states());
-            rows.iter().map(|row| row + 1).chain(states).map(|index| index.to_string()).collect::<Vec<_>>().join(" ")
-        });
-        attributes.extend(chosen.map(|indices| ("dependencies", indices)));
-        leaf(xml, "Unknown", attributes)?;
-    }
-    Ok(())
 }

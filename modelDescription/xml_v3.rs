@@ -2,9 +2,13 @@
 //!
 //! Value references are those of FMI 2.0. Behind them is that of the independent variable, which FMI 2.0 does not declare.
 
+use super::arrays::{CORNERS, CornerArray, corner_arrays};
+use super::clocks::Clock;
 use super::definitions::unit_definition;
-use super::element::{Xml, leaf, parent};
+use super::element::{Xml, leaf, leaves, parent};
+use super::exchange::{self, Local};
 use super::rows::{Declaration, Kind, Role, Row};
+use super::structure::Numbering;
 use super::xml::{
     Package, begin, capabilities, experiment, general, log_categories, root, rows_with_starts, text, type_and_range,
 };
@@ -12,9 +16,12 @@ use std::io;
 
 /// The model description of a package.
 pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String> {
-    let package = &Package { exchange: None, ..*package };
     let mut xml = begin()?;
+    let (exchange, numbering) = (package.exchange, Numbering::by_reference(package.exchange));
     parent(&mut xml, "fmiModelDescription", root(declaration, package, "3.0", "instantiationToken"), |xml| {
+        if exchange.is_some() {
+            leaf(xml, "ModelExchange", capabilities(declaration, &declaration.model_exchange_fmi3))?;
+        }
         leaf(xml, "CoSimulation", capabilities(declaration, &declaration.capabilities_fmi3))?;
         parent(xml, "UnitDefinitions", vec![], |xml| {
             declaration.units.iter().try_for_each(|unit| unit_definition(xml, unit))
@@ -25,11 +32,30 @@ pub fn write(declaration: &Declaration, package: &Package) -> io::Result<String>
         parent(xml, "ModelVariables", vec![], |xml| {
             independent(xml, declaration.rows.len())?;
             rows_with_starts(declaration, package)
-                .try_for_each(|(reference, row, start)| variable(xml, declaration, reference, row, start))
+                .try_for_each(|(reference, row, start)| variable(xml, declaration, reference, row, start))?;
+            let states = exchange.map(|exchange| exchange::states(declaration, exchange, numbering));
+            let indicators = exchange.map(exchange::indicators);
+            let locals = states.into_iter().chain(indicators).flatten();
+            let locals = locals.map(|Local { general, real, .. }| [general, real].concat());
+            leaves(xml, "Float64", locals.collect())?;
+            for CornerArray { of_type, attributes } in corner_arrays() {
+                parent(xml, of_type, attributes, |xml| leaf(xml, "Dimension", vec![("start", CORNERS.to_string())]))?;
+            }
+            leaves(xml, "Clock", package.clocks.iter().map(Clock::variable).collect())
         })?;
         parent(xml, "ModelStructure", vec![], |xml| {
-            unknowns(xml, declaration, "Output", |depends, _| Some(depends.to_vec()))?;
-            unknowns(xml, declaration, "InitialUnknown", |_, at_start| at_start.map(<[usize]>::to_vec))
+            leaves(xml, "Output", numbering.outputs(declaration))?;
+            leaves(xml, "Output", package.clocks.iter().map(|clock| clock.output(numbering)).collect())?;
+            let derivatives = exchange.map(|exchange| exchange::derivatives(declaration, exchange, numbering));
+            leaves(xml, "ContinuousStateDerivative", derivatives.unwrap_or_default())?;
+            leaves(xml, "InitialUnknown", numbering.initial_outputs(declaration))?;
+            let clocks = package.clocks.iter().map(|clock| clock.initial_unknown(numbering));
+            leaves(xml, "InitialUnknown", clocks.collect())?;
+            let states = exchange.map(|exchange| exchange::initial_unknowns(exchange, numbering));
+            leaves(xml, "InitialUnknown", states.unwrap_or_default())?;
+            let indicators = exchange.map(exchange::indicators).unwrap_or_default().into_iter();
+            let indicators = indicators.map(|Local { reference, .. }| numbering.unknown(reference as usize, None));
+            leaves(xml, "EventIndicator", indicators.collect())
         })
     })?;
     text(xml)
@@ -92,25 +118,4 @@ fn variable(
     attributes.extend(continuous.then(|| ("intermediateUpdate", "true".into())));
     attributes.extend(range);
     leaf(xml, name, attributes)
-}
-
-/// One entry for each output; `choose` picks from what it depends on at communication points and at the start. An entry
-/// without the attribute depends on everything.
-fn unknowns(
-    xml: &mut Xml,
-    declaration: &Declaration,
-    element: &str,
-    choose: impl Fn(&[usize], Option<&[usize]>) -> Option<Vec<usize>>,
-) -> io::Result<()> {
-    for (reference, Row { role, .. }) in declaration.rows.iter().enumerate() {
-        let Role::Output { depends, at_start, .. } = role else {
-            continue;
-        };
-        let mut attributes = vec![("valueReference", reference.to_string())];
-        let references = |rows: Vec<usize>| rows.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
-        let chosen = choose(depends, at_start.as_deref());
-        attributes.extend(chosen.map(|rows| ("dependencies", references(rows))));
-        leaf(xml, element, attributes)?;
-    }
-    Ok(())
 }

@@ -1,14 +1,15 @@
 //! The packaged FMU: its bytes are reproducible, its archive keeps FMI's rules, and a host can open and run it.
 
-use fmu_harness::host::{Archive, Description, Fmu, LogLine, PLATFORM, Setting};
+use fmu_harness::host::{Archive, Description, Fmu, Log, LogLine, PLATFORM, Setting, Value};
 use fmu_harness::inspect::declared;
+use fmu_harness::package::references::{FOLDER, RESULTS, STIMULI};
 use fmu_harness::package::{Package, Stock, Version};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
 use slidercrank::fmi::abi::dispatch_x86_64_v3;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use tempfile::TempDir;
 
 fn scenario() -> Scenario {
@@ -75,11 +76,61 @@ fn everything_is_in_the_archive_and_the_description_is_first() {
         "documentation/scene.toml",
         "documentation/licenses/license.txt",
         "documentation/licenses/third-party.txt",
+        "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
+        "extra/org.fmi-standard.fmi-ls-ref/smoke-test.exp",
+        "extra/org.fmi-standard.fmi-ls-ref/stimuli.csv",
+        "extra/org.fmi-standard.fmi-ls-ref/reference.csv",
+        "documentation/fmi-ls-ref.txt",
     ];
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         wanted.insert(3, &newer);
     }
     assert_eq!(names, wanted);
+}
+
+/// The numbers of a table below its header.
+fn table(text: &str) -> Vec<Vec<f64>> {
+    let row = |line: &str| line.split(',').map(|number| number.parse().expect("a number")).collect();
+    text.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn a_portable_run_gives_the_reference_results_to_the_bit() {
+    let (_directory, file) = saved();
+    let mut archive = Archive::open(&file).expect("an archive");
+    let mut read = |name: &str| archive.text(&format!("{FOLDER}/{name}")).expect("a text");
+    let (stimuli, results) = (read(STIMULI), read(RESULTS));
+    let names = |text: &str| -> Vec<String> {
+        text.lines().next().expect("a header").split(',').map(|name| name.trim_matches('"').to_owned()).collect()
+    };
+    let fmu = Fmu::open(&file).expect("an FMU");
+    let slave = fmu.instantiate("reference", Arc::new(Log::new(|_| {})), false).expect("an instance");
+    let mut slave = slave.enter_initialization(None, 0.0, None).expect("initialization mode");
+    let variable = |name: &str| fmu.description().variable(name).expect("a variable");
+    slave.set(variable("solver.portable"), &Value::Boolean(true)).expect("set");
+    let (inputs, stimuli) = (names(&stimuli), table(&stimuli));
+    let (before, after) = (stimuli.first().expect("stimuli"), stimuli.last().expect("stimuli"));
+    let jump = stimuli[1][0];
+    for (name, value) in inputs.iter().zip(before).skip(1) {
+        slave.set(variable(name), &Value::Real(*value)).expect("set");
+    }
+    let mut slave = slave.exit_initialization().expect("step mode");
+    let (outputs, results) = (names(&results), table(&results));
+    for (step, row) in results.iter().enumerate() {
+        if let Some(last) = step.checked_sub(1) {
+            slave.do_step(results[last][0], row[0] - results[last][0]).expect("a step");
+        }
+        if row[0] == jump {
+            for (name, value) in inputs.iter().zip(after).skip(1) {
+                slave.set(variable(name), &Value::Real(*value)).expect("set");
+            }
+        }
+        for (name, expected) in outputs.iter().zip(row).skip(1) {
+            assert_eq!(slave.read_one(name).expect("a value").to_bits(), expected.to_bits(), "{name} at {} s", row[0]);
+        }
+    }
+    slave.terminate().expect("the end");
+    assert_eq!((results.len(), outputs.len()), (101, 7));
 }
 
 #[cfg(target_os = "linux")]
@@ -188,19 +239,24 @@ fn the_package_of_fmi3_runs_to_the_same_bits_and_tells_the_same_variables() {
         let mut archive = Archive::open(file).expect("an archive");
         Description::parse(&archive.description().expect("text")).expect("a description")
     });
-    // States and their derivatives, which come last, are there for model exchange, which FMI 3.0's file does not offer.
-    let shared = old.variables.iter().take_while(|variable| !variable.name.contains("state.")).count();
-    assert_eq!(new.variables.len(), 1 + shared);
-    let (old, new) = (&old.structure, &new.structure);
+    // Behind the states and their derivatives come the indicator and the clock of the slider pin, and the corners' arrays.
+    let own: Vec<_> = new.variables[1 + old.variables.len()..].iter().map(|variable| variable.name.as_str()).collect();
+    let corners = ["joint.T.corner.penetration", "joint.T.corner.contact"];
+    assert_eq!(own, ["indicator.joint.C", corners[0], corners[1], "joint.C.contact_change"]);
     // The variable of the time is the first one, so all numbers are one higher.
-    for (old, new) in
-        old.outputs.iter().chain(&old.initial_unknowns).zip(new.outputs.iter().chain(&new.initial_unknowns))
-    {
-        let higher = old
-            .dependencies
-            .as_ref()
-            .map(|list| list.iter().filter(|index| **index <= shared).map(|index| index + 1).collect::<Vec<_>>());
-        assert_eq!((old.index + 1, higher.as_ref()), (new.index, new.dependencies.as_ref()));
+    let last = 1 + old.variables.len();
+    let (old, new) = (&old.structure, &new.structure);
+    for (old, new) in [
+        (&old.outputs, &new.outputs),
+        (&old.derivatives, &new.derivatives),
+        (&old.initial_unknowns, &new.initial_unknowns),
+    ] {
+        let new: Vec<_> = new.iter().filter(|unknown| unknown.index <= last).collect();
+        assert_eq!(old.len(), new.len());
+        for (old, new) in old.iter().zip(new) {
+            let higher = old.dependencies.as_ref().map(|list| list.iter().map(|index| index + 1).collect::<Vec<_>>());
+            assert_eq!((old.index + 1, higher.as_ref()), (new.index, new.dependencies.as_ref()));
+        }
     }
 }
 

@@ -16,7 +16,7 @@
 //! Calls of all versions answer with the same five [statuses](status).
 //!
 //! A slave serves co-simulation or model exchange ([`slave::Interface`]): an integrator of ours moves its mechanism, or the
-//! importer's does ([`slave::course`]). The rows of both kinds are in one table, `v2/lifecycle.rs`.
+//! importer's does ([`slave::course`]). A version has the rows of both kinds in one table, its `lifecycle.rs`.
 //!
 //! Dependencies point one way: a version imports [`abi`] and [`slave`], and these import no version.
 //! `unsafe` lives in `abi` alone, and no panic crosses it.

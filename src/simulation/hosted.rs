@@ -3,38 +3,29 @@
 //! [`System`](super::System) is the same for a caller that keeps states and contacts together itself; here the mechanism
 //! remembers both, as hosts of model exchange expect.
 //!
-//! An event indicator is the gap of a contact over its clearance: positive while the contact is open, at most 0 while it
-//! is closed. So an event changes no indicator's sign, and a host that compares the signs before and after sees none.
-//! Contacts change in [`HostedMechanism::update`] alone, with hysteresis: an open one closes where it penetrates by
-//! [`HYSTERESIS`] of a noticeable length, a closed one opens where its gap is as wide. The indicator is shifted by as much,
-//! so that it is never near 0 after an event. The force at that penetration is some 1e-8 of a noticeable one.
+//! Contacts change in [`HostedMechanism::update`] alone, with the hysteresis of their event indicators
+//! ([`contacts`](super::contacts)).
 //!
 //! Discontinuities of a derivative have no indicators: an event makes a host's integrator start anew, which costs more
 //! than the steps that an error estimate rejects there.
 
 use super::assemble::model;
+use super::contacts::{ContactReport, ContactWatch, Instant};
 use super::derivatives::{sensitivity, slopes};
 use super::error::SimulationError;
 use super::observation::observe;
 use super::record::Discrete;
 use super::start::pose;
-use crate::integrator::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, Reader, Snapshot, Triggered};
+use crate::integrator::{MAX_STATES, Reader, Snapshot};
 use crate::math::Real;
-use crate::model::coordinates::event_count;
 use crate::model::drive::InputSignal;
-use crate::model::joint::guide::contact_of_corner;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::scalar::Tangent;
 use crate::model::signals::{Inputs, Outputs};
 use crate::model::state::Conditions;
-use crate::scene::{JointModel, Method, Scene};
-use std::ops::Range;
+use crate::scene::{Method, Scene};
 
-/// Part of a noticeable length.
-const HYSTERESIS: f64 = 1e-5;
-/// Part of the change point's scale before which no motion goes on.
-const MARGIN: f64 = 0.1;
 /// Half the width of a difference over a state, as a part of the state's scale.
 const DIFFERENCE: f64 = 1e-3;
 /// First integer of a snapshot, which no other kind of run begins with: its first is a number of states.
@@ -46,22 +37,11 @@ const NOMINAL_ENERGY: f64 = 1.0;
 pub struct HostedMechanism {
     model: Box<dyn MechanismModel>,
     observer: Observer,
-    contacts: Vec<WatchedContact>,
-    indicators: usize,
+    watch: ContactWatch,
     time: f64,
     states: Vec<f64>,
     nominals: Vec<f64>,
     conditions: Conditions,
-}
-
-/// A contact that may close.
-struct WatchedContact {
-    /// Its place among all contacts.
-    place: usize,
-    /// Its event functions: of a closed face, the first one holds.
-    events: Range<usize>,
-    /// [m]
-    clearance: f64,
 }
 
 /// What an update of the discrete state came to.
@@ -103,8 +83,7 @@ impl HostedMechanism {
         Ok(Self {
             nominals: nominals_of(model.as_ref()),
             observer: Observer::new(scene),
-            contacts: watched(scene),
-            indicators: event_count(scene),
+            watch: ContactWatch::new(scene),
             time: 0.0,
             states,
             conditions,
@@ -139,7 +118,7 @@ impl HostedMechanism {
 
     /// Number of event indicators.
     pub fn indicators(&self) -> usize {
-        self.indicators
+        self.watch.indicators()
     }
 
     /// Sets the inputs, which stay.
@@ -154,36 +133,29 @@ impl HostedMechanism {
 
     /// Writes the event indicators.
     pub fn write_indicators(&self, indicators: &mut [f64]) {
-        let functions = self.event_functions();
-        if self.contacts.is_empty() {
-            // A closed loop, whose event function falls to 0 where the rod stands across the guide.
-            indicators.fill(self.change_point(&functions).map_or(1.0, |EventFunction { value, .. }| value));
-        }
-        for (indicator, contact) in indicators.iter_mut().zip(&self.contacts) {
-            *indicator = self.indicator(contact, &functions);
-        }
+        self.watch.write_indicators(&self.now(), indicators);
+    }
+
+    /// Its contacts; those change that the next update closes or opens.
+    pub fn contacts(&self) -> ContactReport {
+        self.watch.report_due(&self.now())
     }
 
     /// Whether a contact is open or closed although its indicator says otherwise, or the motion leads no further.
     pub fn update_is_due(&self) -> bool {
-        let functions = self.event_functions();
-        self.leads_no_further(&functions) || self.contacts.iter().any(|contact| self.is_due(contact, &functions))
+        self.watch.leads_no_further(&self.now()) || self.watch.due(&self.now()).contains(&true)
     }
 
     /// Closes and opens contacts as their indicators say. One that closes remembers its approach speed.
     pub fn update(&mut self) -> Update {
-        let functions = self.event_functions();
-        let mut triggered: Triggered = [false; MAX_EVENTS];
-        for contact in self.contacts.iter().filter(|contact| self.is_due(contact, &functions)) {
-            triggered[contact.events.start] = true;
-        }
+        let (triggered, dead_end) = (self.watch.due(&self.now()), self.watch.leads_no_further(&self.now()));
         let mut before = [0.0; MAX_STATES];
         let before = &mut before[..self.states.len()];
         before.copy_from_slice(&self.states);
         if triggered.contains(&true) {
             self.conditions = self.model.reset(&self.conditions, self.time, &mut self.states, &triggered).discrete;
         }
-        Update { states_changed: before != self.states, dead_end: self.leads_no_further(&functions) }
+        Update { states_changed: before != self.states, dead_end }
     }
 
     /// Outputs; the integrator's counters stay at 0.
@@ -301,38 +273,9 @@ impl HostedMechanism {
         observe(self.model.as_ref(), &self.observer, conditions, self.time, states)
     }
 
-    fn event_functions(&self) -> EventFunctions {
-        let mut functions = [EventFunction::default(); MAX_EVENTS];
-        self.model.event_functions(&self.conditions, self.time, &self.states, &mut functions);
-        functions
-    }
-
-    fn indicator(&self, contact: &WatchedContact, functions: &EventFunctions) -> f64 {
-        let shift = HYSTERESIS * self.model.event_scale();
-        let functions = &functions[contact.events.clone()];
-        let gap = if self.conditions.contacts[contact.place].closed {
-            -functions[0].value - shift
-        } else {
-            functions.iter().map(|function| function.value).fold(f64::INFINITY, f64::min) + shift
-        };
-        gap / contact.clearance
-    }
-
-    fn is_due(&self, contact: &WatchedContact, functions: &EventFunctions) -> bool {
-        let closed = self.conditions.contacts[contact.place].closed;
-        let indicator = self.indicator(contact, functions);
-        if closed { indicator > 0.0 } else { indicator <= 0.0 }
-    }
-
-    /// A closed loop's distance to its change point, where it has one.
-    fn change_point(&self, functions: &EventFunctions) -> Option<EventFunction> {
-        let EventFunction { value, rate } = functions[0];
-        let has_one = self.contacts.is_empty() && self.model.event_count() > 0;
-        has_one.then(|| EventFunction { value: value - MARGIN * self.model.event_scale(), rate })
-    }
-
-    fn leads_no_further(&self, functions: &EventFunctions) -> bool {
-        self.change_point(functions).is_some_and(|EventFunction { value, rate }| value <= 0.0 && rate < 0.0)
+    fn now(&self) -> Instant<'_> {
+        let Self { model, conditions, time, states, .. } = self;
+        Instant { model: model.as_ref(), conditions, time: *time, states }
     }
 }
 
@@ -344,27 +287,4 @@ pub fn nominals(scene: &Scene) -> Vec<f64> {
 fn nominals_of(model: &dyn MechanismModel) -> Vec<f64> {
     let nominal = |scale: &f64| if *scale > 0.0 { *scale } else { NOMINAL_ENERGY };
     model.scales()[..model.layout().states].iter().map(nominal).collect()
-}
-
-/// The contacts of a scene that may close, in the order of their event functions.
-fn watched(scene: &Scene) -> Vec<WatchedContact> {
-    let joint = &scene.joint;
-    let mut all: Vec<WatchedContact> = vec![];
-    for (place, revolute) in [&joint.a, &joint.b, &joint.c].into_iter().enumerate() {
-        if revolute.model == JointModel::Clearance {
-            let event = all.len();
-            all.push(WatchedContact { place, events: event..event + 1, clearance: revolute.clearance });
-        }
-    }
-    if joint.t.model == JointModel::Clearance {
-        let first = all.len();
-        for (corner, contact) in contact_of_corner(joint.t.surface).into_iter().enumerate() {
-            let (place, event) = (3 + contact, first + corner);
-            match all.last_mut() {
-                Some(last) if last.place == place => last.events.end = event + 1,
-                _ => all.push(WatchedContact { place, events: event..event + 1, clearance: joint.t.clearance }),
-            }
-        }
-    }
-    all
 }

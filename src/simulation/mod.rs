@@ -1,6 +1,7 @@
 //! A simulation: model, state and integrator of a mechanism in motion.
 
 mod assemble;
+mod contacts;
 mod derivatives;
 mod equations;
 mod error;
@@ -18,6 +19,7 @@ mod system;
 mod time_stepping;
 
 pub use crate::integrator::Snapshot;
+pub use contacts::{CONTACTS, ContactReport, PINS, contacts};
 pub use equations::Size;
 pub use error::SimulationError;
 pub use hosted::{Direction, HostedMechanism, Update, nominals};
@@ -159,6 +161,11 @@ impl Simulation {
     /// and Booleans are meaningless.
     pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.motion.output_sensitivity(self.time, seed, self.side)
+    }
+
+    /// The contacts at the communication point. Those change that close or open at the events there, on whichever side.
+    pub fn contacts(&mut self) -> ContactReport {
+        self.motion.contacts(self.time, self.side)
     }
 
     /// Writes the states at the communication point and their rates; how many there are.

@@ -1,5 +1,6 @@
 //! Interface between a simulation and a mechanism with its method.
 
+use super::contacts::ContactReport;
 use super::equations::{Equations, Size};
 use super::linearization::Linearization;
 use super::phase::{Phase, PhaseScales};
@@ -29,6 +30,8 @@ pub trait Motion: Send {
     fn output_rates(&mut self, t: f64, side: Side) -> Outputs;
     /// Derivatives of the outputs at `t` with respect to the inputs, in the direction `seed`, on this side of the events.
     fn output_sensitivity(&mut self, t: f64, seed: Inputs, side: Side) -> Outputs;
+    /// The contacts at `t` in the last step, on this side of the events there.
+    fn contacts(&mut self, t: f64, side: Side) -> ContactReport;
     /// Writes the states at `t` in the last step and their rates; how many there are.
     fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize;
     /// Size of the equations of motion.

@@ -1,5 +1,6 @@
 //! A mechanism under a method other than time stepping.
 
+use super::contacts::{ContactReport, ContactWatch, Instant};
 use super::derivatives::{sensitivity, slopes};
 use super::equations::{EquationSystem, Equations, Size, write};
 use super::linearization::{Linearization, linearization, rates_at};
@@ -27,6 +28,7 @@ pub struct Run {
     model: Box<dyn MechanismModel>,
     integrator: Integrator<Conditions>,
     observer: Observer,
+    watch: ContactWatch,
     /// [m/s] Scale of approach speeds.
     approach_scale: f64,
 }
@@ -42,7 +44,8 @@ impl Run {
         let method = named(scene.solver.method.name(), n).expect("every declared method is implemented");
         let integrator = Integrator::start(model.as_ref(), method, settings, 0.0, &y, conditions);
         let Scale { length, frequency, .. } = Scale::of(scene);
-        Self { model, integrator, observer: Observer::new(scene), approach_scale: length * frequency }
+        let (observer, watch) = (Observer::new(scene), ContactWatch::new(scene));
+        Self { model, integrator, observer, watch, approach_scale: length * frequency }
     }
 
     /// Outputs at `t` under other inputs, at constant states.
@@ -130,6 +133,16 @@ impl Motion for Run {
 
     fn output_sensitivity(&mut self, t: f64, seed: Inputs, side: Side) -> Outputs {
         sensitivity(seed, |inputs| self.observe_under(t, inputs, side))
+    }
+
+    fn contacts(&mut self, t: f64, side: Side) -> ContactReport {
+        let solver = self.integrator.state();
+        // Within the step nothing has changed since its start.
+        let after = solver.front().discrete.contacts;
+        let before = if t >= solver.front().t { solver.end().discrete.contacts } else { after };
+        let model = self.model.as_ref();
+        let (states, conditions) = state_at(&mut self.integrator, model, t, side);
+        self.watch.report(&Instant { model, conditions: &conditions, time: t, states }, &before, &after)
     }
 
     fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {

@@ -1,5 +1,6 @@
 //! A mechanism with rigid contacts under time stepping.
 
+use super::contacts::{ContactReport, ContactWatch, Instant};
 use super::derivatives::{sensitivity, slopes};
 use super::equations::{EquationSystem, Equations, Size};
 use super::linearization::{Linearization, filled, linearization, rates_at};
@@ -28,6 +29,7 @@ pub struct TimeStepping {
     integrator: Moreau<Conditions>,
     settings: Settings,
     observer: Observer,
+    watch: ContactWatch,
 }
 
 impl TimeStepping {
@@ -37,7 +39,8 @@ impl TimeStepping {
         let mut y = vec![0.0; model.layout().states];
         model.write_start(pose, &mut y);
         let integrator = Moreau::start(settings, 0.0, &y, Conditions::without_contacts(inputs));
-        Self { model, integrator, settings, observer: Observer::new(scene) }
+        let (observer, watch) = (Observer::new(scene), ContactWatch::new(scene));
+        Self { model, integrator, settings, observer, watch }
     }
 
     /// Outputs at `t` under other inputs, at constant states and contact forces.
@@ -63,11 +66,16 @@ fn observe(
     let evaluation = model.evaluation_under(impulses, inputs, t, y);
     let penetration = model.penetration(&evaluation.pose);
     let torque = inputs.at(t).crank_torque;
+    observer.outputs(&evaluation, &contacts_of(impulses), &penetration, torque)
+}
+
+/// Contacts are closed where an impulse acts.
+fn contacts_of(impulses: &Impulses) -> Contacts {
     let mut contacts = Contacts::default();
     for (index, contact) in contacts.iter_mut().enumerate().take(CONTACTS) {
         contact.closed = impulses.acts(index);
     }
-    observer.outputs(&evaluation, &contacts, &penetration, torque)
+    contacts
 }
 
 impl Motion for TimeStepping {
@@ -120,6 +128,16 @@ impl Motion for TimeStepping {
 
     fn output_sensitivity(&mut self, t: f64, seed: Inputs, _: Side) -> Outputs {
         sensitivity(seed, |inputs| self.observe_under(t, inputs))
+    }
+
+    fn contacts(&mut self, t: f64, _: Side) -> ContactReport {
+        let (solver, inputs) = (self.integrator.state(), self.inputs());
+        let after = contacts_of(&solver.front().discrete);
+        let before = if t >= solver.front().t { contacts_of(&solver.start().discrete) } else { after };
+        let model = self.model.as_ref();
+        let (states, impulses) = self.integrator.state_at(model, t);
+        let conditions = Conditions { contacts: contacts_of(&impulses), inputs };
+        self.watch.report(&Instant { model, conditions: &conditions, time: t, states }, &before, &after)
     }
 
     fn write_states(&mut self, t: f64, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {

@@ -2,10 +2,14 @@
 
 use crate::importer::{Handle, Options, Slave};
 use slidercrank::fmi::v3::Status;
+use slidercrank::model_description::clocks::FIRST_CLOCK;
+use slidercrank::model_description::exchange::FIRST_INDICATOR;
 use std::f64::consts::TAU;
 
 const SPEED: f64 = 5000.0 * TAU / 60.0;
 const STEP: f64 = 1e-4;
+/// Place of the slider pin's contact.
+const SLIDER_PIN: u32 = 2;
 
 /// The published benchmark: speed drive at 5000 rpm, play of 0.5 mm in the slider pin.
 fn benchmark(options: Options) -> Slave {
@@ -50,9 +54,14 @@ fn the_first_touch_of_the_worn_pin_is_where_it_was_published() {
     assert!((speed.abs() - 4.38578).abs() < 5e-6, "{speed}");
     assert!(slave.get("joint.C.penetration").abs() < 1e-12);
     assert_eq!(slave.enter_event_mode(), Status::Ok);
+    // The contact's clock is active until the update, and no other joint has one.
+    assert_eq!(slave.try_clocks(&[FIRST_CLOCK + SLIDER_PIN]), Ok(vec![true]));
+    assert_eq!(slave.try_clocks(&[FIRST_CLOCK + SLIDER_PIN, FIRST_CLOCK]), Err(Status::Error));
+    assert!(slave.line().text.contains("no contact of this clock"));
     // Nothing jumps before the update.
     assert_eq!(before, (slave.picture(), slave.boolean("joint.C.contact"), slave.integer("solver.events")));
     assert_eq!(slave.update_discrete_states(), Status::Ok);
+    assert_eq!(slave.try_clocks(&[FIRST_CLOCK + SLIDER_PIN]), Ok(vec![false]));
     // Right limit: in contact at the same instant; what has no jump has the same bits.
     assert!(slave.boolean("joint.C.contact") && slave.integer("solver.events") == 1);
     assert_eq!(slave.get("crank.angle").to_bits(), (SPEED * told.time).to_bits());
@@ -135,4 +144,65 @@ fn rates_and_sensitivities_are_those_of_the_side_shown() {
     slave.handle_event();
     let after = slave.rate("joint.C.force.x").expect("a rate");
     assert_ne!(before.to_bits(), after.to_bits(), "a force begins to grow at a touch");
+}
+
+#[test]
+fn the_clock_of_each_contact_tells_which_one_closes_or_opens() {
+    let slave = Slave::new(Options::EVENTS);
+    assert_eq!(slave.enter(), Status::Ok);
+    for joint in ["A", "B", "C", "T"] {
+        assert_eq!(slave.set_enumeration(&format!("joint.{joint}.model"), 2), Status::Ok);
+    }
+    assert_eq!(slave.set("crank.speed_start", 500.0), Status::Ok);
+    let all: Vec<u32> = (FIRST_CLOCK..).take(7).collect();
+    assert_eq!(slave.try_clocks(&all), Ok(vec![false; 7]), "in initialization mode");
+    slave.ready(true);
+    assert_eq!(slave.try_clocks(&all), Err(Status::Error), "in step mode");
+    slave.lines();
+    let closed = |slave: &Slave| {
+        let pins = ["A", "B", "C"].map(|pin| slave.boolean(&format!("joint.{pin}.contact")));
+        (pins, slave.integer("joint.T.contacts"))
+    };
+    let (mut time, mut ticks) = (0.0, [0; 7]);
+    while time < 0.01 {
+        let told = slave.step(time, STEP);
+        time = told.time;
+        let (depths, touching) = slave.corners();
+        assert_eq!(slave.integer("joint.T.contacts"), touching.iter().filter(|touches| **touches).count() as i32);
+        assert_eq!(slave.get("joint.T.penetration"), depths.into_iter().fold(f64::NEG_INFINITY, f64::max));
+        assert!(depths.iter().zip(touching).all(|(depth, touches)| depth.abs() < 1e-10 || (*depth > 0.0) == touches));
+        if !told.event {
+            continue;
+        }
+        let (pins, corners) = closed(&slave);
+        assert_eq!(slave.enter_event_mode(), Status::Ok);
+        let active = slave.try_clocks(&all).expect("clocks");
+        assert!(active.contains(&true));
+        slave.handle_event();
+        let after = closed(&slave);
+        for pin in 0..3 {
+            assert_eq!(active[pin], pins[pin] != after.0[pin], "pin {pin} at {time}");
+        }
+        let changed: Vec<bool> =
+            touching.iter().zip(slave.corners().1).map(|(before, after)| *before != after).collect();
+        assert_eq!(active[3..], changed);
+        let corner_ticks = active[3..].iter().filter(|active| **active).count();
+        assert!(corner_ticks as i32 >= (after.1 - corners).abs());
+        assert_eq!(corner_ticks % 2, (after.1 - corners).unsigned_abs() as usize % 2);
+        ticks.iter_mut().zip(active).for_each(|(ticks, active)| *ticks += i32::from(active));
+    }
+    assert!(ticks[..3].iter().all(|ticks| *ticks > 0) && ticks[3..].iter().sum::<i32>() > 0, "{ticks:?}");
+    assert_eq!(ticks.iter().sum::<i32>(), slave.integer("solver.events"));
+}
+
+#[test]
+fn an_event_indicator_is_the_gap_over_the_clearance() {
+    let slave = benchmark(Options { early_return: false, ..Options::EVENTS });
+    let indicator = || slave.try_get_reference(FIRST_INDICATOR).expect("an indicator");
+    for step in 0..40_i32 {
+        slave.step(f64::from(step) * STEP, STEP);
+        let gap = -slave.get("joint.C.penetration") / 5e-4;
+        assert!((indicator() - gap).abs() < 1e-6, "{} for {gap}", indicator());
+        assert_eq!(slave.boolean("joint.C.contact"), indicator() <= 0.0);
+    }
 }

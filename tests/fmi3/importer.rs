@@ -4,6 +4,7 @@ pub use crate::host::vr;
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;
 use slidercrank::fmi::v3::abi::types::*;
+use slidercrank::model_description::arrays::{CONTACTS, PENETRATIONS};
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, c_int, c_void};
 use std::ops::Deref;
@@ -142,6 +143,18 @@ impl Slave {
         Ok(Self { handle: Handle(instance), environment })
     }
 
+    /// An instance whose importer integrates.
+    pub fn exchanging() -> Self {
+        let (environment, token) = (Box::<Environment>::default(), crate::host::guid());
+        // SAFETY: strings and callback are valid; the environment lives as long as the instance.
+        let instance = unsafe {
+            let environment = (&raw const *environment).cast_mut().cast();
+            fmi3InstantiateModelExchange(c"model".as_ptr(), token.as_ptr(), null(), 0, 1, environment, Some(log))
+        };
+        assert!(!instance.is_null(), "{:?}", environment.lines.take());
+        Self { handle: Handle(instance), environment }
+    }
+
     pub fn new(options: Options) -> Self {
         Self::try_new(options, &crate::host::guid()).unwrap_or_else(|lines| panic!("{lines:?}"))
     }
@@ -200,6 +213,8 @@ calls! {
     exit = fmi3ExitInitializationMode();
     enter_event_mode = fmi3EnterEventMode();
     enter_step_mode = fmi3EnterStepMode();
+    enter_continuous_time_mode = fmi3EnterContinuousTimeMode();
+    set_time = fmi3SetTime(time: f64);
     terminate = fmi3Terminate();
     reset = fmi3Reset();
     set_state = fmi3SetFMUState(state: fmi3FMUState);
@@ -283,6 +298,27 @@ impl Handle {
 
     pub fn step(&self, point: f64, size: f64) -> Told {
         self.try_step(point, size).unwrap_or_else(|status| panic!("{status:?} at {point}"))
+    }
+
+    /// Penetration of each corner of the slider, and whether the corner touches.
+    pub fn corners(&self) -> ([f64; 4], [bool; 4]) {
+        let (mut depths, mut touching) = ([f64::NAN; 4], [7; 4]);
+        // SAFETY: live instance, arrays of the lengths said.
+        unsafe {
+            assert_eq!(fmi3GetFloat64(self.0, &PENETRATIONS, 1, depths.as_mut_ptr(), 4), Status::Ok);
+            assert_eq!(fmi3GetBoolean(self.0, &CONTACTS, 1, touching.as_mut_ptr(), 4), Status::Ok);
+        }
+        assert!(touching.iter().all(|value| *value < 2));
+        (depths, touching.map(|value| value == 1))
+    }
+
+    /// Whether clocks are active.
+    pub fn try_clocks(&self, references: &[u32]) -> Result<Vec<bool>, Status> {
+        let mut values = vec![7; references.len()];
+        // SAFETY: live instance, arrays of the length said.
+        let status = unsafe { fmi3GetClock(self.0, references.as_ptr(), references.len(), values.as_mut_ptr()) };
+        assert!(values.iter().all(|value| if status == Status::Ok { *value < 2 } else { *value == 7 }));
+        if status == Status::Ok { Ok(values.iter().map(|value| *value == 1).collect()) } else { Err(status) }
     }
 
     pub fn update_discrete_states(&self) -> Status {

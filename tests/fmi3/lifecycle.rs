@@ -11,6 +11,7 @@ const READING: &[Call] = &[
     GetFloat32, GetFloat64, GetInt8, GetUInt8, GetInt16, GetUInt16, GetInt32, GetUInt32, GetInt64, GetUInt64,
     GetBoolean, GetString, GetBinary,
 ];
+const WRITING_CONTINUOUS: &[Call] = &[SetFloat32, SetFloat64];
 const WRITING: &[Call] = &[
     SetFloat32, SetFloat64, SetInt8, SetUInt8, SetInt16, SetUInt16, SetInt32, SetUInt32, SetInt64, SetUInt64,
     SetBoolean, SetString, SetBinary,
@@ -18,16 +19,26 @@ const WRITING: &[Call] = &[
 const DERIVING: &[Call] = &[GetDirectionalDerivative, GetAdjointDerivative];
 const SETTABLE: &[Call] = &[GetVersion, SetDebugLogging, FreeInstance, Reset];
 
-/// FMI 3.0, 2.3.1 to 2.3.8 and 4.2.1, a state at a time.
+const WATCHING: &[Call] =
+    &[GetContinuousStates, GetContinuousStateDerivatives, GetNominalsOfContinuousStates, GetEventIndicators];
+const COUNTING: &[Call] = &[GetNumberOfContinuousStates, GetNumberOfEventIndicators];
+
+/// FMI 3.0, 2.3.1 to 2.3.8, 3.2.1 and 4.2.1, a state at a time.
 fn allowed(state: State) -> Vec<&'static [Call]> {
     match state {
-        State::StartAndEnd => vec![&[GetVersion, InstantiateCoSimulation]],
-        State::Instantiated => vec![SETTABLE, SAVING, READING, WRITING, &[EnterInitializationMode]],
+        State::StartAndEnd => vec![&[GetVersion, InstantiateCoSimulation, InstantiateModelExchange]],
+        State::Instantiated => vec![SETTABLE, SAVING, READING, WRITING, COUNTING, &[EnterInitializationMode]],
         State::InitializationMode => {
-            vec![SETTABLE, SAVING, READING, WRITING, DERIVING, &[ExitInitializationMode]]
+            let own: &[Call] = &[ExitInitializationMode, GetClock];
+            vec![SETTABLE, SAVING, READING, WRITING, DERIVING, COUNTING, WATCHING, own]
         }
         State::EventMode => {
-            vec![SETTABLE, SAVING, READING, WRITING, DERIVING, &[UpdateDiscreteStates, EnterStepMode, Terminate]]
+            let own: &[Call] = &[UpdateDiscreteStates, EnterStepMode, EnterContinuousTimeMode, Terminate, GetClock];
+            vec![SETTABLE, SAVING, READING, WRITING, DERIVING, COUNTING, WATCHING, own]
+        }
+        State::ContinuousTimeMode => {
+            let own: &[Call] = &[SetTime, SetContinuousStates, CompletedIntegratorStep, EnterEventMode, Terminate];
+            vec![SETTABLE, SAVING, READING, WRITING_CONTINUOUS, DERIVING, COUNTING, WATCHING, own]
         }
         State::StepMode => vec![
             SETTABLE,
@@ -41,7 +52,9 @@ fn allowed(state: State) -> Vec<&'static [Call]> {
             vec![SETTABLE, SAVING, READING, WRITING, DERIVING, &[EnterEventMode, Terminate, GetOutputDerivatives]]
         }
         State::IntermediateUpdateMode => vec![READING, WRITING, &[GetVersion, GetOutputDerivatives]],
-        State::Terminated => vec![SETTABLE, SAVING, READING, DERIVING, &[GetOutputDerivatives]],
+        State::Terminated => {
+            vec![SETTABLE, SAVING, READING, DERIVING, COUNTING, WATCHING, &[GetOutputDerivatives]]
+        }
         State::Fatal => vec![&[FreeInstance]],
     }
 }

@@ -8,6 +8,7 @@ mod host;
 
 mod derivatives;
 mod events;
+mod exchange;
 mod importer;
 mod lifecycle;
 mod product;

@@ -3,6 +3,7 @@
 use crate::importer::{Options, Slave, vr};
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;
+use slidercrank::model_description::arrays::PENETRATIONS;
 
 fn logging() -> Options<'static> {
     Options { logging: true, ..Options::default() }
@@ -118,4 +119,15 @@ fn a_defined_stop_time_bounds_the_last_step() {
     assert_eq!(slave.try_step(0.0, 1.5), Err(Status::Error));
     assert!(slave.line().text.contains("stopTime"));
     assert_eq!(slave.step(0.0, 1.0).time, 1.0);
+}
+
+#[test]
+fn an_array_lies_among_scalars_with_all_its_values() {
+    let slave = Slave::running(logging());
+    let (references, mut values) = ([vr("slider.mass"), PENETRATIONS, vr("slider.x")], [f64::NAN; 6]);
+    // SAFETY: live instance, arrays of the lengths said.
+    let status = unsafe { fmi3GetFloat64(slave.0, references.as_ptr(), 3, values.as_mut_ptr(), 6) };
+    assert_eq!(status, Status::Ok);
+    // An ideal guide.
+    assert_eq!(values, [0.14, 0.0, 0.0, 0.0, 0.0, slave.get("slider.x")]);
 }

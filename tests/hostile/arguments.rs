@@ -139,21 +139,24 @@ pub fn arguments(call: Call, stage: &Stage) -> Vec<Argument> {
         SetTime => vec![time()],
         SetContinuousStates => {
             let faulty = NOT_FINITE.map(|number| (vec![1.0, number], "continuous state 2 = "));
-            sized(array(stage, "x", vec![1.0; STATES], faulty.to_vec()), "nx", STATES)
+            sized(array(stage, "x", vec![1.0; STATES], faulty.to_vec()), "continuous states", STATES)
         }
-        GetContinuousStates => sized(array(stage, "x", vec![0.0; STATES], vec![]), "nx", STATES),
-        GetDerivatives => sized(array(stage, "derivatives", vec![0.0; STATES], vec![]), "nx", STATES),
-        GetNominalsOfContinuousStates => sized(array(stage, "x_nominal", vec![0.0; STATES], vec![]), "nx", STATES),
-        GetEventIndicators => sized(array(stage, "eventIndicators", vec![0.0; STATES], vec![]), "ni", 1),
+        GetContinuousStates => sized(array(stage, "x", vec![0.0; STATES], vec![]), "continuous states", STATES),
+        GetDerivatives => sized(array(stage, "derivatives", vec![0.0; STATES], vec![]), "continuous states", STATES),
+        GetNominalsOfContinuousStates => {
+            sized(array(stage, "x_nominal", vec![0.0; STATES], vec![]), "continuous states", STATES)
+        }
+        GetEventIndicators => sized(array(stage, "eventIndicators", vec![0.0; STATES], vec![]), "event indicators", 1),
         _ => vec![],
     });
     list
 }
 
-/// An array, and its length, which has to be `length`.
-fn sized(entries: Argument, name: &str, length: usize) -> Vec<Argument> {
+/// An array of what is counted as `of`, and its length, which has to be `length`.
+fn sized(entries: Argument, of: &str, length: usize) -> Vec<Argument> {
     let mut lengths = vec![good(Word::Size(length))];
-    lengths.extend([0, length + 1].map(|other| bad(Word::Size(other), format!("'{name}' is {other}, not {length}"))));
+    lengths
+        .extend([0, length + 1].map(|other| bad(Word::Size(other), format!("{other} {of}, where there are {length}"))));
     lengths.extend(HUGE.map(|length| bad(Word::Size(length), format!("{length} elements"))));
     vec![entries.counted_by(2), lengths.into()]
 }

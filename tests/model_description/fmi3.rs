@@ -2,7 +2,9 @@
 
 use crate::made;
 use roxmltree::{Document, Node};
+use slidercrank::fmi::slave::states::{clocks, exchange};
 use slidercrank::fmi::v3::variables::time_reference;
+use slidercrank::model_description::exchange::FIRST_INDICATOR;
 use slidercrank::model_description::{load, tables, terminals, xml, xml_v3};
 use slidercrank::scene::{Scene, slot};
 use std::{env, fs};
@@ -12,7 +14,10 @@ const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/");
 fn description() -> String {
     let declaration = load().expect("a declaration");
     let (starts, guid): (Vec<f64>, _) = (tables::starts(&declaration).collect(), slot::guid(&Scene::default()));
-    let package = xml::Package { guid: &guid, ..xml::Package::anonymous(&declaration, &starts) };
+    let scene = Scene::default();
+    let (exchange, clocks) = (exchange(&scene), clocks(&scene));
+    let anonymous = xml::Package::anonymous(&declaration, &starts);
+    let package = xml::Package { guid: &guid, exchange: exchange.as_ref(), clocks: &clocks, ..anonymous };
     xml_v3::write(&declaration, &package).expect("a description")
 }
 
@@ -41,11 +46,19 @@ fn every_variable_is_that_of_fmi2_and_the_time_comes_on_top() {
     let of = |document: &Document, name: &str| {
         document.descendants().filter(|node| node.has_tag_name(name)).map(|node| node.id()).collect::<Vec<_>>()
     };
-    let mut old: Vec<Node> = of(&two, "ScalarVariable").into_iter().filter_map(|id| two.get_node(id)).collect();
-    // States and their derivatives are there for model exchange, which FMI 3.0's file does not offer.
-    old.retain(|node| node.attribute("name").is_none_or(|name| !name.contains("state.")));
+    let old: Vec<Node> = of(&two, "ScalarVariable").into_iter().filter_map(|id| two.get_node(id)).collect();
     let list = of(&three, "ModelVariables").into_iter().filter_map(|id| three.get_node(id)).next().expect("variables");
-    let new: Vec<Node> = list.children().filter(Node::is_element).collect();
+    let mut new: Vec<Node> = list.children().filter(Node::is_element).collect();
+    // An ideal mechanism has one event indicator, which is a variable here, and no clocks.
+    for (name, kind) in [("joint.T.corner.contact", "Boolean"), ("joint.T.corner.penetration", "Float64")] {
+        let array = new.pop().expect("variables");
+        assert_eq!((array.attribute("name"), array.tag_name().name()), (Some(name), kind));
+        let dimension = array.first_element_child().and_then(|dimension| dimension.attribute("start"));
+        assert_eq!(dimension, Some("4"));
+    }
+    let indicator = new.pop().expect("variables");
+    assert_eq!(indicator.attribute("name"), Some("indicator.change_point"));
+    assert_eq!(indicator.attribute("valueReference"), Some(FIRST_INDICATOR.to_string().as_str()));
     let (time, new) = new.split_first().expect("variables");
     assert_eq!(time.attribute("causality"), Some("independent"));
     assert_eq!(time.attribute("valueReference"), Some(time_reference().to_string().as_str()));

@@ -55,7 +55,7 @@ pub enum Kind {
     String,
     /// An fmi2Integer with names.
     Enumeration,
-    /// A type that only FMI 3.0 has; this program does not read its values.
+    /// A type that only FMI 3.0 has, or an array; this program does not read its values.
     Other,
 }
 

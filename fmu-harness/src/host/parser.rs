@@ -92,6 +92,9 @@ impl<'a> Parser<'a> {
                 self.open_variable = attributes.clone();
                 self.variable(&name, attributes)?;
             }
+            (["ModelVariables", _], "Dimension") => {
+                self.found.variables.last_mut().into_iter().for_each(|array| array.kind = Kind::Other);
+            }
             (["ModelStructure"], "Output" | "ContinuousStateDerivative" | "InitialUnknown") => {
                 let unknown = self.found.unknown_by_reference(&attributes);
                 let list = match name.as_str() {

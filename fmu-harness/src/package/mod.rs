@@ -6,6 +6,7 @@ pub mod elf;
 mod licences;
 pub mod mach_o;
 pub mod platform;
+pub mod references;
 pub mod tools;
 mod version;
 
@@ -16,7 +17,7 @@ use anyhow::{Context, Result};
 use archive::Part;
 use build::{Levels, Library};
 use platform::Platform;
-use slidercrank::fmi::slave::states::exchange;
+use slidercrank::fmi::slave::states::{clocks, exchange};
 use slidercrank::fmi::v2::description::documentation;
 use slidercrank::model_description::raw::Experiment;
 use slidercrank::model_description::rows::Declaration;
@@ -140,6 +141,7 @@ impl Stock {
         if let Some(table) = &scene.rod.flexible.table {
             parts.push(Part::new(format!("documentation/{MODES}"), write_table(table)));
         }
+        parts.extend(references::parts(&scenario.file)?);
         Ok(parts)
     }
 }
@@ -188,7 +190,15 @@ fn description(version: Version, declaration: &Declaration, scenario: &Scenario,
     let guid = slot::guid(scene);
     let exchange = exchange(scene);
     let made = xml::made(declaration, epoch()?);
-    let package = xml::Package { guid: &guid, starts, exchange: exchange.as_ref(), experiment, made: Some(&made) };
+    let clocks = if version.has_clocks() { clocks(scene) } else { vec![] };
+    let package = xml::Package {
+        guid: &guid,
+        starts,
+        exchange: exchange.as_ref(),
+        clocks: &clocks,
+        experiment,
+        made: Some(&made),
+    };
     version.description(declaration, &package)
 }
 

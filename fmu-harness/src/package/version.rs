@@ -22,14 +22,22 @@ pub enum Version {
     /// FMI 3.0.
     #[value(name = "3")]
     Fmi3,
+    /// FMI 3.0 without the clocks of contacts, for hosts that have no event mode or cannot have clocks
+    #[value(name = "3-without-clocks")]
+    Fmi3WithoutClocks,
 }
 
 impl Version {
+    /// Whether contacts have clocks.
+    pub fn has_clocks(self) -> bool {
+        self == Self::Fmi3
+    }
+
     /// modelDescription.xml.
     pub fn description(self, declaration: &Declaration, package: &Package) -> Result<String> {
         Ok(match self {
             Self::Fmi2 => xml::write(declaration, package)?,
-            Self::Fmi3 => xml_v3::write(declaration, package)?,
+            Self::Fmi3 | Self::Fmi3WithoutClocks => xml_v3::write(declaration, package)?,
         })
     }
 
@@ -37,7 +45,7 @@ impl Version {
     pub fn pictures(self, declaration: &Declaration) -> Result<Vec<Part>> {
         Ok(match self {
             Self::Fmi2 => vec![Part::new("model.png", PICTURE)],
-            Self::Fmi3 => vec![
+            Self::Fmi3 | Self::Fmi3WithoutClocks => vec![
                 Part::new("terminalsAndIcons/terminalsAndIcons.xml", terminals::write(declaration)?),
                 Part::new("terminalsAndIcons/icon.png", PICTURE),
                 Part::new("terminalsAndIcons/icon.svg", DRAWING),
@@ -52,10 +60,10 @@ impl Version {
             (Self::Fmi2, Platform::Linux64 | Platform::LinuxAarch64) => &["linux64"],
             (Self::Fmi2, Platform::Win64) => &["win64"],
             (Self::Fmi2, Platform::Darwin64) => &["darwin64"],
-            (Self::Fmi3, Platform::Linux64) => &["x86_64-linux"],
-            (Self::Fmi3, Platform::LinuxAarch64) => &["aarch64-linux"],
-            (Self::Fmi3, Platform::Win64) => &["x86_64-windows"],
-            (Self::Fmi3, Platform::Darwin64) => &["x86_64-darwin", "aarch64-darwin"],
+            (Self::Fmi3 | Self::Fmi3WithoutClocks, Platform::Linux64) => &["x86_64-linux"],
+            (Self::Fmi3 | Self::Fmi3WithoutClocks, Platform::LinuxAarch64) => &["aarch64-linux"],
+            (Self::Fmi3 | Self::Fmi3WithoutClocks, Platform::Win64) => &["x86_64-windows"],
+            (Self::Fmi3 | Self::Fmi3WithoutClocks, Platform::Darwin64) => &["x86_64-darwin", "aarch64-darwin"],
         }
     }
 }

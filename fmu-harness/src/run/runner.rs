@@ -28,8 +28,7 @@ impl<'a> Runner<'a> {
         let description = fmu.description();
         let reference = |input: &Input| input_reference(description.variable(&input.name)?);
         let inputs = experiment.inputs.iter().map(reference).collect::<Result<Vec<u32>>>()?;
-        let outputs: Vec<&Variable> =
-            description.variables.iter().filter(|variable| variable.causality() == "output").collect();
+        let outputs: Vec<&Variable> = description.variables.iter().filter(is_recorded).collect();
         let angle = outputs.iter().position(|variable| variable.name == ANGLE);
         let wants_angle = experiment.inputs.iter().any(Input::wants_angle);
         ensure!(angle.is_some() || !wants_angle, "an input depends on `{ANGLE}`, which this FMU does not give");
@@ -143,4 +142,9 @@ fn input_reference(variable: &Variable) -> Result<u32> {
         variable.kind
     );
     Ok(variable.reference)
+}
+
+/// Outputs whose values this program reads: clocks and arrays are left out.
+fn is_recorded(variable: &&Variable) -> bool {
+    variable.causality() == "output" && variable.kind != Kind::Other
 }

@@ -1,7 +1,7 @@
 //! Every mechanism as an FMU of its own: in model exchange the package decides which states there are.
 
 use anyhow::Result;
-use fmu_harness::package::Stock;
+use fmu_harness::package::{Stock, Version};
 use fmu_harness::scenes::Scenario;
 use slidercrank::scene::read::read;
 
@@ -65,12 +65,12 @@ fn texts() -> Vec<(String, String)> {
     texts
 }
 
-/// Every mechanism by name, packaged by `stock`.
-pub fn packages(stock: &Stock) -> impl Iterator<Item = (String, Result<Vec<u8>>)> {
-    texts().into_iter().map(|(name, text)| {
+/// Every mechanism by name, packaged by `stock` for a version of FMI.
+pub fn packages(version: Version, stock: &Stock) -> impl Iterator<Item = (String, Result<Vec<u8>>)> {
+    texts().into_iter().map(move |(name, text)| {
         let package = || -> Result<Vec<u8>> {
             let file = read(&text, &name)?;
-            Ok(stock.package(&Scenario { name: name.clone(), text: text.clone(), file })?.bytes)
+            Ok(stock.package_for(version, &Scenario { name: name.clone(), text: text.clone(), file })?.bytes)
         };
         let bytes = package();
         (name, bytes)

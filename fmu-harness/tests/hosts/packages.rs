@@ -15,8 +15,10 @@ use std::sync::OnceLock;
 
 /// The scene that the harness runs, as `test_simulate.py` does.
 const RUN: &str = "wornpin";
-/// Folder of the mechanisms.
-const MECHANISMS: &str = "mechanisms";
+/// A scene whose slider touches the guide with its corners.
+const CORNERS: &str = "guideplay";
+/// Folders of the mechanisms.
+const MECHANISMS: [(Version, &str); 2] = [(Version::Fmi2, "mechanisms"), (Version::Fmi3, "mechanisms3")];
 const STOP: f64 = 0.024;
 const STEP: f64 = 1e-5;
 
@@ -30,11 +32,19 @@ pub fn directory() -> &'static Path {
                 eprintln!("{scene} cannot be packaged: {error:#}");
             }
         }
-        if let Err(error) = mechanisms(&directory.join(MECHANISMS)) {
-            eprintln!("the mechanisms cannot be packaged: {error:#}");
+        for (version, folder) in MECHANISMS {
+            if let Err(error) = mechanisms(version, &directory.join(folder)) {
+                eprintln!("the mechanisms cannot be packaged: {error:#}");
+            }
         }
-        if let Err(error) = package_for_fmi3(&directory) {
-            eprintln!("{RUN} cannot be packaged for FMI 3.0: {error:#}");
+        for (scene, version, ending) in [
+            (RUN, Version::Fmi3, "3"),
+            (RUN, Version::Fmi3WithoutClocks, "3-without-clocks"),
+            (CORNERS, Version::Fmi3, "3"),
+        ] {
+            if let Err(error) = package_for_fmi3(scene, version, &directory.join(format!("{scene}{ending}.fmu"))) {
+                eprintln!("{scene} cannot be packaged for FMI 3.0: {error:#}");
+            }
         }
         if let Err(error) = couple(&directory) {
             eprintln!("{PRESS} cannot be packaged with its companions: {error:#}");
@@ -52,18 +62,17 @@ fn package(scene: &str, directory: &Path) -> Result<()> {
 }
 
 /// As portable packages, which are half as large.
-fn mechanisms(directory: &Path) -> Result<()> {
+fn mechanisms(version: Version, directory: &Path) -> Result<()> {
     fs::create_dir_all(directory)?;
-    for (name, bytes) in packages(&Stock::build()?.portable()) {
+    for (name, bytes) in packages(version, &Stock::build()?.portable()) {
         replace(&directory.join(format!("{name}.fmu")), |file| Ok(fs::write(file, bytes?)?))?;
     }
     Ok(())
 }
 
-/// `wornpin3.fmu`
-fn package_for_fmi3(directory: &Path) -> Result<()> {
-    let package = Stock::build().and_then(|stock| stock.package_for(Version::Fmi3, &Scenario::find(RUN)?));
-    replace(&directory.join(format!("{RUN}3.fmu")), |file| package?.save(file))
+fn package_for_fmi3(scene: &str, version: Version, file: &Path) -> Result<()> {
+    let package = Stock::build().and_then(|stock| stock.package_for(version, &Scenario::find(scene)?));
+    replace(file, |file| package?.save(file))
 }
 
 fn couple(directory: &Path) -> Result<()> {

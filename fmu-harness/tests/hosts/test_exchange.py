@@ -1,6 +1,7 @@
 """Model exchange: hosts whose own integrators move every mechanism as co-simulation does."""
 
 import os
+import zipfile
 from ctypes import c_double
 from pathlib import Path
 
@@ -10,12 +11,13 @@ import pytest
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Model
 from fmpy.validation import validate_fmu
+from lxml import etree
 from pathsim import Connection, Simulation
 from pathsim.blocks import Constant, Scope
 from pathsim.solvers import RKDP54
 from pathsim_fmi import ModelExchangeFMU
 
-MECHANISMS = Path(os.environ["SLIDERCRANK_FMUS"]) / "mechanisms"
+FMUS = Path(os.environ["SLIDERCRANK_FMUS"])
 SIXTEEN = ["".join(c for bit, c in enumerate("ABCT") if bits >> bit & 1) for bits in range(16)]
 NAMES = [f"joints-{letters}" for letters in SIXTEEN] + ["bristles", "faces", "flexible", "driven", "prescribed"]
 
@@ -25,8 +27,8 @@ OUTPUTS = ["slider.x", "slider.v", "crank.angle", "crank.speed"]
 BOUNDS = dict(zip(OUTPUTS, [4e-9, 3e-4, 2e-7, 3e-3]))
 
 
-def mechanism(name):
-    file = MECHANISMS / f"{name}.fmu"
+def mechanism(name, version=2):
+    file = FMUS / ("mechanisms" if version == 2 else "mechanisms3") / f"{name}.fmu"
     assert file.is_file(), f"{file} was not packaged"
     return str(file)
 
@@ -65,9 +67,38 @@ def test_fmpys_cvode_moves_every_mechanism_as_co_simulation_does():
     assert events > 100
 
 
-def test_states_of_every_kind_are_described_without_a_complaint():
-    for name in ["joints-ABCT", "bristles", "flexible", "prescribed"]:
-        assert validate_fmu(mechanism(name)) == []
+def test_fmi_3_hands_cvode_the_equations_of_fmi_2_to_the_bit():
+    for name in NAMES:
+        two, three = (simulate(mechanism(name, version), "ModelExchange", 1e-7) for version in (2, 3))
+        assert two.tobytes() == three.tobytes(), name
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_states_of_every_kind_are_described_without_a_complaint(version):
+    for name in ["joints-ABCT", "bristles", "faces", "flexible", "prescribed"]:
+        assert validate_fmu(mechanism(name, version)) == []
+
+
+def test_fmi_3_names_states_indicators_and_clocks():
+    for name, contacts in [("joints-C", ["joint.C"]), ("joints-AT", ["joint.A", *(f"joint.T[{i}]" for i in "1234")])]:
+        two, three = (read_model_description(mechanism(name, version)) for version in (2, 3))
+        states = [[unknown.variable.name for unknown in file.derivatives] for file in (two, three)]
+        assert states[0] == states[1]
+        assert [unknown.variable.derivative.name for unknown in three.derivatives] == [
+            name.removeprefix("der(").removesuffix(")") for name in states[1]
+        ]
+        assert len(three.eventIndicators) == two.numberOfEventIndicators
+        assert [unknown.variable.name for unknown in three.eventIndicators] == [f"indicator.{c}" for c in contacts]
+        clocks = [variable.name for variable in three.modelVariables if variable.type == "Clock"]
+        assert clocks == [c.replace("T[", "T.contact_change[") if "[" in c else f"{c}.contact_change" for c in contacts]
+    rigid = read_model_description(mechanism("rigid", 3))
+    assert rigid.modelExchange is None and not rigid.derivatives and not rigid.eventIndicators
+    # Bristles are straight when their contact opens.
+    for version, element in [(2, "ScalarVariable"), (3, "Float64")]:
+        with zipfile.ZipFile(mechanism("bristles", version)) as archive:
+            variables = etree.fromstring(archive.read("modelDescription.xml")).iter(element)
+        reset = [v.get("name") for v in variables if "true" in (e.get("reinit") for e in v.iter())]
+        assert len(reset) == 5 and all(".bristle" in name for name in reset), reset
 
 
 def test_fmpys_euler_takes_the_events_where_its_steps_end():

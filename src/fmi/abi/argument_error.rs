@@ -12,15 +12,6 @@ pub enum ArgumentError {
     Misaligned(&'static str),
     /// More elements than any sensible call has.
     TooLong(&'static str, usize),
-    /// Not as many elements as there are states or event indicators.
-    Count {
-        /// The argument.
-        argument: &'static str,
-        /// What it says.
-        given: usize,
-        /// What it has to be.
-        expected: usize,
-    },
 }
 
 impl fmt::Display for ArgumentError {
@@ -33,7 +24,6 @@ impl fmt::Display for ArgumentError {
             Self::TooLong(argument, length) => {
                 write!(f, "argument '{argument}' cannot have {length} elements")
             }
-            Self::Count { argument, given, expected } => write!(f, "argument '{argument}' is {given}, not {expected}"),
         }
     }
 }

@@ -70,6 +70,12 @@ impl Permission {
         self.check(variable, true)
     }
 
+    /// Refuses to read something that is read where outputs are.
+    pub fn check_output(self, name: &'static str, causality: &'static str) -> Result<(), VariableError> {
+        let Self { outputs, state, .. } = self;
+        if outputs { Ok(()) } else { Err(VariableError::Moment { name, write: false, causality, state }) }
+    }
+
     fn check(self, variable: &Variable, write: bool) -> Result<(), VariableError> {
         let Self { inputs, outputs, parameters, state } = self;
         let (causality, allowed) = match variable.access {

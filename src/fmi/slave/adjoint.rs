@@ -1,9 +1,9 @@
-//! Adjoint derivatives: the transposed Jacobian of outputs with respect to inputs, times a vector.
+//! Adjoint derivatives: the transposed Jacobian of what [`Slave::directional_derivative`] differentiates, times a vector.
 
 use super::{Error, Permission, Slave};
 
 impl Slave {
-    /// Σᵢ `seeds`ᵢ·∂unknownᵢ/∂knownⱼ for each known j. There are few inputs, so each is asked for by itself.
+    /// Σᵢ `seeds`ᵢ·∂unknownᵢ/∂knownⱼ for each known j. There are few knowns, so each is asked for by itself.
     pub fn adjoint_derivative(
         &mut self,
         permission: Permission,

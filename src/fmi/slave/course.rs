@@ -6,15 +6,26 @@ use super::inputs::InputLines;
 use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
-use crate::simulation::{HostedMechanism, Snapshot};
+use crate::simulation::{ContactReport, HostedMechanism, Snapshot};
+use serde::{Deserialize, Serialize};
 
 /// Kind of interface between a slave and its importer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interface {
     /// The slave integrates.
     CoSimulation,
     /// The importer integrates.
     ModelExchange,
+}
+
+impl Interface {
+    /// Why a function of this kind is refused by a slave of the other kind.
+    pub fn mismatch(self) -> &'static str {
+        match self {
+            Self::CoSimulation => "of co-simulation, and this instance is for model exchange",
+            Self::ModelExchange => "of model exchange, and this instance is for co-simulation",
+        }
+    }
 }
 
 /// A mechanism in motion.
@@ -116,6 +127,14 @@ impl Course {
         match self {
             Self::Own(simulation) => simulation.output_sensitivity(seed),
             Self::Hosted(mechanism) => mechanism.output_sensitivity(seed),
+        }
+    }
+
+    /// The contacts, and which of them change at this instant.
+    pub fn contacts(&mut self) -> ContactReport {
+        match self {
+            Self::Own(simulation) => simulation.contacts(),
+            Self::Hosted(mechanism) => mechanism.contacts(),
         }
     }
 

@@ -7,7 +7,7 @@
 use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
-use crate::simulation::{Side, Simulation, SimulationError, Snapshot};
+use crate::simulation::{ContactReport, Side, Simulation, SimulationError, Snapshot};
 
 /// Assembles mechanisms.
 pub trait Engine: Sync {
@@ -56,6 +56,8 @@ pub trait Run: Send {
     fn output_rates(&mut self) -> Outputs;
     /// As [`Simulation::output_sensitivity`].
     fn output_sensitivity(&mut self, seed: Inputs) -> Outputs;
+    /// As [`Simulation::contacts`].
+    fn contacts(&mut self) -> ContactReport;
     /// As [`Simulation::write_states`].
     fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize;
     /// As [`Simulation::snapshot`].
@@ -106,6 +108,10 @@ impl Run for Simulation {
 
     fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.output_sensitivity(seed)
+    }
+
+    fn contacts(&mut self) -> ContactReport {
+        self.contacts()
     }
 
     fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {

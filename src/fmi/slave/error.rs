@@ -27,6 +27,15 @@ pub enum Error {
     Simulation(SimulationError),
     /// The call is for a slave of the other kind of interface.
     Interface,
+    /// An array has not as many entries as the slave has states or event indicators.
+    Count {
+        /// What the entries stand for.
+        of: &'static str,
+        /// Entries given.
+        given: usize,
+        /// Entries needed.
+        needed: usize,
+    },
 }
 
 impl Error {
@@ -38,6 +47,7 @@ impl Error {
             | Self::SavedState(_)
             | Self::Scene(_)
             | Self::Interface
+            | Self::Count { .. }
             | Self::Simulation(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => Severity::Error,
             Self::OutputNotFinite(..)
             | Self::NoDerivative(_)

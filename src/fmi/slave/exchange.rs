@@ -3,6 +3,7 @@
 use super::Slave;
 use super::access::{Permission, finite, finite_output, real_input, real_output, variable};
 use super::course::{Course, Interface};
+use super::engine::Engine;
 use super::error::{Error, TimeError, VariableError};
 use super::states::{can_be_exchanged, check_structure};
 use super::variables::{Access, DERIVATIVES, STATES, Variable};
@@ -12,6 +13,17 @@ use crate::scene::Scene;
 use crate::simulation::{Direction, HostedMechanism, Update};
 
 impl Slave {
+    /// A slave of this kind of interface, with the start values of the packaged scene.
+    ///
+    /// # Errors
+    /// As [`Slave::for_exchange`].
+    pub fn of(interface: Interface, packaged: Scene, newer: Option<&'static dyn Engine>) -> Result<Self, Error> {
+        match interface {
+            Interface::CoSimulation => Ok(Self::new(packaged, newer)),
+            Interface::ModelExchange => Self::for_exchange(packaged),
+        }
+    }
+
     /// A slave with the start values of the packaged scene, whose importer integrates.
     ///
     /// # Errors
@@ -58,8 +70,9 @@ impl Slave {
         Ok(self.hosted()?.indicators())
     }
 
-    /// Sets the continuous states, of which there are as many.
+    /// Sets the continuous states.
     pub fn set_states(&mut self, states: &[f64]) -> Result<(), Error> {
+        self.check_states(states.len())?;
         for (variable, state) in STATES.iter().zip(states) {
             finite(variable, *state)?;
         }
@@ -88,20 +101,23 @@ impl Slave {
         }
     }
 
-    /// Writes the continuous states, of which there are as many.
+    /// Writes the continuous states.
     pub fn write_states(&mut self, states: &mut [f64]) -> Result<(), Error> {
+        self.check_states(states.len())?;
         states.copy_from_slice(self.hosted()?.states());
         Ok(())
     }
 
-    /// Writes the nominal values of the states, of which there are as many.
+    /// Writes the nominal values of the states.
     pub fn write_nominals(&mut self, nominals: &mut [f64]) -> Result<(), Error> {
+        self.check_states(nominals.len())?;
         nominals.copy_from_slice(self.hosted()?.nominals());
         Ok(())
     }
 
-    /// Writes the derivatives of the states, of which there are as many; none if one is not finite.
+    /// Writes the derivatives of the states; none if one is not finite.
     pub fn write_derivatives(&mut self, derivatives: &mut [f64]) -> Result<(), Error> {
+        self.check_states(derivatives.len())?;
         let mut rates = [0.0; MAX_STATES];
         let rates = &mut rates[..derivatives.len()];
         self.hosted()?.write_rates(rates);
@@ -112,8 +128,9 @@ impl Slave {
         Ok(())
     }
 
-    /// Writes the event indicators, of which there are as many.
+    /// Writes the event indicators.
     pub fn write_indicators(&mut self, indicators: &mut [f64]) -> Result<(), Error> {
+        check_count("event indicators", indicators.len(), self.indicator_count()?)?;
         self.hosted()?.write_indicators(indicators);
         Ok(())
     }
@@ -185,6 +202,10 @@ impl Slave {
         Ok(())
     }
 
+    fn check_states(&mut self, given: usize) -> Result<(), Error> {
+        check_count("continuous states", given, self.state_count()?)
+    }
+
     /// The mechanism that the importer moves.
     fn hosted(&mut self) -> Result<&mut HostedMechanism, Error> {
         match self.live()? {
@@ -193,4 +214,8 @@ impl Slave {
             Course::Own(_) => Err(Error::Interface),
         }
     }
+}
+
+fn check_count(of: &'static str, given: usize, needed: usize) -> Result<(), Error> {
+    if given == needed { Ok(()) } else { Err(Error::Count { of, given, needed }) }
 }

@@ -253,7 +253,8 @@ impl Slave {
     }
 
     /// Derivatives of real outputs along a direction of real inputs and, while the permission lets parameters be set, of
-    /// real parameters. A variable named twice counts twice.
+    /// real parameters. In model exchange of derivatives of states and along states, too, but not along parameters. A
+    /// variable named twice counts twice.
     pub fn directional_derivative(
         &mut self,
         permission: Permission,
@@ -262,6 +263,9 @@ impl Slave {
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
+        if self.interface == Interface::ModelExchange {
+            return self.exchange_derivative(unknowns, knowns, seeds, values);
+        }
         let (mut inputs, mut starts) = (Inputs::default(), Vec::<Rate>::new());
         for (&known, &seed) in knowns.iter().zip(seeds) {
             let variable = variable(known)?;

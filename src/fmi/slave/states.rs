@@ -4,9 +4,10 @@ use super::error::VariableError;
 use super::variables::{DERIVATIVES, STATES, Variable};
 use crate::integrator::MAX_STATES;
 use crate::model::coordinates::{Quantity, Role, StateVariable, event_count, state_variables};
-use crate::model_description::exchange::{Exchange, FIRST_DERIVATIVE, FIRST_STATE, State};
+use crate::model_description::clocks::Clock;
+use crate::model_description::exchange::{Exchange, FIRST_DERIVATIVE, FIRST_STATE, Indicator, State};
 use crate::scene::{Method, Scene};
-use crate::simulation::nominals;
+use crate::simulation::{PINS, contacts, nominals};
 
 const _: () = assert!(STATES.len() == MAX_STATES && DERIVATIVES.len() == MAX_STATES, "a variable for every state");
 
@@ -29,8 +30,48 @@ pub fn exchange(scene: &Scene) -> Option<Exchange> {
         let variables = state_variables(scene);
         let states = variables.iter().enumerate().zip(nominals(scene));
         let states = states.map(|((place, variable), nominal)| state(&variables, place, variable, nominal));
-        Exchange { states: states.collect(), indicators: event_count(scene) }
+        Exchange { states: states.collect(), indicators: indicators(scene) }
     })
+}
+
+/// One event indicator for each contact that may close; without contacts, that of the change point.
+fn indicators(scene: &Scene) -> Vec<Indicator> {
+    let of_contact = |contact: usize| {
+        let (name, joint) = contact_name(contact);
+        let description = format!("Event indicator: gap of {joint} over its clearance");
+        Indicator { name: format!("indicator.{name}"), description }
+    };
+    let mut indicators: Vec<Indicator> = contacts(scene).into_iter().map(of_contact).collect();
+    if indicators.is_empty() {
+        let description = "Event indicator: distance to where the rod stands across the guide".to_owned();
+        indicators.push(Indicator { name: "indicator.change_point".to_owned(), description });
+    }
+    indicators
+}
+
+/// The clocks of the scene's contacts.
+pub fn clocks(scene: &Scene) -> Vec<Clock> {
+    let of_contact = |contact: usize| {
+        let (name, subject) = contact_name(contact);
+        let name = match name.split_once('[') {
+            Some((joint, number)) => format!("{joint}.contact_change[{number}"),
+            None => format!("{name}.contact_change"),
+        };
+        Clock { contact, name, description: format!("Active where {subject} closes or opens") }
+    };
+    contacts(scene).into_iter().map(of_contact).collect()
+}
+
+/// Name of a contact, and what it is called in a sentence. Those of the guide are its corners or, where faces touch, its
+/// two faces.
+fn contact_name(contact: usize) -> (String, String) {
+    match ["A", "B", "C"].get(contact) {
+        Some(joint) => (format!("joint.{joint}"), format!("joint {joint}'s contact")),
+        None => {
+            let number = contact + 1 - PINS;
+            (format!("joint.T[{number}]"), format!("joint T's contact {number}"))
+        }
+    }
 }
 
 /// Refuses a scene whose states or event indicators are not those of the packaged one; `name` is the parameter that made
@@ -66,6 +107,8 @@ fn state(all: &[StateVariable], place: usize, variable: &StateVariable, nominal:
         rate_type,
         nominal,
         unbounded: *quantity == Quantity::Angle,
+        // Bristles of a contact that opens are straight.
+        reset: *role == Role::Bristle,
         feels,
         feels_inputs,
     }

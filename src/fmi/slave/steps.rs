@@ -1,9 +1,15 @@
 //! Steps to their end, or to an earlier one: at an event, or with a step of the method; and both sides of an event.
 
+use super::access::finite_number;
 use super::course::Course;
 use super::engine::Stops;
+use super::error::VariableError;
 use super::{Error, Slave};
-use crate::simulation::Side;
+use crate::model::coordinates::event_count;
+use crate::model::joint::guide::contact_of_corner;
+use crate::model::joint::rectangle::CORNERS;
+use crate::scene::{JointModel, Surface};
+use crate::simulation::{ContactReport, PINS, Side, contacts};
 
 impl Slave {
     /// [s] The communication point reached, counted from the start.
@@ -41,5 +47,41 @@ impl Slave {
         }
         self.outputs = None;
         Ok(())
+    }
+
+    /// The contacts at this instant. Those change that close or open at the events here or, where the importer integrates,
+    /// at the next update.
+    pub fn contacts(&mut self) -> Result<ContactReport, Error> {
+        Ok(self.live()?.contacts())
+    }
+
+    /// [m] Penetration of each corner of the slider into the guide, 0 for an ideal guide, and whether the corner touches.
+    pub fn corners(&mut self) -> Result<[(f64, bool); CORNERS], Error> {
+        let mut corners = [(0.0, false); CORNERS];
+        let joint = &self.settings.scene.joint.t;
+        if joint.model == JointModel::Ideal {
+            return Ok(corners);
+        }
+        let surface = joint.surface;
+        let ContactReport { penetration, closed, .. } = self.contacts()?;
+        for ((corner, depth), contact) in corners.iter_mut().zip(&penetration[PINS..]).zip(contact_of_corner(surface)) {
+            // A face touches with those of its corners that are in the guide.
+            let touches = closed[PINS + contact] && (surface == Surface::Corner || *depth > 0.0);
+            *corner = (finite_number("penetration of a corner", *depth)?, touches);
+        }
+        Ok(corners)
+    }
+
+    /// Whether the scene has this contact.
+    pub fn has_contact(&self, contact: usize) -> bool {
+        contacts(&self.settings.scene).contains(&contact)
+    }
+
+    /// An event indicator, whichever side integrates.
+    pub fn indicator(&mut self, place: usize) -> Result<f64, Error> {
+        let name = "event indicator of this number";
+        let count = event_count(&self.settings.scene);
+        let indicator = self.contacts()?.indicators[..count].get(place).copied();
+        finite_number(name, indicator.ok_or(VariableError::Absent(name))?)
     }
 }

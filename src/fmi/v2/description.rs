@@ -53,6 +53,7 @@ pub fn model_description(
     let package = xml::Package {
         guid: &slot::guid(scene),
         exchange: exchange.as_ref(),
+        clocks: &[],
         starts: &starts,
         experiment: experiment.unwrap_or(declaration.experiment),
         made: Some(&xml::made(&declaration, made)),

@@ -105,12 +105,7 @@ impl fmt::Display for Error {
             Self::Slave(error) => error.fmt(f),
             Self::Argument(error) => error.fmt(f),
             Self::CallOrder(state) => write!(f, "not allowed in state '{state}'"),
-            Self::Interface(Interface::ModelExchange) => {
-                f.write_str("of model exchange, and this instance is for co-simulation")
-            }
-            Self::Interface(Interface::CoSimulation) => {
-                f.write_str("of co-simulation, and this instance is for model exchange")
-            }
+            Self::Interface(interface) => f.write_str(interface.mismatch()),
             Self::Instantiate(error) => error.fmt(f),
             Self::StatusKind(kind) => write!(f, "there is no {} to tell here", kind.name()),
             Self::NotAStatusKind(value) => write!(f, "{value} is not an fmi2StatusKind"),

@@ -12,7 +12,7 @@ use crate::fmi::slave::log::{Host, Logger};
 use crate::fmi::slave::saved_states::{Saved, SavedStates};
 use crate::fmi::slave::{Interface, Severity, Slave, ValueType};
 use crate::fmi::status::Status;
-use crate::scene::{Scene, slot};
+use crate::scene::slot;
 use crate::simulation::SimulationError;
 use std::ffi::{CStr, CString};
 use std::fmt::Display;
@@ -39,8 +39,8 @@ pub struct Request<'a> {
 
 /// A slave with its place in the lifecycle of FMI 2.0, its saved states and its log.
 pub struct Instance {
-    pub(super) state: State,
-    pub(super) slave: Slave,
+    state: State,
+    slave: Slave,
     last_step: Status,
     /// Whether the last step came to where no step leads on.
     dead_end: bool,
@@ -58,9 +58,9 @@ impl Instance {
     ) -> Result<Self, Error> {
         let Request { name, fmu_type, guid, resource_location, logging_on } = *request;
         let name = name.filter(|name| !name.is_empty()).ok_or(InstantiateError::Name)?;
-        let make: fn(Scene, Option<&'static dyn Engine>) -> Result<Slave, slave::Error> = match fmu_type {
-            MODEL_EXCHANGE => |scene, _| Slave::for_exchange(scene),
-            CO_SIMULATION => |scene, newer| Ok(Slave::new(scene, newer)),
+        let interface = match fmu_type {
+            MODEL_EXCHANGE => Interface::ModelExchange,
+            CO_SIMULATION => Interface::CoSimulation,
             _ => return Err(InstantiateError::Type(fmu_type).into()),
         };
         let (packaged, expected) = slot::read().map_err(InstantiateError::Slot)?;
@@ -75,7 +75,7 @@ impl Instance {
         }
         Ok(Self {
             state: State::Instantiated,
-            slave: make(packaged, newer)?,
+            slave: Slave::of(interface, packaged, newer)?,
             last_step: Status::Ok,
             dead_end: false,
             saved: SavedStates::default(),
@@ -86,6 +86,11 @@ impl Instance {
     /// Where it is in its life.
     pub fn state(&self) -> State {
         self.state
+    }
+
+    /// What moves, and is the same in every version of FMI. For calls that are admitted and whose rules are the slave's.
+    pub fn slave(&mut self) -> &mut Slave {
+        &mut self.slave
     }
 
     /// Where its messages go.
@@ -158,6 +163,18 @@ impl Instance {
         if let Some(left_aside) = self.slave.tolerance_left_aside() {
             self.logger.remark(Call::ExitInitializationMode.name(), &left_aside);
         }
+        Ok(())
+    }
+
+    /// `fmi2EnterEventMode`
+    pub fn enter_event_mode(&mut self) -> Result<(), Error> {
+        self.state = State::EventMode;
+        Ok(())
+    }
+
+    /// `fmi2EnterContinuousTimeMode`
+    pub fn enter_continuous_time_mode(&mut self) -> Result<(), Error> {
+        self.state = State::ContinuousTimeMode;
         Ok(())
     }
 
@@ -236,13 +253,7 @@ impl Instance {
         seeds: &[f64],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        match self.slave.interface() {
-            Interface::CoSimulation => {
-                self.slave.directional_derivative(self.state.writing(), unknowns, knowns, seeds, values)?
-            }
-            Interface::ModelExchange => self.slave.exchange_derivative(unknowns, knowns, seeds, values)?,
-        }
-        Ok(())
+        Ok(self.slave.directional_derivative(self.state.writing(), unknowns, knowns, seeds, values)?)
     }
 
     /// `fmi2DoStep`

@@ -12,7 +12,6 @@
 pub mod abi;
 pub mod description;
 pub mod error;
-pub mod exchange;
 pub mod fmu_state;
 pub mod instance;
 pub mod lifecycle;

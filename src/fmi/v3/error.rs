@@ -3,8 +3,8 @@
 use super::lifecycle::State;
 use crate::fmi::abi::ArgumentError;
 use crate::fmi::slave;
-use crate::fmi::slave::Severity;
 use crate::fmi::slave::error::{SavedStateError, VariableError};
+use crate::fmi::slave::{Interface, Severity};
 use crate::fmi::status::Status;
 use crate::scene::slot::SlotError;
 use std::fmt;
@@ -30,6 +30,8 @@ pub enum Error {
     },
     /// The call does not belong in this state.
     CallOrder(State),
+    /// The function belongs to this kind of interface, and the instance is of the other.
+    Interface(Interface),
     /// The FMU does not provide the function. The reason.
     NotProvided(&'static str),
     /// The importer has said at instantiation that it does not use event mode.
@@ -110,6 +112,7 @@ impl fmt::Display for Error {
                 write!(f, "argument '{argument}' has {given} entries, and {needed} are needed")
             }
             Self::CallOrder(state) => write!(f, "not allowed in state '{state}'"),
+            Self::Interface(interface) => f.write_str(interface.mismatch()),
             Self::NotProvided(reason) => f.write_str(reason),
             Self::NoEventMode => f.write_str("the instance was made with eventModeUsed = fmi3False"),
             Self::NotIntermediate(reference) => {

@@ -3,27 +3,37 @@
 use super::error::{Error, InstantiateError};
 use super::fmu_state::FmuState;
 use super::lifecycle::{Call, State};
-use super::step::{Done, Ends, Stage, Update};
-use super::variables::{check_absent, check_type, has_intermediate_values, time_reference};
+use super::step::{Done, Ends, IntermediateUpdate, Stage};
+use super::variables::{CLOCK, Meaning, are_neutral, check_type, has_intermediate_values, type_name};
 use crate::fmi::slave::engine::{Engine, Stops};
+use crate::fmi::slave::error::{SavedStateError, VariableError};
 use crate::fmi::slave::log::{Host, Logger};
 use crate::fmi::slave::saved_states::{Saved, SavedStates};
-use crate::fmi::slave::{Severity, Slave, ValueType};
+use crate::fmi::slave::{Interface, Severity, Slave, ValueType};
 use crate::fmi::status::Status;
 use crate::scene::slot;
-use crate::simulation::Side;
+use crate::simulation::{Side, Update};
 use std::ffi::{CStr, CString};
 use std::fmt::Display;
 
-/// What `fmi3InstantiateCoSimulation` is given.
+/// What `fmi3InstantiateCoSimulation` or `fmi3InstantiateModelExchange` is given.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
+    /// Which of the two.
+    pub interface: Interface,
     /// Name for the log; needed.
     pub name: Option<&'a CStr>,
     /// The token in the XML that the importer read.
     pub token: Option<&'a CStr>,
     /// Whether all log categories are enabled, or no category is. Errors are logged in either case.
     pub logging_on: bool,
+    /// What is said of steps, if the instance makes any.
+    pub steps: StepRequest<'a>,
+}
+
+/// What `fmi3InstantiateCoSimulation` is told of steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StepRequest<'a> {
     /// Whether the importer handles events.
     pub event_mode_used: bool,
     /// Whether a step may return before its end.
@@ -58,8 +68,8 @@ impl Instance {
         host: Box<dyn Host>,
         newer: Option<&'static dyn Engine>,
     ) -> Result<Self, Error> {
-        let Request { name, token, logging_on, event_mode_used, early_return_allowed, intermediate, has_callback } =
-            *request;
+        let Request { interface, name, token, logging_on, steps } = *request;
+        let StepRequest { event_mode_used, early_return_allowed, intermediate, has_callback } = steps;
         let name = name.filter(|name| !name.to_bytes().trim_ascii().is_empty()).ok_or(InstantiateError::Name)?;
         let (packaged, expected) = slot::read().map_err(InstantiateError::Slot)?;
         if token.map(CStr::to_bytes) != Some(expected.as_bytes()) {
@@ -74,7 +84,7 @@ impl Instance {
         }
         Ok(Self {
             state: State::Instantiated,
-            slave: Slave::new(packaged, newer),
+            slave: Slave::of(interface, packaged, newer)?,
             side: Side::After,
             event_mode_used,
             early_return_allowed,
@@ -90,6 +100,11 @@ impl Instance {
         self.state
     }
 
+    /// What moves, and is the same in every version of FMI. For calls that are admitted and whose rules are the slave's.
+    pub fn slave(&mut self) -> &mut Slave {
+        &mut self.slave
+    }
+
     /// Tells the importer what came of a call.
     pub fn say(&self, severity: Severity, call: Call, message: &dyn Display) {
         self.logger.say(severity, call.name(), message);
@@ -97,10 +112,11 @@ impl Instance {
 
     /// Lets a call in, if it is allowed in this state.
     pub fn admit(&self, call: Call) -> Result<(), Error> {
-        match self.state {
-            state if call.allowed(state) => Ok(()),
-            State::Fatal => Err(Error::CallOrder(State::Fatal)),
-            state => Err(call.not_provided().map_or(Error::CallOrder(state), Error::NotProvided)),
+        match (self.state, call.interface()) {
+            (State::Fatal, _) if !call.allowed(State::Fatal) => Err(Error::CallOrder(State::Fatal)),
+            (_, Some(interface)) if interface != self.slave.interface() => Err(Error::Interface(interface)),
+            (state, _) if call.allowed(state) => Ok(()),
+            (state, _) => Err(call.not_provided().map_or(Error::CallOrder(state), Error::NotProvided)),
         }
     }
 
@@ -142,7 +158,8 @@ impl Instance {
     /// the importer may correct it.
     pub fn exit_initialization_mode(&mut self) -> Result<(), Error> {
         self.slave.initialize()?;
-        self.state = if self.event_mode_used { State::EventMode } else { State::StepMode };
+        let steps_at_once = self.slave.interface() == Interface::CoSimulation && !self.event_mode_used;
+        self.state = if steps_at_once { State::StepMode } else { State::EventMode };
         if let Some(left_aside) = self.slave.tolerance_left_aside() {
             self.logger.remark(Call::ExitInitializationMode.name(), &left_aside);
         }
@@ -151,16 +168,26 @@ impl Instance {
 
     /// `fmi3EnterEventMode`
     pub fn enter_event_mode(&mut self) -> Result<(), Error> {
-        if !self.event_mode_used {
+        if self.slave.interface() == Interface::CoSimulation && !self.event_mode_used {
             return Err(Error::NoEventMode);
         }
         self.state = State::EventMode;
         Ok(())
     }
 
-    /// `fmi3UpdateDiscreteStates`: from now on the right limits are shown. One update is enough.
-    pub fn update_discrete_states(&mut self) -> Result<(), Error> {
-        self.look(Side::After)
+    /// `fmi3UpdateDiscreteStates`: in model exchange contacts close and open, in co-simulation they have done so and the
+    /// right limits are shown from now on. One update is enough.
+    pub fn update_discrete_states(&mut self) -> Result<Update, Error> {
+        match self.slave.interface() {
+            Interface::ModelExchange => Ok(self.slave.update_discrete_states()?),
+            Interface::CoSimulation => self.look(Side::After).map(|()| Update::default()),
+        }
+    }
+
+    /// `fmi3EnterContinuousTimeMode`
+    pub fn enter_continuous_time_mode(&mut self) -> Result<(), Error> {
+        self.state = State::ContinuousTimeMode;
+        Ok(())
     }
 
     /// `fmi3EnterStepMode`
@@ -190,20 +217,34 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi3GetFloat64`. The independent variable is read where outputs are.
+    /// Number of values that these variables have: more than variables if some are arrays.
+    pub fn value_count(&self, references: &[u32]) -> Result<usize, Error> {
+        let sizes = references.iter().map(|reference| Meaning::of(*reference).map(|meaning| meaning.size()));
+        Ok(sizes.sum::<Result<usize, _>>()?)
+    }
+
+    /// `fmi3GetFloat64`
     pub fn get_float64(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
-        let time = time_reference();
-        if !references.contains(&time) {
-            return self.get(ValueType::Real, references, values, |value| value);
-        }
-        check_type(references, ValueType::Real)?;
-        self.check_intermediate(references)?;
-        let others: Vec<u32> = references.iter().copied().filter(|reference| *reference != time).collect();
-        let mut read = vec![0.0; others.len()];
-        self.get(ValueType::Real, &others, &mut read, |value| value)?;
-        let (mut read, now) = (read.into_iter(), self.slave.time());
-        for (reference, value) in references.iter().zip(values) {
-            *value = if *reference == time { now } else { read.next().unwrap_or_default() };
+        self.get(ValueType::Real, references, values, |value| value)
+    }
+
+    /// `fmi3GetClock`: active where its contact closes or opens, until the update that ends the event.
+    pub fn get_clock(&mut self, references: &[u32], values: &mut [u8]) -> Result<(), Error> {
+        check_type(references, CLOCK)?;
+        let handled = match self.slave.interface() {
+            Interface::CoSimulation => self.side == Side::After,
+            Interface::ModelExchange => self.state != State::EventMode,
+        };
+        let changes = self.slave.contacts()?.changes;
+        let contacts: Result<Vec<usize>, VariableError> = references
+            .iter()
+            .map(|reference| match Meaning::of(*reference)? {
+                Meaning::Clock(contact) if self.slave.has_contact(contact) => Ok(contact),
+                _ => Err(VariableError::Absent("contact of this clock")),
+            })
+            .collect();
+        for (value, contact) in values.iter_mut().zip(contacts?) {
+            *value = (!handled && changes[contact]).into();
         }
         Ok(())
     }
@@ -245,7 +286,7 @@ impl Instance {
 
     /// Getters and setters of types that no variable has.
     pub fn check_absent(&self, references: &[u32], asked: &'static str) -> Result<(), Error> {
-        Ok(check_absent(references, asked)?)
+        Ok(check_type(references, asked)?)
     }
 
     fn get<T>(
@@ -255,9 +296,42 @@ impl Instance {
         values: &mut [T],
         convert: fn(f64) -> T,
     ) -> Result<(), Error> {
-        check_type(references, asked)?;
+        check_type(references, type_name(asked))?;
         self.check_intermediate(references)?;
-        Ok(self.slave.get(asked, self.state.reading(), references, values, convert)?)
+        if are_neutral(references) {
+            return Ok(self.slave.get(asked, self.state.reading(), references, values, convert)?);
+        }
+        let mut read = Vec::with_capacity(values.len());
+        for &reference in references {
+            self.read(asked, reference, &mut read)?;
+        }
+        for (value, read) in values.iter_mut().zip(read) {
+            *value = convert(read);
+        }
+        Ok(())
+    }
+
+    /// Appends the values of one variable. Event indicators and corners are there whichever side integrates.
+    fn read(&mut self, asked: ValueType, reference: u32, read: &mut Vec<f64>) -> Result<(), Error> {
+        let meaning = Meaning::of(reference)?;
+        let permission = self.state.reading();
+        match meaning {
+            Meaning::Neutral(_) => {
+                let mut value = [0.0];
+                self.slave.get(asked, permission, &[reference], &mut value, |value| value)?;
+                read.extend(value);
+            }
+            Meaning::Time => read.push(self.slave.time()),
+            Meaning::Indicator(_) | Meaning::Clock(_) | Meaning::CornerPenetrations | Meaning::CornerContacts => {
+                permission.check_output(meaning.name(), "local variable")?;
+                match meaning {
+                    Meaning::Indicator(place) => read.push(self.slave.indicator(place)?),
+                    Meaning::CornerPenetrations => read.extend(self.slave.corners()?.map(|(depth, _)| depth)),
+                    _ => read.extend(self.slave.corners()?.map(|(_, touches)| f64::from(u8::from(touches)))),
+                }
+            }
+        }
+        Ok(())
     }
 
     fn set<T: Copy>(
@@ -267,7 +341,7 @@ impl Instance {
         values: &[T],
         convert: fn(T) -> f64,
     ) -> Result<(), Error> {
-        check_type(references, asked)?;
+        check_type(references, type_name(asked))?;
         self.check_intermediate(references)?;
         Ok(self.slave.set(asked, self.state.writing(), references, values, convert)?)
     }
@@ -341,7 +415,7 @@ impl Instance {
         }
         if reached < at {
             self.state = State::IntermediateUpdateMode;
-            return Ok(Stage::Update(Update { time, can_return_early: self.early_return_allowed }));
+            return Ok(Stage::Update(IntermediateUpdate { time, can_return_early: self.early_return_allowed }));
         }
         Ok(Stage::Done(Done { event: false, early: reached < asked, time }))
     }
@@ -359,13 +433,14 @@ impl Instance {
     /// `fmi3GetFMUState`: saves under `handle`, or under a new one if that is 0.
     pub fn get_fmu_state(&mut self, handle: usize) -> Result<usize, Error> {
         let (settings, snapshot) = self.slave.save();
-        let before_event = self.side == Side::Before;
-        Ok(self.saved.keep(handle, FmuState { state: self.state, before_event, settings, snapshot })?)
+        let (interface, before_event) = (self.slave.interface(), self.side == Side::Before);
+        let saved = FmuState { interface, state: self.state, before_event, settings, snapshot };
+        Ok(self.saved.keep(handle, saved)?)
     }
 
     /// `fmi3SetFMUState`
     pub fn set_fmu_state(&mut self, handle: usize) -> Result<(), Error> {
-        let FmuState { state, before_event, settings, snapshot } = self.saved.get(handle)?;
+        let FmuState { state, before_event, settings, snapshot, .. } = self.saved.get(handle)?;
         self.slave.restore(settings, snapshot.as_ref())?;
         self.side = Side::After;
         self.state = *state;
@@ -392,6 +467,10 @@ impl Instance {
 
     /// `fmi3DeserializeFMUState`: keeps under `handle`, or under a new one if that is 0.
     pub fn deserialize(&mut self, bytes: &[u8], handle: usize) -> Result<usize, Error> {
-        Ok(self.saved.keep(handle, FmuState::from_bytes(bytes)?)?)
+        let saved = FmuState::from_bytes(bytes)?;
+        if saved.interface != self.slave.interface() {
+            return Err(SavedStateError::Interface.into());
+        }
+        Ok(self.saved.keep(handle, saved)?)
     }
 }

@@ -4,14 +4,14 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stage {
     /// A step of the method has ended within the communication step: the importer's callback is due.
-    Update(Update),
+    Update(IntermediateUpdate),
     /// The step is over.
     Done(Done),
 }
 
 /// An intermediate update.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Update {
+pub struct IntermediateUpdate {
     /// [s] Where the slave is.
     pub time: f64,
     /// Whether the importer may ask for an early return.

@@ -8,7 +8,7 @@ use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::scene::parameter::DECLARATION;
-use crate::simulation::{Side, SimulationError, Snapshot};
+use crate::simulation::{ContactReport, Side, SimulationError, Snapshot};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_void;
@@ -124,6 +124,14 @@ impl Run for BorrowedRun {
 
     fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         self.read(Reading::Sensitivity, seed)
+    }
+
+    fn contacts(&mut self) -> ContactReport {
+        let (mut report, mut letter) = (ContactReport::default(), Letter::default());
+        // SAFETY: a live run, lent to this call alone; place and sink outlive the call.
+        unsafe { (self.table.contacts)(self.run.as_ptr(), &raw mut report, letter.sink()) };
+        letter.infallible();
+        report
     }
 
     fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {

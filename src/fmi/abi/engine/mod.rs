@@ -11,7 +11,7 @@ pub mod offered;
 
 use crate::fmi::slave::engine::Stops;
 use crate::model::signals::{Inputs, Outputs};
-use crate::simulation::{Side, SimulationError};
+use crate::simulation::{ContactReport, Side, SimulationError};
 use serde::{Deserialize, Serialize};
 use std::ffi::c_void;
 
@@ -64,6 +64,7 @@ pub struct Table {
     advance: unsafe extern "C" fn(run: *mut c_void, time: f64, stops: Stops, sink: Sink) -> bool,
     look: unsafe extern "C" fn(run: *mut c_void, side: Side, sink: Sink),
     read: unsafe extern "C" fn(run: *mut c_void, what: Reading, seed: *const Inputs, outputs: *mut Outputs, sink: Sink),
+    contacts: unsafe extern "C" fn(run: *mut c_void, report: *mut ContactReport, sink: Sink),
     /// Writes states and rates, each of which have room for `MAX_STATES`, and returns their number.
     write_states: unsafe extern "C" fn(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize,
     snapshot: unsafe extern "C" fn(run: *mut c_void, sink: Sink),

@@ -4,14 +4,15 @@ use super::super::panic_guard::guarded;
 use super::{Bytes, Failure, Reading, Sink, Table};
 use crate::fmi::slave::engine::{Run, Stops};
 use crate::model::signals::{Inputs, Outputs};
-use crate::simulation::{Side, Simulation, SimulationError};
+use crate::simulation::{ContactReport, Side, Simulation, SimulationError};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_void;
 use std::ptr::null_mut;
 
 /// The functions of this library.
-pub const TABLE: Table = Table { start, restore, free, time, set_inputs, advance, look, read, write_states, snapshot };
+pub const TABLE: Table =
+    Table { start, restore, free, time, set_inputs, advance, look, read, contacts, write_states, snapshot };
 
 /// Exported by the build for newer processors only: the other one is what importers load, and has the functions of the
 /// standard and no others.
@@ -92,6 +93,15 @@ unsafe extern "C" fn read(run: *mut c_void, what: Reading, seed: *const Inputs, 
             Reading::Rates => run.output_rates(),
             Reading::Sensitivity => run.output_sensitivity(seed),
         };
+        Ok(())
+    });
+}
+
+unsafe extern "C" fn contacts(run: *mut c_void, report: *mut ContactReport, sink: Sink) {
+    // SAFETY: a live run, in no other call; the caller lends a place for the report for this one.
+    let (run, report) = unsafe { (lent(run), &mut *report) };
+    attempt(sink, || {
+        *report = run.contacts();
         Ok(())
     });
 }

@@ -17,6 +17,7 @@ impl fmt::Display for Error {
             }
             Self::Simulation(error) => error.fmt(f),
             Self::Interface => f.write_str("for the other kind of interface: co-simulation or model exchange"),
+            Self::Count { of, given, needed } => write!(f, "{given} {of}, where there are {needed}"),
         }
     }
 }
@@ -35,7 +36,7 @@ impl fmt::Display for VariableError {
                 write!(f, "{name} = {} is out of range; allowed: {allowed}", number(*found))
             }
             Self::Order(name, order) => write!(f, "derivative of order {order} of {name}: only order 1 is known"),
-            Self::Absent(name) => write!(f, "{name}: the scene has fewer states"),
+            Self::Absent(name) => write!(f, "the scene has no {name}"),
             Self::Structure(name) => write!(
                 f,
                 "{name}: this value asks for other states or event indicators than modelDescription.xml lists for model \

@@ -256,7 +256,9 @@ functions! {
     /// Closes and opens contacts as the event indicators say.
     fmi2NewDiscreteStates(c: fmi2Component, event_info: *mut fmi2EventInfo) -> fmi2Status {
         call(c, Call::NewDiscreteStates, |instance| {
-            put(place("fmi2EventInfo", event_info)?, instance.new_discrete_states().map(fmi2EventInfo::from))
+            let info = place("fmi2EventInfo", event_info)?;
+            *info = instance.slave().update_discrete_states()?.into();
+            Ok(())
         })
     }
     /// From now on the importer integrates.
@@ -271,37 +273,40 @@ functions! {
         call(c, Call::CompletedIntegratorStep, |instance| {
             let enter = place("enterEventMode", enter_event_mode)?;
             let terminate = place("terminateSimulation", terminate_simulation)?;
-            let outcome = instance.completed_integrator_step()?;
-            (*enter, *terminate) = (outcome.enter_event_mode.into(), FMI2_FALSE);
+            (*enter, *terminate) = (instance.slave().update_is_due()?.into(), FMI2_FALSE);
             Ok(())
         })
     }
     /// Sets the importer's time.
     fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2Status {
-        call(c, Call::SetTime, |instance| instance.set_time(time))
+        call(c, Call::SetTime, |instance| Ok(instance.slave().set_time(time)?))
     }
     /// Sets the continuous states.
     fmi2SetContinuousStates(c: fmi2Component, x: *const fmi2Real, nx: usize) -> fmi2Status {
-        call(c, Call::SetContinuousStates, |instance| instance.set_continuous_states(slice("x", x, nx)?))
+        call(c, Call::SetContinuousStates, |instance| Ok(instance.slave().set_states(slice("x", x, nx)?)?))
     }
     /// Reads the derivatives of the continuous states.
     fmi2GetDerivatives(c: fmi2Component, derivatives: *mut fmi2Real, nx: usize) -> fmi2Status {
-        call(c, Call::GetDerivatives, |instance| instance.get_derivatives(slice_mut("derivatives", derivatives, nx)?))
+        call(c, Call::GetDerivatives, |instance| {
+            Ok(instance.slave().write_derivatives(slice_mut("derivatives", derivatives, nx)?)?)
+        })
     }
     /// Reads the event indicators.
     fmi2GetEventIndicators(c: fmi2Component, event_indicators: *mut fmi2Real, ni: usize) -> fmi2Status {
         call(c, Call::GetEventIndicators, |instance| {
-            instance.get_event_indicators(slice_mut("eventIndicators", event_indicators, ni)?)
+            Ok(instance.slave().write_indicators(slice_mut("eventIndicators", event_indicators, ni)?)?)
         })
     }
     /// Reads the continuous states.
     fmi2GetContinuousStates(c: fmi2Component, x: *mut fmi2Real, nx: usize) -> fmi2Status {
-        call(c, Call::GetContinuousStates, |instance| instance.get_continuous_states(slice_mut("x", x, nx)?))
+        call(c, Call::GetContinuousStates, |instance| {
+            Ok(instance.slave().write_states(slice_mut("x", x, nx)?)?)
+        })
     }
     /// Reads the nominal values of the continuous states.
     fmi2GetNominalsOfContinuousStates(c: fmi2Component, x_nominal: *mut fmi2Real, nx: usize) -> fmi2Status {
         call(c, Call::GetNominalsOfContinuousStates, |instance| {
-            instance.get_nominals(slice_mut("x_nominal", x_nominal, nx)?)
+            Ok(instance.slave().write_nominals(slice_mut("x_nominal", x_nominal, nx)?)?)
         })
     }
 }

@@ -1,8 +1,8 @@
 //! The C types of `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h`, platform "default".
 #![allow(non_camel_case_types, reason = "the names are the standard's")]
 
-use super::super::exchange::EventOutcome;
 use crate::fmi::abi::borrow::AnyBits;
+use crate::simulation::Update;
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
 /// An instance of ours, opaque to the importer.
@@ -84,11 +84,12 @@ pub struct fmi2EventInfo {
     pub next_event_time: fmi2Real,
 }
 
-impl From<EventOutcome> for fmi2EventInfo {
-    fn from(EventOutcome { terminate, states_changed }: EventOutcome) -> Self {
+/// One iteration is enough, nominal values stay, and no event is known in advance.
+impl From<Update> for fmi2EventInfo {
+    fn from(Update { states_changed, dead_end }: Update) -> Self {
         Self {
             new_discrete_states_needed: FMI2_FALSE,
-            terminate_simulation: terminate.into(),
+            terminate_simulation: dead_end.into(),
             nominals_of_continuous_states_changed: FMI2_FALSE,
             values_of_continuous_states_changed: states_changed.into(),
             next_event_time_defined: FMI2_FALSE,

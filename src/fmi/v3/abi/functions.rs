@@ -6,13 +6,13 @@
 //! importers bind them blindly; the lifecycle refuses them in every state.
 //!
 //! # Safety
-//! Of all functions: an instance is NULL or was made by `fmi3InstantiateCoSimulation` and not freed since; a
+//! Of all functions: an instance is NULL or was made by one of the two functions that instantiate and not freed since; a
 //! non-NULL pointer points to as many entries as the standard says, and a string ends in a zero byte.
 #![allow(clippy::missing_safety_doc, reason = "said above, once")]
 #![allow(non_snake_case, non_camel_case_types, reason = "the names are the standard's")]
 
 use super::super::error::Error;
-use super::super::instance::{Instance, Request};
+use super::super::instance::{Instance, Request, StepRequest};
 use super::super::lifecycle::Call;
 use super::call::{call, free};
 use super::do_step::{Answers, do_step};
@@ -24,6 +24,8 @@ use crate::fmi::abi::ArgumentError;
 use crate::fmi::abi::borrow::{place, slice, slice_mut, text};
 use crate::fmi::abi::declare::functions;
 use crate::fmi::abi::panic_guard::guarded;
+use crate::fmi::slave::Interface;
+use crate::simulation::Update;
 use std::ptr::{null_mut, without_provenance_mut};
 
 functions! {
@@ -51,15 +53,14 @@ functions! {
         let made = guarded(|| match required {
             Err(error) => refuse(Call::InstantiateCoSimulation, name, host, &error.into()),
             Ok(intermediate) => {
-                let request = Request {
-                    name,
-                    token: text(instantiation_token),
-                    logging_on: logging_on != 0,
+                let steps = StepRequest {
                     event_mode_used: event_mode_used != 0,
                     early_return_allowed: early_return_allowed != 0,
                     intermediate,
                     has_callback: update.is_some(),
                 };
+                let (token, logging_on) = (text(instantiation_token), logging_on != 0);
+                let request = Request { interface: Interface::CoSimulation, name, token, logging_on, steps };
                 instantiate(&request, host, update)
             }
         });
@@ -115,9 +116,9 @@ functions! {
                 place(name, flag)?;
             }
             place("nextEventTime", next_event_time)?;
-            instance.update_discrete_states()?;
-            for (name, flag) in flags {
-                *place(name, flag)? = 0;
+            let Update { states_changed, dead_end } = instance.update_discrete_states()?;
+            for ((name, flag), answer) in flags.into_iter().zip([false, dead_end, false, states_changed, false]) {
+                *place(name, flag)? = answer.into();
             }
             *place("nextEventTime", next_event_time)? = 0.0;
             Ok(())
@@ -148,7 +149,7 @@ functions! {
     /// Back to the state after instantiation.
     fmi3Reset(instance: fmi3Instance) -> fmi3Status { call(instance, Call::Reset, Instance::reset) }
 
-    // Values. Every variable is a scalar, so there is one value for each reference.
+    // Values: one for each reference, but for arrays, which can be read.
     /// No variable is of this type, so only an empty list is right.
     fmi3GetFloat32(
         instance: fmi3Instance, vr: *const fmi3ValueReference, nvr: usize, values: *mut fmi3Float32, n_values: usize,
@@ -163,7 +164,8 @@ functions! {
     ) -> fmi3Status {
         call(instance, Call::GetFloat64, |instance| {
             let vr = slice("valueReferences", vr, nvr)?;
-            instance.get_float64(vr, slice_mut("values", values, as_many("values", n_values, nvr)?)?)
+            let count = as_many("values", n_values, instance.value_count(vr)?)?;
+            instance.get_float64(vr, slice_mut("values", values, count)?)
         })
     }
     /// No variable is of this type, so only an empty list is right.
@@ -204,7 +206,8 @@ functions! {
     ) -> fmi3Status {
         call(instance, Call::GetInt32, |instance| {
             let vr = slice("valueReferences", vr, nvr)?;
-            instance.get_int32(vr, slice_mut("values", values, as_many("values", n_values, nvr)?)?)
+            let count = as_many("values", n_values, instance.value_count(vr)?)?;
+            instance.get_int32(vr, slice_mut("values", values, count)?)
         })
     }
     /// No variable is of this type, so only an empty list is right.
@@ -221,7 +224,8 @@ functions! {
     ) -> fmi3Status {
         call(instance, Call::GetInt64, |instance| {
             let vr = slice("valueReferences", vr, nvr)?;
-            instance.get_int64(vr, slice_mut("values", values, as_many("values", n_values, nvr)?)?)
+            let count = as_many("values", n_values, instance.value_count(vr)?)?;
+            instance.get_int64(vr, slice_mut("values", values, count)?)
         })
     }
     /// No variable is of this type, so only an empty list is right.
@@ -238,7 +242,8 @@ functions! {
     ) -> fmi3Status {
         call(instance, Call::GetBoolean, |instance| {
             let vr = slice("valueReferences", vr, nvr)?;
-            instance.get_boolean(vr, slice_mut("values", values, as_many("values", n_values, nvr)?)?)
+            let count = as_many("values", n_values, instance.value_count(vr)?)?;
+            instance.get_boolean(vr, slice_mut("values", values, count)?)
         })
     }
     /// No variable is of this type, so only an empty list is right.
@@ -367,6 +372,15 @@ functions! {
             instance.check_absent(slice("valueReferences", vr, nvr)?, "Binary")
         })
     }
+    /// Reads whether clocks are active.
+    fmi3GetClock(
+        instance: fmi3Instance, vr: *const fmi3ValueReference, nvr: usize, values: *mut fmi3Clock,
+    ) -> fmi3Status {
+        call(instance, Call::GetClock, |instance| {
+            let vr = slice("valueReferences", vr, nvr)?;
+            instance.get_clock(vr, slice_mut("values", values, nvr)?)
+        })
+    }
     /// First time derivatives of continuous outputs.
     fmi3GetOutputDerivatives(
         instance: fmi3Instance, vr: *const fmi3ValueReference, nvr: usize, orders: *const i32,
@@ -462,18 +476,98 @@ functions! {
         })
     }
 
-    // Not provided.
-    /// NULL: this FMU is for co-simulation.
+    // Model exchange.
+    /// Makes an instance whose importer integrates; NULL, and one line in the log, if that cannot be.
     fmi3InstantiateModelExchange(
         instance_name: fmi3String, instantiation_token: fmi3String, resource_path: fmi3String, visible: fmi3Boolean,
         logging_on: fmi3Boolean, instance_environment: fmi3InstanceEnvironment,
         log_message: Option<fmi3LogMessageCallback>,
     ) -> fmi3Instance {
         let host = HostLogger::new(log_message, instance_environment);
-        let name = text(instance_name);
-        guarded(|| refuse_kind(Call::InstantiateModelExchange, name, host)).unwrap_or(null_mut())
+        let request = Request {
+            interface: Interface::ModelExchange,
+            name: text(instance_name),
+            token: text(instantiation_token),
+            logging_on: logging_on != 0,
+            steps: StepRequest::default(),
+        };
+        guarded(|| instantiate(&request, host, None)).unwrap_or(null_mut())
     }
-    /// NULL: this FMU is for co-simulation.
+    /// From now on the importer integrates.
+    fmi3EnterContinuousTimeMode(instance: fmi3Instance) -> fmi3Status {
+        call(instance, Call::EnterContinuousTimeMode, Instance::enter_continuous_time_mode)
+    }
+    /// Whether an event has been passed over. An importer that watches the event indicators hears of nothing new.
+    fmi3CompletedIntegratorStep(
+        instance: fmi3Instance, no_set_fmu_state_prior_to_current_point: fmi3Boolean,
+        enter_event_mode: *mut fmi3Boolean, terminate_simulation: *mut fmi3Boolean,
+    ) -> fmi3Status {
+        call(instance, Call::CompletedIntegratorStep, |instance| {
+            place("terminateSimulation", terminate_simulation)?;
+            place("enterEventMode", enter_event_mode)?;
+            let due = instance.slave().update_is_due()?;
+            *place("terminateSimulation", terminate_simulation)? = 0;
+            *place("enterEventMode", enter_event_mode)? = due.into();
+            Ok(())
+        })
+    }
+    /// Sets the importer's time.
+    fmi3SetTime(instance: fmi3Instance, time: fmi3Float64) -> fmi3Status {
+        call(instance, Call::SetTime, |instance| Ok(instance.slave().set_time(time)?))
+    }
+    /// Sets the continuous states.
+    fmi3SetContinuousStates(instance: fmi3Instance, states: *const fmi3Float64, n_states: usize) -> fmi3Status {
+        call(instance, Call::SetContinuousStates, |instance| {
+            Ok(instance.slave().set_states(slice("continuousStates", states, n_states)?)?)
+        })
+    }
+    /// Reads the derivatives of the continuous states.
+    fmi3GetContinuousStateDerivatives(
+        instance: fmi3Instance, derivatives: *mut fmi3Float64, n_states: usize,
+    ) -> fmi3Status {
+        call(instance, Call::GetContinuousStateDerivatives, |instance| {
+            Ok(instance.slave().write_derivatives(slice_mut("derivatives", derivatives, n_states)?)?)
+        })
+    }
+    /// Reads the event indicators.
+    fmi3GetEventIndicators(instance: fmi3Instance, indicators: *mut fmi3Float64, n_indicators: usize) -> fmi3Status {
+        call(instance, Call::GetEventIndicators, |instance| {
+            Ok(instance.slave().write_indicators(slice_mut("eventIndicators", indicators, n_indicators)?)?)
+        })
+    }
+    /// Reads the continuous states.
+    fmi3GetContinuousStates(instance: fmi3Instance, states: *mut fmi3Float64, n_states: usize) -> fmi3Status {
+        call(instance, Call::GetContinuousStates, |instance| {
+            Ok(instance.slave().write_states(slice_mut("continuousStates", states, n_states)?)?)
+        })
+    }
+    /// Reads the nominal values of the continuous states.
+    fmi3GetNominalsOfContinuousStates(
+        instance: fmi3Instance, nominals: *mut fmi3Float64, n_states: usize,
+    ) -> fmi3Status {
+        call(instance, Call::GetNominalsOfContinuousStates, |instance| {
+            Ok(instance.slave().write_nominals(slice_mut("nominals", nominals, n_states)?)?)
+        })
+    }
+    /// Number of event indicators.
+    fmi3GetNumberOfEventIndicators(instance: fmi3Instance, n_indicators: *mut usize) -> fmi3Status {
+        call(instance, Call::GetNumberOfEventIndicators, |instance| {
+            let count = place("nEventIndicators", n_indicators)?;
+            *count = instance.slave().indicator_count()?;
+            Ok(())
+        })
+    }
+    /// Number of continuous states.
+    fmi3GetNumberOfContinuousStates(instance: fmi3Instance, n_states: *mut usize) -> fmi3Status {
+        call(instance, Call::GetNumberOfContinuousStates, |instance| {
+            let count = place("nContinuousStates", n_states)?;
+            *count = instance.slave().state_count()?;
+            Ok(())
+        })
+    }
+
+    // Not provided.
+    /// NULL: this FMU has no model partitions.
     fmi3InstantiateScheduledExecution(
         instance_name: fmi3String, instantiation_token: fmi3String, resource_path: fmi3String, visible: fmi3Boolean,
         logging_on: fmi3Boolean, instance_environment: fmi3InstanceEnvironment,
@@ -483,41 +577,6 @@ functions! {
         let host = HostLogger::new(log_message, instance_environment);
         let name = text(instance_name);
         guarded(|| refuse_kind(Call::InstantiateScheduledExecution, name, host)).unwrap_or(null_mut())
-    }
-    fmi3EnterContinuousTimeMode(instance: fmi3Instance) -> fmi3Status {
-        call(instance, Call::EnterContinuousTimeMode, |_| Ok(()))
-    }
-    fmi3CompletedIntegratorStep(
-        instance: fmi3Instance, no_set_fmu_state_prior_to_current_point: fmi3Boolean,
-        enter_event_mode: *mut fmi3Boolean, terminate_simulation: *mut fmi3Boolean,
-    ) -> fmi3Status {
-        call(instance, Call::CompletedIntegratorStep, |_| Ok(()))
-    }
-    fmi3SetTime(instance: fmi3Instance, time: fmi3Float64) -> fmi3Status { call(instance, Call::SetTime, |_| Ok(())) }
-    fmi3SetContinuousStates(instance: fmi3Instance, states: *const fmi3Float64, n_states: usize) -> fmi3Status {
-        call(instance, Call::SetContinuousStates, |_| Ok(()))
-    }
-    fmi3GetContinuousStateDerivatives(
-        instance: fmi3Instance, derivatives: *mut fmi3Float64, n_states: usize,
-    ) -> fmi3Status {
-        call(instance, Call::GetContinuousStateDerivatives, |_| Ok(()))
-    }
-    fmi3GetEventIndicators(instance: fmi3Instance, indicators: *mut fmi3Float64, n_indicators: usize) -> fmi3Status {
-        call(instance, Call::GetEventIndicators, |_| Ok(()))
-    }
-    fmi3GetContinuousStates(instance: fmi3Instance, states: *mut fmi3Float64, n_states: usize) -> fmi3Status {
-        call(instance, Call::GetContinuousStates, |_| Ok(()))
-    }
-    fmi3GetNominalsOfContinuousStates(
-        instance: fmi3Instance, nominals: *mut fmi3Float64, n_states: usize,
-    ) -> fmi3Status {
-        call(instance, Call::GetNominalsOfContinuousStates, |_| Ok(()))
-    }
-    fmi3GetNumberOfEventIndicators(instance: fmi3Instance, n_indicators: *mut usize) -> fmi3Status {
-        call(instance, Call::GetNumberOfEventIndicators, |_| Ok(()))
-    }
-    fmi3GetNumberOfContinuousStates(instance: fmi3Instance, n_states: *mut usize) -> fmi3Status {
-        call(instance, Call::GetNumberOfContinuousStates, |_| Ok(()))
     }
     fmi3ActivateModelPartition(
         instance: fmi3Instance, clock: fmi3ValueReference, activation_time: fmi3Float64,
@@ -529,11 +588,6 @@ functions! {
     }
     fmi3ExitConfigurationMode(instance: fmi3Instance) -> fmi3Status {
         call(instance, Call::ExitConfigurationMode, |_| Ok(()))
-    }
-    fmi3GetClock(
-        instance: fmi3Instance, vr: *const fmi3ValueReference, nvr: usize, values: *mut fmi3Clock,
-    ) -> fmi3Status {
-        call(instance, Call::GetClock, |_| Ok(()))
     }
     fmi3SetClock(
         instance: fmi3Instance, vr: *const fmi3ValueReference, nvr: usize, values: *const fmi3Clock,

@@ -1,6 +1,6 @@
 //! The importer's callback for intermediate updates.
 
-use super::super::step::Update;
+use super::super::step::IntermediateUpdate;
 use super::types::{fmi3InstanceEnvironment, fmi3IntermediateUpdateCallback};
 
 /// The importer's callback.
@@ -22,7 +22,7 @@ impl HostUpdate {
 
     /// Calls back, while no borrow of the instance is alive: the importer reads and sets variables from there. [s] When
     /// the step is to return, if the importer wants that before its end.
-    pub fn call(&self, update: &Update) -> Option<f64> {
+    pub fn call(&self, update: &IntermediateUpdate) -> Option<f64> {
         let (mut requested, mut at) = (0, update.time);
         // Values of accepted steps, which may be read; continuous inputs may be set.
         let (set, get, finished) = (1, 1, 1);

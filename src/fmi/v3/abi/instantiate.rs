@@ -10,6 +10,7 @@ use super::types::fmi3Instance;
 use crate::fmi::abi::component::give;
 use crate::fmi::abi::engine::borrowed::newer;
 use crate::fmi::abi::panic_guard::guarded;
+use crate::fmi::slave::Interface;
 use crate::fmi::slave::log::Logger;
 use std::ffi::{CStr, CString};
 use std::ptr::null_mut;
@@ -19,7 +20,7 @@ pub fn instantiate(request: &Request<'_>, host: HostLogger, update: Option<HostU
     let made = guarded(|| Instance::instantiate(request, Box::new(host), newer()));
     match made.unwrap_or_else(|fault| Err(Error::Panic(fault))) {
         Ok(instance) => give(Hosted { instance, update }),
-        Err(error) => refuse(Call::InstantiateCoSimulation, request.name, host, &error),
+        Err(error) => refuse(call_of(request.interface), request.name, host, &error),
     }
 }
 
@@ -28,6 +29,14 @@ pub fn refuse(call: Call, name: Option<&CStr>, host: HostLogger, error: &Error) 
     let name = name.map(CString::from).unwrap_or_default();
     Logger::new(Box::new(host), name, true).say(error.severity(), call.name(), error);
     null_mut()
+}
+
+/// The function that makes instances of this kind of interface.
+fn call_of(interface: Interface) -> Call {
+    match interface {
+        Interface::CoSimulation => Call::InstantiateCoSimulation,
+        Interface::ModelExchange => Call::InstantiateModelExchange,
+    }
 }
 
 /// NULL: the FMU has not this kind of interface.

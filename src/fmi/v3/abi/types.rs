@@ -23,7 +23,7 @@ pub type fmi3String = *const c_char;
 pub type fmi3Binary = *const u8;
 /// A byte of a serialized state.
 pub type fmi3Byte = u8;
-/// C's `bool`; there are no clocks.
+/// C's `bool`: whether a clock is active.
 pub type fmi3Clock = u8;
 /// What a call answers.
 pub type fmi3Status = crate::fmi::status::Status;
