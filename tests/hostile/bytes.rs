@@ -104,8 +104,8 @@ fn each_kind_of_damage_is_told_in_words_of_its_own() {
         refused(&slave, &damaged, words, words);
     };
     told(|bytes| bytes[0] = b'X', "not a state of this FMU");
-    told(|bytes| bytes[8] += 1, "version 9; this FMU reads version 8");
-    told(|bytes| bytes[8] = 1, "version 1; this FMU reads version 8");
+    told(|bytes| bytes[8] += 1, "version 10; this FMU reads version 9");
+    told(|bytes| bytes[8] = 1, "version 1; this FMU reads version 9");
     told(|bytes| bytes.truncate(bytes.len() - 1), "instead of");
     told(|bytes| *bytes.last_mut().expect("bytes") ^= 1, "checksum");
     told(|bytes| *bytes = resealed(bytes, |sealed| sealed[HEADER] = 99), "contradicts itself");
