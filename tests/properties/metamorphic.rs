@@ -160,6 +160,8 @@ fn scaled(scene: &Scene, length: f64, mass: f64, time: f64) -> Scene {
     for joint in revolutes(&mut s) {
         joint.radius *= length;
         joint.clearance *= length;
+        joint.layer.thickness *= length;
+        joint.layer.stiffness *= force / length.powi(3);
         joint.damping *= inertia / time;
         joint.eccentricity_start.x *= length;
         joint.eccentricity_start.y *= length;
