@@ -2,6 +2,7 @@
 
 use fmu_harness::host::{Archive, Description, Fmu, LogLine, PLATFORM, Setting};
 use fmu_harness::inspect::declared;
+use fmu_harness::package::elf::{self, Glibc};
 use fmu_harness::package::{Package, Stock, Version};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
@@ -33,6 +34,31 @@ fn the_same_scene_gives_the_same_bytes_and_another_gives_others() {
     assert!(Package::make(&scenario()).expect("a package").bytes == package());
     let ideal = Scenario::find("ideal").expect("a shipped scene");
     assert!(Package::make(&ideal).expect("a package").bytes != package());
+}
+
+/// Without a list of platforms.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_command_package_makes_a_file_for_old_linux_where_zig_can_be_installed() {
+    let directory = TempDir::new().expect("a directory");
+    let file = directory.path().join("wornpin.fmu");
+    let output = Command::new(env!("CARGO_BIN_EXE_fmu-harness")).args(["package", "-o"]).arg(&file).output();
+    let output = output.expect("the program starts");
+    let [printed, complaint] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    assert!(output.status.success(), "{complaint}");
+    if complaint.contains("zig cannot be set up") {
+        eprintln!("not tested: {complaint}");
+        return;
+    }
+    let mut archive = Archive::open(&file).expect("an archive");
+    archive.unpack(directory.path()).expect("unpacked");
+    let libraries = archive.names().into_iter().filter(|name| name.starts_with("binaries/"));
+    let needed: Vec<Glibc> = libraries
+        .map(|name| elf::glibc(&std::fs::read(directory.path().join(name)).expect("read")).expect("an ELF library"))
+        .collect();
+    let newest = needed.iter().max().expect("a library");
+    assert!(*newest <= Glibc { major: 2, minor: 17 }, "{needed:?}");
+    assert!(printed.contains(&format!("needs glibc {newest} or newer")), "{printed}");
 }
 
 /// FMI 2.0.5 §2.3, read from the archive's raw headers: PKWARE's APPNOTE 4.3.12, central directory.

@@ -58,7 +58,7 @@ impl Package {
         platforms.dedup();
         let levels = if self.portable { Levels::Portable } else { Levels::All };
         if platforms.is_empty() {
-            Ok(vec![("", Stock::build_for_old_linux_if_ready(levels)?)])
+            Ok(vec![("", Stock::build_for_old_linux(levels)?)])
         } else {
             Stock::build_for(&platforms, levels)
         }

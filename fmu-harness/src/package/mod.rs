@@ -11,10 +11,12 @@ mod version;
 
 pub use version::Version;
 
+use crate::python::Missing;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use archive::Part;
 use build::{Levels, Library};
+use elf::Glibc;
 use platform::Platform;
 use slidercrank::fmi::slave::states::exchange;
 use slidercrank::fmi::v2::description::documentation;
@@ -38,9 +40,9 @@ pub const MODES: &str = "modes.toml";
 pub struct Package {
     /// The `.fmu` file.
     pub bytes: Vec<u8>,
-    /// Newest glibc that the Linux binary asks for.
-    pub glibc: Option<String>,
-    /// Those that it has a library for.
+    /// The oldest glibc that all its Linux libraries can run with.
+    pub glibc: Option<Glibc>,
+    /// The platforms that it has a library for.
     pub platforms: Vec<Platform>,
 }
 
@@ -62,20 +64,21 @@ struct Binary {
 }
 
 impl Stock {
-    /// Builds the library, and that for newer processors, for this machine and with its own linker.
+    /// Builds the libraries for this machine. On Linux zig links them for an old glibc if it is installed; it is not
+    /// installed for this.
     pub fn build() -> Result<Self> {
-        Self::of(build::own(Levels::All)?)
+        Self::of(build::for_this_machine(Levels::All, Missing::Refuse)?)
     }
 
-    /// The same; on Linux for an old one, if zig is there already.
-    pub fn build_for_old_linux_if_ready(levels: Levels) -> Result<Self> {
-        Self::of(build::own_for_old_linux_if_ready(levels)?)
+    /// Builds the libraries for this machine. On Linux zig links them for an old glibc if it can be installed.
+    pub fn build_for_old_linux(levels: Levels) -> Result<Self> {
+        Self::of(build::for_this_machine(levels, Missing::Make)?)
     }
 
-    /// Builds for these platforms; a stock for every file that FMI 2.0 makes of them, and what the file's name ends in.
+    /// Builds the libraries of these platforms. Returns one stock for each file, with the ending of the file's name.
     pub fn build_for(platforms: &[Platform], levels: Levels) -> Result<Vec<(&'static str, Self)>> {
         let mut stocks: Vec<(&'static str, Vec<Library>)> = Vec::new();
-        for library in build::of(platforms, levels)? {
+        for library in build::for_platforms(platforms, levels)? {
             let ending = library.platform.ending();
             match stocks.iter_mut().find(|(known, _)| *known == ending) {
                 Some((_, libraries)) => libraries.push(library),
@@ -115,7 +118,7 @@ impl Stock {
     /// The same for a version of FMI.
     pub fn package_for(&self, version: Version, scenario: &Scenario) -> Result<Package> {
         let parts = self.parts(version, scenario)?;
-        let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
+        let glibc = parts.iter().filter_map(|part| elf::glibc(&part.bytes)).max();
         let mut platforms: Vec<Platform> = self.binaries.iter().map(|binary| binary.platform).collect();
         platforms.dedup();
         Ok(Package { bytes: archive::write(&parts)?, glibc, platforms })

@@ -2,7 +2,7 @@
 
 use super::platform::Platform;
 use crate::python::{Missing, environment};
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -12,12 +12,15 @@ use std::{env, fs};
 pub const MINGW: &str = "x86_64-w64-mingw32-gcc";
 const MINGW_PACKAGE: &str = "gcc-mingw-w64-x86-64-win32";
 
-/// The folder of cargo-zigbuild and of zig as a Python package.
+/// The folder of cargo-zigbuild and of zig, which are Python packages.
 ///
 /// # Errors
-/// If they are not there and cannot be, or are not to be, installed; the text says what is missing.
+/// If they are missing and cannot be, or are not to be, installed; the text is one line.
 pub fn zig(missing: Missing) -> Result<PathBuf> {
-    let python = environment("zig", missing).context("zig cannot be set up")?;
+    let python = environment("zig", missing).map_err(|error| {
+        let cause = format!("{error:#}");
+        anyhow!("zig cannot be set up: {}", cause.lines().next().unwrap_or_default())
+    })?;
     Ok(python.parent().unwrap_or(Path::new("")).into())
 }
 

@@ -12,8 +12,9 @@ use clap::ValueEnum;
 use fmu_harness::host::{Archive, Description};
 use fmu_harness::package::Version;
 use fmu_harness::package::build::Levels;
+use fmu_harness::package::elf::{self, Glibc};
 use fmu_harness::package::platform::Platform;
-use fmu_harness::package::{Stock, build, elf, mach_o};
+use fmu_harness::package::{Stock, build, mach_o};
 use fmu_harness::python::{Missing, environment};
 use fmu_harness::scenes::{Scenario, directory, names};
 use object::read::macho::{FatArch, MachOFatFile32, MachOFile64};
@@ -44,7 +45,7 @@ fn skip(platform: Platform, why: &str) {
 /// The portable library of this machine, linked by its own linker: what the others are compared with.
 fn own() -> &'static Stock {
     static OWN: OnceLock<Stock> = OnceLock::new();
-    OWN.get_or_init(|| build::own(Levels::Portable).and_then(Stock::of).expect("a library"))
+    OWN.get_or_init(|| build::with_own_linker(Levels::Portable).and_then(Stock::of).expect("a library"))
 }
 
 /// What it takes to build for a platform and, except for macOS, to run what was built.
@@ -70,7 +71,7 @@ fn stock(platform: Platform) -> Option<&'static Stock> {
         let wanted = Platform::value_variants().iter().copied();
         let wanted: Vec<Platform> =
             wanted.filter(|platform| is_asked(*platform) && prepare(*platform).is_ok()).collect();
-        let built = build::of(&wanted, Levels::Portable).expect("libraries");
+        let built = build::for_platforms(&wanted, Levels::Portable).expect("libraries");
         let stock = |platform: &Platform| {
             let libraries = built.iter().filter(|library| library.platform == *platform).cloned().collect();
             (*platform, Stock::of(libraries).expect("a stock"))
@@ -205,8 +206,7 @@ fn packages_of_other_platforms_tell_neither_place_nor_time_and_ask_for_no_new_li
         match platform {
             Platform::Linux64 | Platform::LinuxAarch64 => {
                 let newest = elf::glibc(&library).expect("an ELF library that needs glibc");
-                let minor: u32 = newest.strip_prefix("2.").and_then(|minor| minor.parse().ok()).expect("2.x");
-                assert!(minor <= 17, "{} needs glibc {newest}", platform.name());
+                assert!(newest <= Glibc { major: 2, minor: 17 }, "{} needs glibc {newest}", platform.name());
             }
             Platform::Win64 => {
                 // Microsoft PE specification, 3.3: the header's place is at 0x3C, and the time 8 bytes after its start.
@@ -248,6 +248,31 @@ fn what_is_missing_is_told_in_one_line_and_nothing_is_written() {
     }
 }
 
+/// `python3` is not on PATH, so zig cannot be installed; the C compiler and Rust are.
+#[test]
+fn without_zig_the_package_for_this_linux_is_made_and_says_what_it_needs() {
+    if !is_asked(Platform::Linux64) {
+        return skip(Platform::Linux64, &format!("{ASKED} does not list it"));
+    }
+    own();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = std::env::var_os("PATH").expect("PATH");
+    for program in ["cc", "ld", "as", "cargo", "rustc"] {
+        let found = std::env::split_paths(&path).map(|folder| folder.join(program)).find(|file| file.is_file());
+        std::os::unix::fs::symlink(found.expect(program), folder.path().join(program)).expect("a link");
+    }
+    let file = folder.path().join("scene.fmu");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+    command.args(["package", "--portable", "-o"]).arg(&file).env("PATH", folder.path());
+    let output = command.output().expect("the program starts");
+    let [printed, complaint] = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    assert!(output.status.success(), "{complaint}");
+    assert_eq!(complaint.lines().filter(|line| line.starts_with("zig cannot be set up: ")).count(), 1, "{complaint}");
+    let newest = elf::glibc(&library(own(), Platform::Linux64, &Scenario::find("wornpin").expect("a shipped scene")));
+    let newest = newest.expect("an ELF library that needs glibc");
+    assert!(printed.contains(&format!("needs glibc {newest} or newer")), "{printed}");
+}
+
 /// It cannot be run here. What can be seen: two processors, every function of the standard, digests that fit the bytes.
 #[test]
 fn the_library_for_macos_is_whole() {
@@ -273,7 +298,7 @@ fn the_library_for_macos_is_whole() {
         assert!(signed == slice, "{:?}: the digests are not those of the bytes", arch.architecture());
     }
     // The digests that the linker made are those that this code makes, and on ARM there are some.
-    let linked = build::of(&[Platform::Darwin64], Levels::Portable).expect("libraries");
+    let linked = build::for_platforms(&[Platform::Darwin64], Levels::Portable).expect("libraries");
     for library in linked {
         let bytes = std::fs::read(&library.file).expect("read");
         let mut signed = bytes.clone();
