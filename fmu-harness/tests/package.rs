@@ -116,9 +116,9 @@ mod code {
     use object::endian::Endianness;
     use object::read::elf::{FileHeader, SectionHeader};
 
-    /// [bytes] Most machine code of one packaged library: little above what the portable one has, with two versions of FMI
-    /// and model exchange. The goal is 2 MB; what is above it are the equations for numbers with derivatives and for eight
-    /// instants, each for three sizes of a flexible rod's arrays.
+    /// [bytes] Most machine code of one packaged library: little above what the portable one has, with two versions of
+    /// FMI and model exchange. The goal is 2 MB; what is above it are the equations for numbers with derivatives and
+    /// for eight instants, each for three sizes of a flexible rod's arrays.
     const MOST: u64 = 3_000_000;
 
     /// [bytes] Sections of a library that hold instructions.
@@ -369,7 +369,7 @@ fn a_package_tells_its_date_and_the_time_of_day_changes_no_byte() {
     assert_eq!(date(&dated), "2025-12-31T23:59:59Z");
     for wrong in ["yesterday", "-1", "1e9", "253402300800"] {
         let words = package(Some(wrong)).expect_err("no number of seconds");
-        assert!(words.contains(&format!("SOURCE_DATE_EPOCH = {wrong} is no number of seconds")), "{words}");
+        assert!(words.contains(&format!("SOURCE_DATE_EPOCH = {wrong} is not a number of seconds")), "{words}");
     }
 }
 
@@ -395,7 +395,7 @@ fn integers_and_booleans_are_set_by_name() {
         ("rod.flexible.bending_modes=two", "a whole number"),
         ("rod.flexible.bending_modes=1.5", "a whole number"),
         ("energy.audit=yes", "true or false"),
-        ("rod.flexible.bending_modes=9", "answers fmi2Error"),
+        ("rod.flexible.bending_modes=9", "returned fmi2Error"),
     ] {
         let error = format!("{:#}", attempt(&[setting]).err().expect("a value that cannot be"));
         assert!(error.contains(wanted), "{setting}: {error}");
