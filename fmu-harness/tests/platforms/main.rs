@@ -23,6 +23,7 @@ use scene::{Packaged, STEPS};
 use slidercrank::fmi::v2::abi::functions::NAMES;
 use std::collections::BTreeSet;
 use std::io::Write;
+use std::net::TcpListener;
 use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
@@ -159,10 +160,14 @@ fn a_state_that_is_saved_on_one_platform_goes_on_to_the_bit_on_another() {
     }
 }
 
-/// FMPy's own program loads the library under Wine and talks to FMPy here.
+/// A server of FMPy loads the library under Wine. `in_wine.py` tells what that takes.
 #[test]
 fn fmpy_runs_the_package_for_windows() {
     let Some(windows) = stock(Platform::Win64) else { return };
+    // The port of FMPy's server is fixed.
+    if TcpListener::bind(("127.0.0.1", 8080)).is_err() {
+        return skip(Platform::Win64, "another program uses port 8080, which FMPy's server needs");
+    }
     let python = environment("hosts", Missing::Make).expect("the environment of the hosts");
     let folder = tempfile::tempdir().expect("a folder");
     let scenario = Scenario::find("wornpin").expect("a shipped scene");
@@ -188,7 +193,33 @@ fn fmpy_runs_the_package_for_windows() {
         .output()
         .expect("timeout, of the coreutils");
     let [told, complaint] = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    assert!(output.status.success() && told.contains("11 points"), "{}\n{told}\n{complaint}", output.status);
+    if !output.status.success() {
+        machine::stop_wine();
+    }
+    assert!(output.status.success() && told.contains("1001 points"), "{}\n{told}\n{complaint}", output.status);
+}
+
+#[test]
+fn linux_on_arm_needs_a_file_of_its_own_in_fmi_2_alone() {
+    let platforms = [Platform::Linux64, Platform::LinuxAarch64];
+    if platforms.iter().any(|platform| stock(*platform).is_none()) {
+        return;
+    }
+    let scenario = Scenario::find("wornpin").expect("a shipped scene");
+    let files = |version: Version| -> Vec<(&str, Vec<String>)> {
+        let stocks = Stock::build_for(version, &platforms, Levels::Portable).expect("libraries");
+        let libraries = |stock: Stock| {
+            let file = tempfile::NamedTempFile::new().expect("a file");
+            stock.package_for(version, &scenario).expect("a package").save(file.path()).expect("written");
+            let names = Archive::open(file.path()).expect("an archive").names();
+            names.into_iter().filter(|name| name.starts_with("binaries/")).collect()
+        };
+        stocks.into_iter().map(|(ending, stock)| (ending, libraries(stock))).collect()
+    };
+    let name = |folder: &str| format!("binaries/{folder}/SliderCrank.so");
+    let [own, arm] = ["", "-linux-aarch64"].map(|ending| (ending, vec![name("linux64")]));
+    assert_eq!(files(Version::Fmi2), [own, arm]);
+    assert_eq!(files(Version::Fmi3), [("", vec![name("x86_64-linux"), name("aarch64-linux")])]);
 }
 
 /// Bytes that differ from build to build, or tell where it was, and functions of a newer Linux than asked for.
