@@ -9,6 +9,7 @@
 mod mechanisms;
 mod packages;
 mod price;
+mod rust_importer;
 #[macro_use]
 #[path = "../pytest/mod.rs"]
 mod pytest;

@@ -1,8 +1,8 @@
 //! The library on other platforms: the bits of Linux on x86-64, and states that go on from one to another.
 //!
 //! These tests build the library once more for each platform, which takes minutes. They run for the platforms that the
-//! environment variable `SLIDERCRANK_PLATFORMS` lists, and only where the tools are there: Wine and MinGW-w64 for win64, QEMU
-//! and zig for linux-aarch64, zig for linux64 and darwin64. A test that does not run says why in one line.
+//! environment variable `SLIDERCRANK_PLATFORMS` lists, and only where the tools are there: Wine and MinGW-w64 for
+//! win64, QEMU and zig for linux-aarch64, zig for linux64 and darwin64. A test that does not run says why in one line.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 mod machine;
@@ -11,7 +11,7 @@ mod scene;
 use clap::ValueEnum;
 use fmu_harness::host::{Archive, Description};
 use fmu_harness::package::Version;
-use fmu_harness::package::build::Levels;
+use fmu_harness::package::build::{Levels, Library};
 use fmu_harness::package::elf::{self, Glibc};
 use fmu_harness::package::platform::Platform;
 use fmu_harness::package::{Stock, build, mach_o};
@@ -57,7 +57,22 @@ fn prepare(platform: Platform) -> Result<(), String> {
     build::prepare(platform).map_err(|error| format!("{error:#}"))
 }
 
-/// The libraries of a platform, if it is to be tested and can be. Those of all such platforms are built together.
+/// The portable libraries of all platforms that are to be tested and can be, built by one call.
+fn built() -> &'static [Library] {
+    static BUILT: OnceLock<Vec<Library>> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        let wanted = Platform::value_variants().iter().copied();
+        let wanted: Vec<Platform> =
+            wanted.filter(|platform| is_asked(*platform) && prepare(*platform).is_ok()).collect();
+        build::for_platforms(&wanted, Levels::Portable).expect("libraries")
+    })
+}
+
+fn built_for(platform: Platform) -> Vec<Library> {
+    built().iter().filter(|library| library.platform == platform).cloned().collect()
+}
+
+/// The libraries of a platform, if it is to be tested and can be.
 fn stock(platform: Platform) -> Option<&'static Stock> {
     static STOCKS: OnceLock<Vec<(Platform, Stock)>> = OnceLock::new();
     if !is_asked(platform) {
@@ -69,15 +84,10 @@ fn stock(platform: Platform) -> Option<&'static Stock> {
         return None;
     }
     let stocks = STOCKS.get_or_init(|| {
-        let wanted = Platform::value_variants().iter().copied();
-        let wanted: Vec<Platform> =
-            wanted.filter(|platform| is_asked(*platform) && prepare(*platform).is_ok()).collect();
-        let built = build::for_platforms(&wanted, Levels::Portable).expect("libraries");
-        let stock = |platform: &Platform| {
-            let libraries = built.iter().filter(|library| library.platform == *platform).cloned().collect();
-            (*platform, Stock::of(libraries).expect("a stock"))
-        };
-        wanted.iter().map(stock).collect()
+        let mut platforms: Vec<Platform> = built().iter().map(|library| library.platform).collect();
+        platforms.dedup();
+        let stock = |platform: Platform| (platform, Stock::of(built_for(platform)).expect("a stock"));
+        platforms.into_iter().map(stock).collect()
     });
     stocks.iter().find(|(known, _)| *known == platform).map(|(_, stock)| stock)
 }
@@ -329,8 +339,7 @@ fn the_library_for_macos_is_whole() {
         assert!(signed == slice, "{:?}: the digests are not those of the bytes", arch.architecture());
     }
     // The digests that the linker made are those that this code makes, and on ARM there are some.
-    let linked = build::for_platforms(&[Platform::Darwin64], Levels::Portable).expect("libraries");
-    for library in linked {
+    for library in built_for(Platform::Darwin64) {
         let bytes = std::fs::read(&library.file).expect("read");
         let mut signed = bytes.clone();
         mach_o::sign(&mut signed).expect("a library");
