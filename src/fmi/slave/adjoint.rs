@@ -3,7 +3,8 @@
 use super::{Error, Permission, Slave};
 
 impl Slave {
-    /// Σᵢ `seeds`ᵢ·∂unknownᵢ/∂knownⱼ for each known j. There are few inputs, so each is asked for by itself.
+    /// Σᵢ `seeds`ᵢ·∂unknownᵢ/∂knownⱼ for each known j. There are few inputs, so the derivatives
+    /// with respect to each are computed separately.
     pub fn adjoint_derivative(
         &mut self,
         permission: Permission,

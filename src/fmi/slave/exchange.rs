@@ -1,4 +1,4 @@
-//! Model exchange: what a slave does for an importer that integrates. Nothing here allocates but a directional derivative.
+//! Model exchange: the functions of a slave for an importer that integrates. Only directional derivatives allocate.
 
 use super::Slave;
 use super::access::{Permission, finite, finite_output, real_input, real_output, variable};
@@ -23,13 +23,13 @@ impl Slave {
         Ok(Self { interface: Interface::ModelExchange, ..Self::new(packaged, None) })
     }
 
-    /// Which kind of interface the slave has.
+    /// The slave's kind of interface.
     pub fn interface(&self) -> Interface {
         self.interface
     }
 
-    /// Refuses a scene that has not the states of the packaged one where the importer integrates; `name` is the parameter
-    /// that makes the difference.
+    /// If the importer integrates: returns an error for a scene whose states differ from those of the packaged scene.
+    /// `name` is the parameter that makes the difference.
     pub(super) fn check_structure(&self, scene: &Scene, name: &'static str) -> Result<(), VariableError> {
         match self.interface {
             Interface::CoSimulation => Ok(()),
@@ -37,7 +37,7 @@ impl Slave {
         }
     }
 
-    /// Sets the importer's time [s]. An integrator's trial may look past the stop time.
+    /// Sets the importer's time [s]. An integrator's trial step may go past the stop time.
     pub fn set_time(&mut self, time: f64) -> Result<(), Error> {
         if !time.is_finite() {
             return Err(TimeError::NotFinite("time", time).into());
@@ -48,17 +48,17 @@ impl Slave {
         Ok(())
     }
 
-    /// How many continuous states there are.
+    /// Number of continuous states.
     pub fn state_count(&mut self) -> Result<usize, Error> {
         Ok(self.hosted()?.states().len())
     }
 
-    /// How many event indicators there are.
+    /// Number of event indicators.
     pub fn indicator_count(&mut self) -> Result<usize, Error> {
         Ok(self.hosted()?.indicators())
     }
 
-    /// Sets the continuous states, of which there are as many.
+    /// Sets all continuous states.
     pub fn set_states(&mut self, states: &[f64]) -> Result<(), Error> {
         for (variable, state) in STATES.iter().zip(states) {
             finite(variable, *state)?;
@@ -68,8 +68,8 @@ impl Slave {
         Ok(())
     }
 
-    /// The place of a state that may be set by its value reference: where the importer integrates, once initialization is
-    /// over. The standard has another function for that, which some importers leave aside.
+    /// Number of a state that may be set by its value reference: if the importer integrates, after initialization. The
+    /// standard has another function for this, which some importers do not use.
     pub(super) fn settable_state(&self, variable: &Variable, permission: Permission) -> Option<usize> {
         match (&variable.access, &self.course) {
             (Access::State(place), Some(Course::Hosted(mechanism))) if self.initialized && permission.inputs => {
@@ -79,7 +79,7 @@ impl Slave {
         }
     }
 
-    /// Sets those states that have a new value.
+    /// Sets the states that have new values.
     pub(super) fn take_states(&mut self, states: &[Option<f64>; MAX_STATES]) {
         if let Some(Course::Hosted(mechanism)) = &mut self.course {
             for (state, new) in mechanism.states_mut().iter_mut().zip(states) {
@@ -88,19 +88,19 @@ impl Slave {
         }
     }
 
-    /// Writes the continuous states, of which there are as many.
+    /// Writes all continuous states.
     pub fn write_states(&mut self, states: &mut [f64]) -> Result<(), Error> {
         states.copy_from_slice(self.hosted()?.states());
         Ok(())
     }
 
-    /// Writes the nominal values of the states, of which there are as many.
+    /// Writes the nominal values of all states.
     pub fn write_nominals(&mut self, nominals: &mut [f64]) -> Result<(), Error> {
         nominals.copy_from_slice(self.hosted()?.nominals());
         Ok(())
     }
 
-    /// Writes the derivatives of the states, of which there are as many; none if one is not finite.
+    /// Writes the derivatives of all states, or none if one of them is not finite.
     pub fn write_derivatives(&mut self, derivatives: &mut [f64]) -> Result<(), Error> {
         let mut rates = [0.0; MAX_STATES];
         let rates = &mut rates[..derivatives.len()];
@@ -112,7 +112,7 @@ impl Slave {
         Ok(())
     }
 
-    /// Writes the event indicators, of which there are as many.
+    /// Writes all event indicators.
     pub fn write_indicators(&mut self, indicators: &mut [f64]) -> Result<(), Error> {
         self.hosted()?.write_indicators(indicators);
         Ok(())
@@ -125,7 +125,7 @@ impl Slave {
         Ok(update)
     }
 
-    /// Whether [`Slave::update_discrete_states`] would do something.
+    /// Whether [`Slave::update_discrete_states`] would change a contact.
     pub fn update_is_due(&mut self) -> Result<bool, Error> {
         Ok(self.hosted()?.update_is_due())
     }
@@ -189,7 +189,7 @@ impl Slave {
     fn hosted(&mut self) -> Result<&mut HostedMechanism, Error> {
         match self.live()? {
             Course::Hosted(mechanism) => Ok(mechanism),
-            // The lifecycle lets no call of model exchange in here.
+            // The life cycle allows no call of model exchange here.
             Course::Own(_) => Err(Error::Interface),
         }
     }

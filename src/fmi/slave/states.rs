@@ -1,4 +1,4 @@
-//! Continuous states on the FMU's face: their variables, and which parameters decide how many there are.
+//! Continuous states of model exchange: their variables, and the parameters that determine their number.
 
 use super::error::VariableError;
 use super::variables::{DERIVATIVES, STATES, Variable};
@@ -10,7 +10,7 @@ use crate::simulation::nominals;
 
 const _: () = assert!(STATES.len() == MAX_STATES && DERIVATIVES.len() == MAX_STATES, "a variable for every state");
 
-/// The state or derivative of this value reference, if it is one's.
+/// Number of the state whose value or derivative has this value reference, if there is one.
 pub fn variable(reference: u32) -> Option<&'static Variable> {
     let of = |list: &'static [Variable], first: u32| {
         reference.checked_sub(first).and_then(|place| list.get(usize::try_from(place).ok()?))
@@ -18,12 +18,12 @@ pub fn variable(reference: u32) -> Option<&'static Variable> {
     of(STATES, FIRST_STATE).or_else(|| of(DERIVATIVES, FIRST_DERIVATIVE))
 }
 
-/// Whether another integrator can have the scene's equations: rigid contacts have none.
+/// Whether another integrator can solve the scene's equations. Rigid contacts have no equations of motion.
 pub fn can_be_exchanged(scene: &Scene) -> bool {
     scene.solver.method != Method::Moreau
 }
 
-/// What the description of a package of this scene says for model exchange, if it offers that.
+/// Contents of the model description for model exchange, if the scene supports it.
 pub fn exchange(scene: &Scene) -> Option<Exchange> {
     can_be_exchanged(scene).then(|| {
         let variables = state_variables(scene);
@@ -33,8 +33,8 @@ pub fn exchange(scene: &Scene) -> Option<Exchange> {
     })
 }
 
-/// Refuses a scene whose states or event indicators are not those of the packaged one; `name` is the parameter that made
-/// the difference.
+/// Returns an error for a scene whose states or event indicators differ from those of the packaged scene. `name` is the
+/// parameter that made the difference.
 pub fn check_structure(packaged: &Scene, scene: &Scene, name: &'static str) -> Result<(), VariableError> {
     let names = |scene| state_variables(scene).into_iter().map(|state| state.name);
     let same = names(packaged).eq(names(scene)) && event_count(packaged) == event_count(scene);

@@ -6,20 +6,20 @@ use super::lifecycle::State;
 use crate::fmi::abi::ArgumentError;
 use crate::simulation::Update;
 
-/// What the importer is told of an event: `fmi2EventInfo` without what this FMU never has. One iteration is enough, nominal
-/// values stay, and no event is known in advance.
+/// Results of an event: `fmi2EventInfo` without the parts that this FMU never uses. One iteration is enough, nominal
+/// values do not change, and no event is known in advance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EventOutcome {
-    /// The motion leads no further.
+    /// The motion cannot continue.
     pub terminate: bool,
-    /// States have other values.
+    /// Values of states have changed.
     pub states_changed: bool,
 }
 
-/// What the importer is told after a step.
+/// Results of a completed step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StepOutcome {
-    /// An event has been passed over.
+    /// An event has happened.
     pub enter_event_mode: bool,
 }
 
@@ -42,7 +42,7 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2CompletedIntegratorStep`. An importer that watches the event indicators hears of nothing new.
+    /// `fmi2CompletedIntegratorStep`. For an importer that monitors the event indicators it brings nothing new.
     pub fn completed_integrator_step(&mut self) -> Result<StepOutcome, Error> {
         Ok(StepOutcome { enter_event_mode: self.slave.update_is_due()? })
     }
