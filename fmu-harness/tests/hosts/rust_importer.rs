@@ -45,78 +45,59 @@ impl Run {
 /// Times, and the values of these outputs at each.
 type Samples = Vec<(f64, Vec<f64>)>;
 
-fn with_fmi2(folder: &Path, names: &[&str], run: &Run) -> Result<Samples> {
-    let description = Arc::new(fmi2::ModelDescription::from_path(&folder.join("modelDescription.xml"))?);
-    let indices: Result<Vec<_>, _> = names.iter().map(|name| description.variable_index_by_name(name)).collect();
-    let recorder = sim2::recorder::Recorder::new(sim2::Trajectories::new(description.clone(), indices?));
-    let recorder = Arc::new(recorder);
-    let settings = sim2::SimulationSettings {
-        unzipdir: folder.into(),
-        model_description: description,
-        start_time: 0.0,
-        stop_time: run.stop,
-        logging_on: false,
-        set_stop_time: true,
-        output_interval: run.step,
-        log_time_scale: false,
-        tolerance: run.tolerance.unwrap_or(1e-10),
-        set_tolerance: run.tolerance.is_some(),
-        start_values: vec![],
-        log_fmi_calls: false,
-        input_file: None,
-        early_return_allowed: false,
-        event_mode_used: false,
-        log_file: None,
-        initial_fmu_state_file: None,
-        final_fmu_state_file: None,
+/// Declares a function that simulates with the modules of fmi-rs for one version of FMI. They have the same names, but
+/// different types.
+macro_rules! simulation {
+    ($name:ident, $schema:ident, $sim:ident, { $($field:ident: $value:expr),* }, $simulate:expr, $number:expr) => {
+        fn $name(folder: &Path, names: &[&str], run: &Run) -> Result<Samples> {
+            let description = Arc::new($schema::ModelDescription::from_path(&folder.join("modelDescription.xml"))?);
+            let indices: Result<Vec<_>, _> = names.iter().map(|name| description.variable_index_by_name(name)).collect();
+            let trajectories = $sim::Trajectories::new(description.clone(), indices?);
+            let recorder = Arc::new($sim::recorder::Recorder::new(trajectories));
+            let settings = $sim::SimulationSettings {
+                unzipdir: folder.into(),
+                model_description: description,
+                start_time: 0.0,
+                stop_time: run.stop,
+                logging_on: false,
+                set_stop_time: true,
+                output_interval: run.step,
+                log_time_scale: false,
+                tolerance: run.tolerance.unwrap_or(1e-10),
+                set_tolerance: run.tolerance.is_some(),
+                start_values: vec![],
+                log_fmi_calls: false,
+                input_file: None,
+                early_return_allowed: run.events,
+                event_mode_used: run.events,
+                log_file: None,
+                initial_fmu_state_file: None,
+                final_fmu_state_file: None,
+                $($field: $value),*
+            };
+            $simulate(&settings, recorder.clone(), run)?;
+            let found = Arc::into_inner(recorder).context("fmi-rs still records")?.into_trajectories();
+            let row = |row: &Vec<$sim::VariableValue>| row.iter().map($number).collect::<Option<Vec<f64>>>();
+            let rows: Option<Vec<Vec<f64>>> = found.rows.iter().map(row).collect();
+            Ok(found.time.into_iter().zip(rows.context("a value that is no number")?).collect())
+        }
     };
-    if run.euler {
-        let solver = ForwardEulerFactory { fixed_step_size: run.step };
-        sim2::me::simulate(&settings, &solver, None, recorder.clone())?;
-    } else {
-        sim2::cs::simulate(&settings, None, recorder.clone())?;
-    }
-    let found = Arc::into_inner(recorder).context("fmi-rs still records")?.into_trajectories();
-    let row = |row: &Vec<sim2::VariableValue>| row.iter().map(|value| value.to_f64().context("no number")).collect();
-    let rows: Result<Vec<Vec<f64>>> = found.rows.iter().map(row).collect();
-    Ok(found.time.into_iter().zip(rows?).collect())
 }
 
-fn with_fmi3(folder: &Path, names: &[&str], run: &Run) -> Result<Samples> {
-    let description = Arc::new(fmi3::ModelDescription::from_path(&folder.join("modelDescription.xml"))?);
-    let indices: Result<Vec<_>, _> = names.iter().map(|name| description.variable_index_by_name(name)).collect();
-    let recorder = sim3::recorder::Recorder::new(sim3::Trajectories::new(description.clone(), indices?));
-    let recorder = Arc::new(recorder);
-    let settings = sim3::SimulationSettings {
-        unzipdir: folder.into(),
-        model_description: description,
-        library_kind: LibraryKind::Native,
-        enable_dae: false,
-        start_time: 0.0,
-        stop_time: run.stop,
-        visible: false,
-        logging_on: false,
-        set_stop_time: true,
-        output_interval: run.step,
-        log_time_scale: false,
-        tolerance: run.tolerance.unwrap_or(1e-10),
-        set_tolerance: run.tolerance.is_some(),
-        start_values: vec![],
-        log_fmi_calls: false,
-        intermediate_update: false,
-        input_file: None,
-        early_return_allowed: run.events,
-        event_mode_used: run.events,
-        log_file: None,
-        initial_fmu_state_file: None,
-        final_fmu_state_file: None,
-    };
-    sim3::cs::simulate(&settings, None, recorder.clone())?;
-    let found = Arc::into_inner(recorder).context("fmi-rs still records")?.into_trajectories();
-    let number = |value: &sim3::VariableValue| value.as_f64().and_then(|values| values.first().copied());
-    let row = |row: &Vec<sim3::VariableValue>| row.iter().map(|value| number(value).context("no number")).collect();
-    let rows: Result<Vec<Vec<f64>>> = found.rows.iter().map(row).collect();
-    Ok(found.time.into_iter().zip(rows?).collect())
+simulation! {
+    with_fmi2, fmi2, sim2, {},
+    |settings: &sim2::SimulationSettings, recorder, run: &Run| match run.euler {
+        true => sim2::me::simulate(settings, &ForwardEulerFactory { fixed_step_size: run.step }, None, recorder),
+        false => sim2::cs::simulate(settings, None, recorder),
+    },
+    sim2::VariableValue::to_f64
+}
+
+simulation! {
+    with_fmi3, fmi3, sim3,
+    { library_kind: LibraryKind::Native, enable_dae: false, visible: false, intermediate_update: false },
+    |settings: &sim3::SimulationSettings, recorder, _: &Run| sim3::cs::simulate(settings, None, recorder),
+    |value| value.as_f64().and_then(|values| values.first().copied())
 }
 
 /// The harness's own run of the same file: names of the outputs, and samples at the same times.
