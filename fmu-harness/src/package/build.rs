@@ -1,5 +1,6 @@
 //! Builds the FMU's libraries with cargo. Their bytes do not depend on the folder they are built in.
 
+use super::EPOCH;
 use super::platform::Platform;
 use super::tools;
 use crate::python::Missing;
@@ -203,7 +204,8 @@ impl Call {
         if let Some(level) = self.level {
             flags.push(format!("\u{1f}-Ctarget-cpu={level}"));
         }
-        command.env("CARGO_ENCODED_RUSTFLAGS", flags).env_remove("CARGO_BUILD_TARGET");
+        // The date of a package is no part of its libraries. zig would refuse to run if the date is invalid.
+        command.env("CARGO_ENCODED_RUSTFLAGS", flags).env_remove("CARGO_BUILD_TARGET").env_remove(EPOCH);
         let status = command.stdin(Stdio::null()).status().context("cargo cannot be started")?;
         ensure!(status.success(), "cargo could not build the FMU's library ({status})");
         let library = |&(platform, triple): &(Platform, &'static str)| {
