@@ -2,6 +2,7 @@
 
 use fmu_harness::host::{Archive, Description, Fmu, Log, LogLine, PLATFORM, Setting, Value};
 use fmu_harness::inspect::declared;
+use fmu_harness::package::elf::{self, Glibc};
 use fmu_harness::package::references::{FOLDER, RESULTS, STIMULI};
 use fmu_harness::package::{Package, Stock, Version};
 use fmu_harness::run::{Experiment, Until, run};
