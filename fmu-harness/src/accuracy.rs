@@ -1,4 +1,4 @@
-//! Kinematic accuracy: the slider against that of the ideal mechanism at the same crank motion, and what it does at
+//! Kinematic accuracy: the slider's error against the ideal mechanism with the same crank motion, and its motion at
 //! bottom dead centre.
 
 use crate::dynamics::Machine;
@@ -10,22 +10,22 @@ use slidercrank::scene::JointModel;
 use slidercrank::scene::read::SceneFile;
 use std::f64::consts::{PI, TAU};
 
-/// Points of one turn.
+/// Communication points per turn.
 const POINTS: usize = 720;
 
-/// How long.
+/// Length of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// Turns that are forgotten.
+    /// Turns before the evaluation starts.
     pub transient: usize,
-    /// Turns that are looked at.
+    /// Turns that are evaluated.
     pub turns: usize,
 }
 
 /// The error of one quantity over time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
-    /// Largest size.
+    /// Largest absolute value.
     pub max: f64,
     /// Root mean square.
     pub rms: f64,
@@ -33,12 +33,12 @@ pub struct Deviation {
     pub mean: f64,
     /// Mean absolute deviation from the mean.
     pub mad: f64,
-    /// Largest size of the quantity itself over that of the ideal mechanism.
+    /// Ratio of the quantity's largest absolute value to that of the ideal mechanism.
     pub peak_ratio: f64,
 }
 
 impl Deviation {
-    /// Of a list of errors, and of the quantity with and without them.
+    /// Statistics of a list of errors, from the quantity's values with and without them.
     fn of(errors: &[f64], actual: &[f64]) -> Self {
         let count = errors.len().max(1) as f64;
         let mean = errors.iter().sum::<f64>() / count;
@@ -54,14 +54,14 @@ impl Deviation {
     }
 }
 
-/// What the slider does at bottom dead centre, stroke by stroke.
+/// Position error and tilt of the slider at bottom dead centre, over all strokes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeadCentre {
     /// [m] Mean position error.
     pub error: f64,
     /// [m] Its standard deviation from stroke to stroke.
     pub spread: f64,
-    /// [m] From the least to the largest.
+    /// [m] Its range.
     pub range: f64,
     /// [rad] Mean tilt.
     pub tilt: f64,
@@ -84,9 +84,9 @@ pub struct Accuracy {
     pub peak_force: f64,
 }
 
-/// One line of a comparison.
+/// One case of a comparison.
 pub struct Case {
-    /// What is different in it.
+    /// The difference from the other cases.
     pub name: String,
     /// The scene.
     pub file: SceneFile,
@@ -95,7 +95,7 @@ pub struct Case {
 /// Factors of clearance and speed.
 const FACTORS: [f64; 5] = [0.25, 0.5, 1.0, 1.5, 2.0];
 
-/// Everything that a scene is compared with, by what differs.
+/// All comparisons of a scene, with their titles.
 pub fn comparisons(file: &SceneFile) -> Vec<(&'static str, Vec<Case>)> {
     let mut parts = vec![
         ("joints with play", sixteen(file)),
@@ -107,7 +107,7 @@ pub fn comparisons(file: &SceneFile) -> Vec<(&'static str, Vec<Case>)> {
     parts
 }
 
-/// The sixteen choices of joints with play, each joint with its own clearance; the scene's rod.
+/// The sixteen choices of joints with clearance. Each joint has the scene's clearance, and the rod is the scene's.
 pub fn sixteen(file: &SceneFile) -> Vec<Case> {
     (0..16)
         .map(|choice| {
@@ -128,7 +128,7 @@ pub fn sixteen(file: &SceneFile) -> Vec<Case> {
         .collect()
 }
 
-/// The scene with all clearances times each factor.
+/// The scene with all clearances multiplied by each factor.
 pub fn clearances(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
     let scaled = |factor: &f64| {
         let mut file = file.clone();
@@ -143,7 +143,7 @@ pub fn clearances(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
     factors.iter().map(scaled).collect()
 }
 
-/// The scene at its speed times each factor.
+/// The scene with its speed multiplied by each factor.
 pub fn speeds(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
     let faster = |factor: &f64| {
         let mut file = file.clone();
@@ -153,7 +153,7 @@ pub fn speeds(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
     factors.iter().map(faster).collect()
 }
 
-/// A scene with a flexible rod, and the same with a rigid one of its mass; none of a scene whose rod is rigid.
+/// A scene with its flexible rod and with a rigid rod of the same mass; no cases if the scene's rod is rigid.
 pub fn rods(file: &SceneFile) -> Vec<Case> {
     let Some(body) = Rod::new(&file.scene).map(|rod| rod.undeformed()) else { return vec![] };
     let mut rigid = file.clone();
@@ -164,7 +164,7 @@ pub fn rods(file: &SceneFile) -> Vec<Case> {
 }
 
 impl Plan {
-    /// All cases, on all cores; one that fails stops no other.
+    /// Runs all cases on all cores. A case that fails does not stop the others.
     pub fn measure_all(&self, cases: &[Case], tick: impl Fn() + Sync) -> Vec<Result<Accuracy>> {
         let measured = |case: &Case| {
             let found = self.measure(&case.file).with_context(|| case.name.clone());
@@ -181,7 +181,7 @@ impl Plan {
     pub fn measure(&self, file: &SceneFile) -> Result<Accuracy> {
         file.scene.check()?;
         let mut machine = Machine::start(file)?;
-        // So that bottom dead centre is one of the points.
+        // Bottom dead centre is one of the points.
         let start = file.scene.crank.angle_start;
         let forwards = file.scene.crank.speed_start.signum();
         let to_bottom = (-start * forwards).rem_euclid(TAU);
@@ -216,7 +216,7 @@ impl Plan {
 }
 
 impl DeadCentre {
-    /// Of position errors and tilts, stroke by stroke.
+    /// Statistics of position errors and tilts, one of each for every stroke.
     fn of(strokes: &[[f64; 2]]) -> Self {
         let count = strokes.len().max(1) as f64;
         let [error, tilt] = [0, 1].map(|which| strokes.iter().map(|stroke| stroke[which]).sum::<f64>() / count);
@@ -234,7 +234,7 @@ impl DeadCentre {
     }
 }
 
-/// [rad] Within half a turn.
+/// [rad] The same angle between minus and plus half a turn.
 fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
@@ -251,7 +251,7 @@ mod tests {
     #[test]
     fn deviations_are_those_of_the_definition() {
         let deviation = Deviation::of(&[1.0, -3.0, 2.0, 0.0], &[5.0, -3.0, 2.0, 1.0]);
-        // The ideal ones are 4, 0, 0, 1.
+        // The ideal values are 4, 0, 0, 1.
         let wanted = Deviation { max: 3.0, rms: 3.5f64.sqrt(), mean: 0.0, mad: 1.5, peak_ratio: 1.25 };
         assert_eq!(deviation, wanted);
     }

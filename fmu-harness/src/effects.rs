@@ -1,7 +1,7 @@
-//! What every effect costs: a ladder of scenes, each with one effect more than the one before.
+//! The cost of every effect, measured with a series of scenes, each with one effect more than the scene before.
 //!
-//! Work and time come from the packaged FMU, stepped by its C interface. What an FMU cannot be asked, its size and the
-//! time of an evaluation alone, comes from the same sources in this program.
+//! Work and time come from the packaged FMU, stepped through its C interface. The number of equations and the time of
+//! an evaluation alone, which an FMU does not provide, come from the same sources in this program.
 
 use crate::host::Fmu;
 use crate::inputs;
@@ -14,23 +14,23 @@ use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::{Simulation, Size};
 use std::time::Duration;
 
-/// Runs of a scene, of which the fastest counts.
+/// Number of runs of a scene. The fastest run counts.
 const REPEATS: Repeats = Repeats { least: 3, enough: Duration::from_millis(200), most: 200 };
-/// States along a run at which the right-hand side is evaluated.
+/// Number of states of a run at which the right-hand side is evaluated.
 const STATES: usize = 400;
-/// Evaluations of each in one measurement.
+/// Number of evaluations at each state in one measurement.
 const EVALUATIONS: usize = 128;
-/// Measurements of each, of which the least counts.
+/// Number of measurements at each state. The shortest one counts.
 const MEASUREMENTS: usize = 5;
 
-/// What a scene costs.
+/// The cost of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Price {
     /// The scene.
     pub scene: String,
-    /// Of its equations of motion.
+    /// Size of its equations of motion.
     pub size: Size,
-    /// [s] Of one evaluation of the right-hand side alone, mean over the evaluations of the run.
+    /// [s] Time of one evaluation of the right-hand side alone, mean over the evaluations of the run.
     pub evaluation: f64,
     /// Evaluations per simulated second.
     pub evaluations: f64,
@@ -38,17 +38,17 @@ pub struct Price {
     pub steps: f64,
     /// Events per simulated second.
     pub events: f64,
-    /// [s/s] The processor's time in fmi2DoStep per simulated second.
+    /// [s/s] CPU time in fmi2DoStep per simulated second.
     pub time: f64,
 }
 
 impl Price {
-    /// [s] The processor's time in fmi2DoStep per evaluation: integration, events and interface shared out.
+    /// [s] CPU time in fmi2DoStep per evaluation. It includes integration, events and interface.
     pub fn all_in(&self) -> f64 {
         self.time / self.evaluations
     }
 
-    /// Prices the scene, packaged as `fmu`, over its first `span` [s].
+    /// Measures the cost of the scene, packaged as `fmu`, over its first `span` [s].
     pub fn of(file: &SceneFile, fmu: &Fmu, span: f64) -> Result<Self> {
         let experiment = Experiment {
             settings: vec![],
@@ -62,7 +62,7 @@ impl Price {
         ensure!(ending == Ending::Reached, "the run ended early: {ending:?}");
         let count = |name: &str| -> Result<f64> {
             let column = trajectory.column(&format!("solver.{name}"))?;
-            Ok(column.last().context("a run without an end")? / span)
+            Ok(column.last().context("the run has no rows")? / span)
         };
         let (evaluations, steps, events) = (count("evaluations")?, count("steps")?, count("events")?);
         let simulation = Simulation::start(&file.scene, inputs_at_start(file))?;
@@ -73,8 +73,8 @@ impl Price {
     }
 }
 
-/// [s] One evaluation of the right-hand side alone, at states along the first `span` [s] of a run, each of which counts
-/// as often as the run evaluates near it.
+/// [s] Time of one evaluation of the right-hand side alone, at states of the first `span` [s] of a run. The weight of
+/// each state is the number of the run's evaluations near it.
 pub fn evaluation(mut simulation: Simulation, span: f64) -> Result<f64> {
     let (mut spent, mut done) = (0.0, 0);
     for state in 1..=STATES {
@@ -86,7 +86,7 @@ pub fn evaluation(mut simulation: Simulation, span: f64) -> Result<f64> {
     Ok(spent / f64::from(done))
 }
 
-/// [s] CPU time of the fastest of so many runs of `work`.
+/// [s] CPU time of the fastest of `runs` runs of `work`.
 pub fn fastest(runs: usize, mut work: impl FnMut()) -> f64 {
     let measure = |_| {
         let start = ThreadTime::now();
@@ -96,7 +96,7 @@ pub fn fastest(runs: usize, mut work: impl FnMut()) -> f64 {
     (0..runs).map(measure).fold(f64::INFINITY, f64::min)
 }
 
-/// The scene's inputs where it starts.
+/// The scene's inputs at its start.
 pub fn inputs_at_start(file: &SceneFile) -> Inputs {
     let Profiles { crank_torque, slider_load } = &file.inputs;
     let [crank_torque, slider_load] =

@@ -1,4 +1,4 @@
-//! Tables of results: columns of one length, to CSV and to Parquet.
+//! Tables of results, written as CSV and as Parquet. All columns have the same length.
 
 use anyhow::{Context, Result, ensure};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical};
@@ -10,7 +10,7 @@ use parquet::schema::types::Type;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Values of one kind.
+/// Values of one type.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column {
     /// Real numbers.
@@ -22,7 +22,7 @@ pub enum Column {
 }
 
 impl Column {
-    /// How many there are.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Reals(values) => values.len(),
@@ -31,7 +31,7 @@ impl Column {
         }
     }
 
-    /// There are none.
+    /// Whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -59,12 +59,12 @@ impl Column {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     columns: Vec<(String, Column)>,
-    /// What it was made from, told in the Parquet file's metadata.
+    /// Origin of the results, stored in the Parquet file's metadata.
     pub origin: Vec<(String, String)>,
 }
 
 impl Frame {
-    /// Adds a column; all have one length.
+    /// Adds a column. All columns must have the same length.
     #[must_use]
     pub fn with(mut self, name: impl Into<String>, column: Column) -> Self {
         self.columns.push((name.into(), column));
@@ -82,7 +82,7 @@ impl Frame {
         self.columns.first().map_or(0, |(_, column)| column.len())
     }
 
-    /// The columns, by name.
+    /// The columns with their names.
     pub fn columns(&self) -> &[(String, Column)] {
         &self.columns
     }
@@ -111,7 +111,7 @@ impl Frame {
         writer.flush().with_context(context)
     }
 
-    /// Writes a Parquet file: whole, or not at all.
+    /// Writes a complete Parquet file, or none.
     ///
     /// # Errors
     /// As [`Frame::save`].
@@ -132,7 +132,7 @@ impl Frame {
         let mut writer = SerializedFileWriter::new(whole.as_file_mut(), schema, Arc::new(properties))?;
         let mut group = writer.next_row_group()?;
         for (_, column) in &self.columns {
-            let mut place = group.next_column()?.context("a column more than the schema has")?;
+            let mut place = group.next_column()?.context("there are more columns than in the schema")?;
             match column {
                 Column::Reals(values) => place.typed::<DoubleType>().write_batch(values, None, None)?,
                 Column::Integers(values) => place.typed::<Int64Type>().write_batch(values, None, None)?,

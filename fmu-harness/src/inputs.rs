@@ -1,4 +1,4 @@
-//! What goes into an FMU while time runs: each input as a profile over time or crank angle.
+//! Inputs of an FMU during a run, each a profile over time or crank angle.
 
 use crate::trajectory::Trajectory;
 use anyhow::Result;
@@ -10,24 +10,24 @@ use slidercrank::scene::profile::{Profile, ProfileArgument, Profiles};
 pub struct Input {
     /// The variable.
     pub name: String,
-    /// What it is set to.
+    /// Its values.
     pub profile: Profile,
 }
 
 impl Input {
-    /// Inputs that keep their values.
+    /// Inputs with constant values.
     pub fn constant(inputs: Inputs) -> Vec<Self> {
         let Inputs { crank_torque, slider_load } = inputs;
         let [crank_torque, slider_load] = [crank_torque, slider_load].map(Profile::Constant);
         of_scene(&Profiles { crank_torque, slider_load })
     }
 
-    /// Whether it needs the crank's angle.
+    /// Whether it depends on the crank's angle.
     pub fn wants_angle(&self) -> bool {
         matches!(self.profile, Profile::Points { against: ProfileArgument::CrankAngle, .. })
     }
 
-    /// Whether it never changes.
+    /// Whether it is constant.
     pub fn is_constant(&self) -> bool {
         matches!(self.profile, Profile::Constant(_))
     }
@@ -41,7 +41,7 @@ pub fn of_scene(profiles: &Profiles) -> Vec<Input> {
         .into()
 }
 
-/// The columns of a CSV as profiles over time.
+/// The columns of a CSV file as profiles over time.
 pub fn of_table(table: &Trajectory) -> Result<Vec<Input>> {
     let input = |name: &String| {
         let points = table.times().iter().zip(table.column(name)?).map(|(time, value)| [*time, *value]).collect();

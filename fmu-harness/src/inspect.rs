@@ -1,10 +1,10 @@
-//! What an FMU declares, as text.
+//! Prints the declarations of an FMU.
 
 use crate::host::{Description, Unknown};
 use crate::report::table::Table;
 use std::fmt::Write;
 
-/// What an FMU's description says, and what its archive holds.
+/// Tables of an FMU's description and of the contents of its archive.
 pub fn declared(description: &Description, platforms: &[String], entries: &[String]) -> String {
     let mut text = String::new();
     let mut head = Table::default();

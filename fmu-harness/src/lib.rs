@@ -1,4 +1,4 @@
-//! Builds, packages, loads and runs FMUs of FMI 2.0 co-simulation.
+//! Builds and packages the slider-crank FMU, and runs co-simulation FMUs of FMI 2.0 and 3.0.
 
 pub mod accuracy;
 pub mod campaign;

@@ -1,4 +1,4 @@
-//! The command line: without a command it packages a scene, runs it through the packaged file and reports.
+//! The command line. Without a command it packages a scene, runs the package and reports.
 
 use clap::{Parser, Subcommand};
 use fmu_harness::command::{
@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 /// Builds, packages and runs the slider-crank FMU.
 ///
-/// Without a command: packages the scene as an FMU, loads that file as a host does, runs it for 20 crank turns beside
-/// the same mechanism with ideal joints, prints a table, and writes the FMU, a CSV and figures.
+/// Without a command: packages the scene as an FMU, loads the file as a host does, runs 20 crank turns of it and of the
+/// same mechanism with ideal joints, prints a table, and writes the FMU, a CSV file and figures.
 #[derive(Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
 struct Cli {
@@ -27,25 +27,25 @@ enum Command {
     Run(Run),
     /// Prints what an FMU declares
     Inspect(Inspect),
-    /// Shows what play does to the slider's motion
+    /// Shows the effect of clearances on the slider's motion
     Accuracy(Accuracy),
-    /// Tells what a motion is in the long run: periodic or chaotic
+    /// Classifies the motion over many turns: periodic or chaotic
     Dynamics(Dynamics),
-    /// Prices every effect
+    /// Measures the cost of every effect
     Effects(Effects),
-    /// Times the same scene in what people use instead
+    /// Measures what other programs need for the same scene
     Peers(Peers),
-    /// Shows what accuracy costs
+    /// Measures the cost of accuracy
     Precision(Precision),
-    /// Times single communication steps
+    /// Measures the time of single communication steps
     Realtime(Realtime),
-    /// Makes one page of a scene: moving, with figures that can be zoomed
+    /// Makes one page of a scene, with an animation and figures that can be zoomed
     Report(Report),
-    /// Puts scenes drawn by lot to the test
+    /// Tests randomly drawn scenes
     Campaign(Campaign),
     /// Writes the press with its controller as an SSP package
     Ssp(Ssp),
-    /// Runs a study: many runs with other parameters
+    /// Runs a study: many runs with different parameters
     Sweep(Sweep),
 }
 

@@ -1,19 +1,19 @@
-//! Python environments under `target/`, for measurements and tests with programs that others wrote.
+//! Python environments under `target/`, for zig and for measurements and tests with other programs.
 
 use crate::package::build::workspace;
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Where the Python sources are.
+/// The folder of the Python sources.
 pub fn sources() -> PathBuf {
     workspace().join("fmu-harness").join("python")
 }
 
-/// Whether an environment that is not there is made, from the package index.
+/// What happens if an environment is missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Missing {
-    /// It is made.
+    /// It is made, with packages from the package index.
     Make,
     /// It is an error.
     Refuse,
@@ -22,7 +22,7 @@ pub enum Missing {
 /// The interpreter of the environment `target/NAME`, with the packages that `python/NAME.txt` lists.
 ///
 /// # Errors
-/// Without Python or the package index; the text says what is missing.
+/// If Python or the package index is missing; the text says which.
 pub fn environment(name: &str, missing: Missing) -> Result<PathBuf> {
     let mut command = Command::new("python3");
     command.arg(sources().join("environment.py"));
@@ -33,19 +33,19 @@ pub fn environment(name: &str, missing: Missing) -> Result<PathBuf> {
     Ok(PathBuf::from(output(&mut command)?.trim()))
 }
 
-/// A script of [`sources`] under an environment's interpreter.
+/// A script of [`sources`], run by an environment's interpreter.
 pub fn script(python: &Path, name: &str) -> Command {
     let mut command = Command::new(python);
     command.arg("-B").arg(sources().join(name)).env_remove("PYTHONPATH").env_remove("LD_LIBRARY_PATH");
     command
 }
 
-/// What it prints; an error with what it complains of.
+/// Runs a command and returns its standard output. The error is its standard error.
 pub fn output(command: &mut Command) -> Result<String> {
     let program = command.get_program().to_string_lossy().into_owned();
     let output = command.output().with_context(|| format!("{program} cannot be started"))?;
     if !output.status.success() {
         bail!("{}", String::from_utf8_lossy(&output.stderr).trim());
     }
-    String::from_utf8(output.stdout).with_context(|| format!("{program} prints no text"))
+    String::from_utf8(output.stdout).with_context(|| format!("the output of {program} is not UTF-8"))
 }

@@ -1,4 +1,4 @@
-//! One scene through an FMU, communication point by communication point.
+//! Runs an FMU from communication point to communication point and records its outputs.
 
 mod march;
 mod runner;
@@ -16,47 +16,47 @@ use std::time::{Duration, Instant};
 
 /// The output that counts turns.
 pub const ANGLE: &str = "crank.angle";
-/// More communication points than this are taken for a mistake.
+/// A run with more communication points than this counts as a mistake.
 const MOST_POINTS: usize = 20_000_000;
 
-/// When a run ends.
+/// The end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Until {
     /// [s]
     Time(f64),
-    /// As soon as the crank has turned so often, in either direction; but no later than `latest` [s].
+    /// The run ends when the crank has made so many turns in either direction, but not later than `latest` [s].
     Turns {
-        /// How often.
+        /// Number of turns.
         turns: f64,
         /// [s]
         latest: f64,
     },
 }
 
-/// What to do with an FMU.
+/// An experiment with an FMU.
 #[derive(Clone, Debug)]
 pub struct Experiment {
-    /// Values to set before initialisation.
+    /// Values to set before initialization.
     pub settings: Vec<Setting>,
-    /// Inputs while time runs.
+    /// Inputs during the run.
     pub inputs: Vec<Input>,
     /// [s] First communication point.
     pub start: f64,
-    /// When to end.
+    /// End of the run.
     pub until: Until,
-    /// [s] Between communication points.
+    /// [s] Communication step.
     pub step: f64,
-    /// Handed to fmi2SetupExperiment.
+    /// Relative tolerance for fmi2SetupExperiment.
     pub tolerance: Option<f64>,
 }
 
-/// What came of it.
+/// The results of a run.
 pub struct Recording {
     /// All outputs at all communication points.
     pub trajectory: Trajectory,
-    /// Names and values of the parameters as they were in the run.
+    /// Names and values of the parameters during the run.
     pub parameters: Vec<(String, f64)>,
-    /// What it cost.
+    /// Cost of the run.
     pub cost: Cost,
 }
 
@@ -72,28 +72,28 @@ impl Recording {
     }
 }
 
-/// What a run cost.
+/// The cost of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cost {
-    /// [s] Time simulated.
+    /// [s] Simulated time.
     pub simulated: f64,
-    /// In fmi2DoStep, by the clock on the wall.
+    /// Wall time in fmi2DoStep.
     pub stepping: Duration,
-    /// All communication points with inputs and outputs, by the clock on the wall.
+    /// Wall time of all communication points, with inputs and outputs.
     pub wall: Duration,
-    /// The same, by this thread's use of the processor.
+    /// CPU time of this thread for all communication points, with inputs and outputs.
     pub cpu: Duration,
 }
 
-/// Runs the experiment and tells `progress` now and then which share of it is done. The FMU is asked to say why it
-/// refuses something.
+/// Runs the experiment and reports the finished share to `progress` from time to time. The FMU's log is on, so that
+/// refused calls come with a reason.
 pub fn run(
     fmu: &Fmu,
     experiment: &Experiment,
     log: impl Fn(&LogLine) + Send + Sync + 'static,
     progress: impl Fn(f64),
 ) -> Result<Recording> {
-    ensure!(experiment.step > 0.0, "the communication step is {} s, wanted more than 0", experiment.step);
+    ensure!(experiment.step > 0.0, "the communication step is {} s; it must be above 0", experiment.step);
     let mut runner = Runner::start(fmu, experiment, Arc::new(Log::new(log)), true)?;
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
     let mut stepping = Duration::ZERO;
@@ -122,13 +122,14 @@ pub fn run(
 }
 
 impl Experiment {
-    /// The interval that ends at communication point number `point`, or `None` past the end. Points lie at whole
-    /// multiples of the step, so that no error adds up; the last interval is shortened to end in time.
+    /// The interval that ends at communication point number `point`, or `None` past the end. Points are integer
+    /// multiples of the step, so that rounding errors do not add up. The last interval is shorter if the end requires
+    /// it.
     pub fn interval(&self, point: usize) -> Option<(f64, f64)> {
         let (Until::Time(end) | Until::Turns { latest: end, .. }) = self.until;
         let at = |point: usize| self.start + point as f64 * self.step;
         let (from, to) = (at(point - 1), at(point));
-        // A millionth of a step is what remains of a quotient that was meant to be whole.
+        // A remainder of a millionth of a step is the rounding error of an integer quotient.
         let sliver = 1e-6 * self.step;
         (from < end - sliver).then_some((from, if to > end - sliver { end } else { to }))
     }

@@ -1,4 +1,4 @@
-//! The shipped scenes, and any other scene file: a mechanism with what is done to it.
+//! The shipped scenes and other scene files. A scene is a mechanism with its loads and its run.
 
 use crate::host::Setting;
 use crate::package::build::workspace;
@@ -12,16 +12,16 @@ use std::path::{Path, PathBuf};
 
 /// A scene that has been read.
 pub struct Scenario {
-    /// Name of the file without its ending.
+    /// Name of the file without its extension.
     pub name: String,
-    /// As written.
+    /// Text of the file.
     pub text: String,
-    /// As understood.
+    /// Contents of the file.
     pub file: SceneFile,
 }
 
 impl Scenario {
-    /// Reads the scene of this name, or the file at this path.
+    /// Reads the shipped scene of this name, or the file at this path.
     pub fn find(name_or_file: &str) -> Result<Self> {
         let file = file(name_or_file)?;
         let shown = file.display().to_string();
@@ -31,11 +31,11 @@ impl Scenario {
         Ok(Self { name, text, file })
     }
 
-    /// The same with other values of some parameters, the last of a name counts. The text is then the whole scene in SI
-    /// units.
+    /// The scene with other values of some parameters. If a name occurs twice, the last value counts. The text is then
+    /// the complete scene in SI units.
     ///
     /// # Errors
-    /// If a parameter or value is not one, or the values do not go together.
+    /// If a parameter does not exist, or if a value or the combination of values is not allowed.
     pub fn with(mut self, settings: &[Setting]) -> Result<Self> {
         if settings.is_empty() {
             return Ok(self);
@@ -49,13 +49,13 @@ impl Scenario {
         let told: Vec<String> = settings.iter().map(|Setting { name, value }| format!("{name} = {value}")).collect();
         self.file.description = format!("{}; with {}", self.file.description, told.join(", "));
         self.text = write(&self.file);
-        // Reads as any other scene does: what does not go together is refused.
+        // Reading the text checks the combination of values.
         self.file = read(&self.text, &self.name)?;
         Ok(self)
     }
 }
 
-/// A parameter's value as a person types it: a number in SI units or with a unit, a truth value, an item by name or number.
+/// Reads a parameter's value: a number in SI units or with a unit, a truth value, or an item by its name or number.
 fn understood(parameter: &Parameter, text: &str) -> Option<f64> {
     match parameter.kind {
         Kind::Real { unit, .. } => text.parse().ok().or_else(|| quantity(text, unit).ok()),
@@ -72,7 +72,7 @@ fn understood(parameter: &Parameter, text: &str) -> Option<f64> {
     }
 }
 
-/// Where the scene of this name is, or the file at this path.
+/// File of the shipped scene of this name, or the file at this path.
 pub fn file(name_or_file: &str) -> Result<PathBuf> {
     if name_or_file.ends_with(".toml") { Ok(name_or_file.into()) } else { shipped(name_or_file) }
 }
@@ -85,20 +85,22 @@ fn shipped(name: &str) -> Result<PathBuf> {
         return Ok(file);
     }
     let shipped = [names(&directory), ladder(), contests()].concat().join(", ");
-    bail!("no scene `{name}`: shipped are {shipped}; or give a file that ends in .toml")
+    bail!(
+        "there is no scene `{name}`; the shipped scenes are {shipped}; a scene of your own is a file whose name ends in .toml"
+    )
 }
 
-/// Where the shipped scenes are.
+/// The folder of the shipped scenes.
 pub fn directory() -> PathBuf {
     workspace().join("fmu-harness").join("scenes")
 }
 
-/// The ladder of effects: names of shipped scenes, each of which has one effect more than the one before.
+/// Names of the scenes of `effects`. Each has one effect more than the scene before.
 pub fn ladder() -> Vec<String> {
     names(&directory().join("effects")).into_iter().map(|name| format!("effects/{name}")).collect()
 }
 
-/// The scenes on which others are timed.
+/// Names of the scenes that `peers` runs with other programs.
 pub fn contests() -> Vec<String> {
     names(&directory().join("peers")).into_iter().map(|name| format!("peers/{name}")).collect()
 }

@@ -1,4 +1,4 @@
-//! Time series: one row a communication point, one column a variable; as CSV on disk.
+//! Time series with one row for each communication point and one column for each variable; read and written as CSV.
 
 use anyhow::{Context, Result, bail};
 use std::fs::File;
@@ -11,12 +11,12 @@ pub struct Trajectory {
     names: Vec<String>,
     /// [s]
     times: Vec<f64>,
-    /// By column, then by row.
+    /// Values by column and row.
     columns: Vec<Vec<f64>>,
 }
 
 impl Trajectory {
-    /// An empty table with these columns beside time.
+    /// An empty table with these columns and time.
     pub fn new(names: impl IntoIterator<Item = String>) -> Self {
         let names: Vec<String> = names.into_iter().collect();
         let columns = vec![Vec::new(); names.len()];
@@ -35,7 +35,7 @@ impl Trajectory {
         &self.times
     }
 
-    /// Names of the columns beside time.
+    /// Names of the columns, without time.
     pub fn names(&self) -> &[String] {
         &self.names
     }
@@ -56,7 +56,7 @@ impl Trajectory {
         place.map(|place| self.columns[place].as_slice()).with_context(|| format!("no column `{name}`"))
     }
 
-    /// Writes `time` and every column, each number in the fewest digits that read back as the same number.
+    /// Writes `time` and every column. Each number has the fewest digits that give the same number when read.
     pub fn write_csv(&self, file: &Path) -> Result<()> {
         let context = || format!("cannot write {}", file.display());
         let mut out = BufWriter::new(File::create(file).with_context(context)?);
@@ -72,7 +72,7 @@ impl Trajectory {
         out.flush().with_context(context)
     }
 
-    /// Reads a CSV whose first column is time, strictly rising; an error names the line.
+    /// Reads a CSV file whose first column is strictly increasing time. An error names the line.
     pub fn read_csv(file: &Path) -> Result<Self> {
         let shown = file.display();
         let mut reader = csv::ReaderBuilder::new()
@@ -82,7 +82,7 @@ impl Trajectory {
             .with_context(|| format!("cannot read {shown}"))?;
         let header = reader.headers().with_context(|| shown.to_string())?.clone();
         if header.get(0) != Some("time") {
-            bail!("{shown}, line 1: the first column is `{}`, wanted `time`", header.get(0).unwrap_or_default());
+            bail!("{shown}, line 1: the first column is `{}`, but must be `time`", header.get(0).unwrap_or_default());
         }
         let mut trajectory = Self::new(header.iter().skip(1).map(str::to_owned));
         for record in reader.records() {
@@ -96,28 +96,28 @@ impl Trajectory {
                 .collect::<Result<_>>()?;
             let (time, row) = (numbers[0], &numbers[1..]);
             if trajectory.times.last().is_some_and(|last| time <= *last) {
-                bail!("{shown}, line {line}: time {time} s does not rise");
+                bail!("{shown}, line {line}: time {time} s does not increase");
             }
             trajectory.push(time, row);
         }
         if trajectory.is_empty() {
-            bail!("{shown}: no row of numbers");
+            bail!("{shown}: there are no rows");
         }
         Ok(trajectory)
     }
 }
 
-/// Names like `a[1,2]` hold commas.
+/// Quotes a name that contains commas, such as `a[1,2]`.
 fn quoted(name: &str) -> String {
     if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into() }
 }
 
-/// Plain or with an exponent, whichever is shorter.
+/// The number without or with an exponent, whichever is shorter.
 struct Shortest(f64);
 
 impl std::fmt::Display for Shortest {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        // Between these bounds the plain form is never the longer one by more than the exponent's four letters.
+        // Between these bounds the form without exponent is at most four characters longer.
         if self.0 == 0.0 || (1e-3..1e9).contains(&self.0.abs()) {
             write!(f, "{}", self.0)
         } else {
@@ -151,9 +151,9 @@ mod tests {
             std::fs::write(file.path(), text).expect("written");
             format!("{:#}", Trajectory::read_csv(file.path()).expect_err("a bad file"))
         };
-        assert!(complaint("t,a\n0,1\n").contains("line 1: the first column is `t`, wanted `time`"));
+        assert!(complaint("t,a\n0,1\n").contains("line 1: the first column is `t`, but must be `time`"));
         assert!(complaint("time,a\n0,1\n1,one\n").contains("line 3, column `a`: `one` is not a finite number"));
-        assert!(complaint("time,a\n0,1\n0,2\n").contains("line 3: time 0 s does not rise"));
+        assert!(complaint("time,a\n0,1\n0,2\n").contains("line 3: time 0 s does not increase"));
         assert!(complaint("time,a\n0,1\n1\n").contains("line: 3"));
         assert!(complaint("time,a\n").contains("no row"));
     }

@@ -52,7 +52,7 @@ class Journal:
                     raise JournalError(f"{file}, line {number} is damaged") from error
                 known = None
             if number == 1 and known != digest:
-                raise JournalError(f"{file} belongs to another study; give another directory, or remove it")
+                raise JournalError(f"{file} belongs to another study: choose another directory, or remove the file")
         self._file = os.open(file, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
         os.ftruncate(self._file, len(whole))
         if not whole:

@@ -113,7 +113,7 @@ class Recipe:
         """[s] When a run has taken too long for its turns."""
         speed = abs(settings.get(SPEED, self.speed))
         if not speed > 0.0:
-            raise RunError(f"{SPEED} = 0 rad/s: a crank that stands has no turns")
+            raise RunError(f"{SPEED} = 0 rad/s: turns cannot be counted if the crank does not turn")
         return self.slow * self.turns * math.tau / speed
 
     def intervals(self, latest: float) -> Iterator[tuple[float, float]]:

@@ -20,7 +20,7 @@ def table(plan: Plan, outcomes: Mapping[int, Outcome]) -> pyarrow.Table:
     count, keep = len(plan.runs), plan.recipe.keep
     lacking = count - sum(run in outcomes for run in range(count))
     if lacking:
-        raise ValueError(f"{count - lacking} of {count} runs are there")
+        raise ValueError(f"only {count - lacking} of {count} runs are finished")
     columns = [("run", pyarrow.array(range(count), pyarrow.int64()))]
     columns += [(name, pyarrow.array(plan.runs[name].to_numpy(), pyarrow.float64())) for name in plan.runs.columns]
     rows = [values_of(outcomes[run], len(keep)) for run in range(count)]

@@ -126,7 +126,7 @@ class Instance:
         groups: dict[str, list[ModelVariable]] = {kind: [] for kind in calls}
         for name in names:
             if name not in unit.outputs:
-                raise RunError(f"this FMU gives no `{name}` to count")
+                raise RunError(f"turns cannot be counted: `{name}` is not an output of this FMU")
             variable = unit.outputs[name]
             groups["Integer" if variable.type == "Enumeration" else variable.type].append(variable)
         self.selections = [Selection(*calls[kind], group) for kind, group in groups.items() if group]
@@ -149,7 +149,7 @@ class Instance:
             1,
         )
         if not self.component:
-            raise RunError(f"the FMU refuses to be instantiated{self._because()}")
+            raise RunError(f"the FMU could not be instantiated{self._because()}")
         try:
             for name, value in self.settings.items():
                 self._try(f"setting `{name}`", self._set, name, value)
@@ -237,7 +237,7 @@ class Instance:
     def _answer(self, call: str, error: FMICallException) -> str:
         known = 0 <= error.status < len(STATUS)
         status = STATUS[error.status] if known else f"the unknown status {error.status}"
-        return f"{call} answers {status}{self._because()}"
+        return f"{call} returned {status}{self._because()}"
 
     def _because(self) -> str:
         return "" if self.said is None else f": {self.said}"

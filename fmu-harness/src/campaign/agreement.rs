@@ -1,7 +1,7 @@
-//! Whether a run makes the motion that others make, as long as that is one motion.
+//! Compares a run with a reference motion, for as long as that motion can be computed.
 //!
-//! Two runs of a chaotic motion part sooner or later. Until the same tolerance makes another method leave a reference, a
-//! run must stay near it, too.
+//! Two runs of a chaotic motion diverge sooner or later. A run must stay near the reference at least for as long as
+//! another method stays near it at the same tolerance.
 
 use super::trial::inputs;
 use slidercrank::model::signals::{Inputs, Outputs};
@@ -9,19 +9,20 @@ use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::{JointModel, Method, Scene};
 use slidercrank::simulation::Simulation;
 
-/// Of the reference, by a method of another order than that of the peer.
+/// Method of the reference. Its order differs from that of the peer.
 const REFERENCE: (Method, f64) = (Method::Dop853, 1e-11);
-/// What is asked whether it has left the reference, at the tolerance of the run.
+/// The peer: a method that runs with the tolerance of the run.
 const PEER: Method = Method::Verner7;
-/// Turns that are compared at most.
+/// Maximum number of turns that are compared.
 const TURNS: f64 = 1.0;
-/// A peer that is so many clearances off has left the reference.
+/// [clearances] A peer at this distance has left the reference.
 const LEFT: f64 = 1e-4;
-/// A run may be so many times as far off as its peer has been, and so many times its tolerance, in clearances, in any case:
-/// errors of blows and of what is interpolated between steps are larger than those of steps.
+/// Allowed distance of a run: this factor times the largest distance of its peer so far, or this factor times the
+/// tolerance in clearances. Errors at impacts and of values interpolated between steps are larger than errors of steps.
 const FACTOR: f64 = 1e3;
 
-/// By how much the run of a scene is off, in clearances, and when [s], if it leaves the reference before its peer does.
+/// If the run of a scene leaves the reference before its peer does: a text with the distance in clearances and the
+/// time.
 pub fn parts(file: &SceneFile) -> Option<String> {
     let scene = &file.scene;
     let ways = [(scene.solver.method, scene.solver.tolerance), (PEER, scene.solver.tolerance), REFERENCE];
@@ -40,7 +41,7 @@ pub fn parts(file: &SceneFile) -> Option<String> {
         for (simulation, file) in &mut runs {
             let angle = simulation.outputs().crank.angle;
             simulation.set_inputs(inputs(file, simulation.time(), angle), Inputs::default());
-            // Whether a run arrives is another question.
+            // A run that ends early is judged elsewhere.
             simulation.advance_to(file.run.step * point as f64).ok()?;
             outputs.push(simulation.outputs());
         }
@@ -60,8 +61,8 @@ pub fn parts(file: &SceneFile) -> Option<String> {
     None
 }
 
-/// The largest distance of the slider and the journals in two states, over the least clearance; without one, over the
-/// crank's length.
+/// Largest distance of the slider and of the journals in two states, divided by the smallest clearance, or by the
+/// crank's length if there is no clearance.
 fn distance(scene: &Scene, one: &Outputs, other: &Outputs) -> f64 {
     let joint = &scene.joint;
     let clearances = [

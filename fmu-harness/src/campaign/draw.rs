@@ -1,7 +1,7 @@
-//! Scenes drawn by lot over all that a scene may be.
+//! Draws random scenes from all legal values of all parameters.
 //!
-//! Every parameter draws two numbers: which kind of value it takes, and which value of that kind. The smaller the
-//! first, the plainer the kind, so that a scene that shrinks comes to the declared values, parameter by parameter.
+//! Every parameter draws two numbers: the first selects a kind of value, the second a value of that kind. Smaller first
+//! numbers select simpler kinds, so that shrinking a scene leads to the declared values, parameter by parameter.
 
 use super::usual::usual;
 use proptest::prelude::{Strategy, any, prop_oneof};
@@ -13,25 +13,25 @@ use slidercrank::scene::run::{End, Run};
 use slidercrank::scene::{FrictionLaw, Method, PARAMETERS, Scene, Surface};
 use std::f64::consts::TAU;
 
-/// The two numbers, each in 0 .. 1.
+/// The two numbers, each from 0 to 1.
 type Lot = (f64, f64);
 
 /// Share of the parameters that keep their declared value.
 const DECLARED: f64 = 0.6;
-/// Share of those that take any value of their range, in the wildest scene.
+/// Largest share of parameters with any value of their range, in the most extreme scene.
 const ANYWHERE: f64 = 0.06;
-/// Share of those at an end of their range, in the wildest scene.
+/// Largest share of parameters at an end of their range, in the most extreme scene.
 const AT_AN_END: f64 = 0.02;
 /// Share of enumerations, numbers of modes and switches that keep their declared value.
 const PLAIN: f64 = 0.35;
-/// [s] A run is never longer, however slow its crank.
+/// [s] Maximum length of a run, for slow cranks.
 const LONGEST: f64 = 1e3;
-/// Most decades over which a range that begins at 0 is drawn.
+/// Maximum number of decades of a range that begins at 0.
 const DECADES: f64 = 14.0;
-/// Fewest and most communication points.
+/// Minimum and maximum number of communication points.
 const POINTS: [f64; 2] = [20.0, 400.0];
 
-/// Scene files of runs of so many turns. Not all of their scenes are legal.
+/// Strategy for scene files with runs of `turns` turns. Not all scenes are legal.
 pub fn scene_files(turns: f64) -> impl Strategy<Value = SceneFile> {
     let lots = vec![(0.0..1.0, 0.0..1.0); PARAMETERS.len()];
     let inputs = [profile(100.0), profile(1e4)];
@@ -39,7 +39,7 @@ pub fn scene_files(turns: f64) -> impl Strategy<Value = SceneFile> {
         let mut scene = Scene::default();
         for (parameter, lot) in PARAMETERS.iter().zip(lots) {
             let value = value(parameter, &scene, wildness, lot);
-            // A draw that rounding puts outside its range keeps the declared value.
+            // If rounding puts a value outside its range, the parameter keeps the declared value.
             let _ = parameter.write(&mut scene, value);
         }
         scene.solver.max_evaluations = 0;
@@ -59,7 +59,7 @@ pub fn scene_files(turns: f64) -> impl Strategy<Value = SceneFile> {
     })
 }
 
-/// Takes away what rigid contacts know nothing of; hardly a scene for them would be legal otherwise.
+/// Removes the effects that rigid contacts do not support; otherwise hardly any scene with them would be legal.
 fn stiffen(scene: &mut Scene) {
     (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (0, 0);
     scene.energy.audit = false;
@@ -72,7 +72,7 @@ fn stiffen(scene: &mut Scene) {
     }
 }
 
-/// The value that a lot means for a parameter of a scene whose earlier parameters have theirs.
+/// The value of a parameter for two random numbers. Earlier parameters of the scene already have their values.
 fn value(parameter: &Parameter, scene: &Scene, wildness: f64, (kind, place): Lot) -> f64 {
     let wild = wildness * wildness;
     let at_an_end = 1.0 - AT_AN_END * wild;
@@ -83,7 +83,7 @@ fn value(parameter: &Parameter, scene: &Scene, wildness: f64, (kind, place): Lot
         Kind::Real { min, max, .. } if kind < at_an_end => within(min, max, place),
         Kind::Real { min, max, .. } => [min, max, 0.0_f64.clamp(min, max)][(place * 3.0) as usize],
         _ if kind < PLAIN => parameter.start(),
-        // Few modes often, many seldom.
+        // Small numbers of modes are frequent, large ones rare.
         Kind::Integer { min, max, .. } if kind > DECLARED => {
             f64::from(min) + (place * place * f64::from(max - min + 1)).floor()
         }
@@ -93,7 +93,7 @@ fn value(parameter: &Parameter, scene: &Scene, wildness: f64, (kind, place): Lot
     }
 }
 
-/// Anywhere in a range: by its logarithm where it is wide.
+/// A value of a range; wide ranges are logarithmic.
 fn within(min: f64, max: f64, place: f64) -> f64 {
     let tiny = |most: f64| most * 10_f64.powf(-DECADES);
     if min > 0.0 {
@@ -107,12 +107,12 @@ fn within(min: f64, max: f64, place: f64) -> f64 {
     logarithmic(tiny(most), most, signed.abs()).copysign(signed)
 }
 
-/// Between two positive numbers, from the first to the second, by the logarithm.
+/// Logarithmic interpolation between two positive numbers.
 pub fn logarithmic(low: f64, high: f64, place: f64) -> f64 {
     (low * (high / low).powf(place)).clamp(low.min(high), high.max(low))
 }
 
-/// An input as drawn.
+/// A randomly drawn input.
 #[derive(Clone, Debug)]
 enum Drawn {
     Constant(f64),
@@ -120,7 +120,7 @@ enum Drawn {
 }
 
 impl Drawn {
-    /// Its points spread evenly over the run, or over the turn.
+    /// The profile with points evenly spaced over the run or over the turn.
     fn profile(self, span: f64) -> Profile {
         match self {
             Self::Constant(value) => Profile::Constant(value),
@@ -137,7 +137,7 @@ impl Drawn {
     }
 }
 
-/// An input of a usual size, seldom of any.
+/// An input, mostly of a usual size, rarely of any size.
 fn profile(size: f64) -> impl Strategy<Value = Drawn> {
     let wild = (any::<bool>(), 0.0..1.0).prop_map(|(negative, place)| {
         let value = logarithmic(1.0, 1e18, place);

@@ -1,9 +1,10 @@
-//! Machines drawn by lot: presses, pumps and engines of plausible sizes, speeds, clearances and loads.
+//! Draws random machines: presses, pumps and engines of plausible sizes, speeds, clearances and loads.
 //!
-//! Every quantity is drawn about what such machines have: a crank radius of millimetres to a hand's breadth, bodies whose
-//! masses go with its cube, a mean slider speed up to 12 m/s, play of micrometres to half a millimetre, a load of the size
-//! of the inertia forces or well above them, a flywheel that carries the crank through it and a torque that makes up for
-//! its work. Of each quantity the value for the lot 0 is the plain one, so that a scene that shrinks gets plainer.
+//! Every quantity is drawn from the range of such machines: a crank radius from millimetres to a decimetre, bodies
+//! whose masses are proportional to its cube, a mean slider speed up to 12 m/s, clearances from micrometres to half a
+//! millimetre, a load of the size of the inertia forces or far above them, a flywheel that keeps the crank turning
+//! under the load, and a torque that supplies the load's work. The random number 0 gives the simplest value of each
+//! quantity, so that shrinking a scene makes it simpler.
 
 use super::draw::logarithmic;
 use proptest::prelude::Strategy;
@@ -15,23 +16,23 @@ use slidercrank::scene::{
 };
 use std::f64::consts::{PI, TAU};
 
-/// Most quantities that a machine draws.
+/// Maximum number of random numbers for one machine.
 const LOTS: usize = 120;
-/// Points of a turn over which the load's work is summed up.
+/// Number of points of a turn for the integral of the load's work.
 const WORK_POINTS: u32 = 360;
 /// Share of the machines that keep the default method; the others draw one with error control.
 const DEFAULT_METHOD: f64 = 0.7;
-/// Share of the machines with play in one pin or the main bearing alone.
+/// Share of the machines with clearance in only one of the pins and the main bearing.
 const ONE_PLAY: f64 = 0.5;
 /// [kg/m³] Steel.
 const DENSITY: f64 = 7850.0;
 
-/// Scene files of machines that run for so many turns.
+/// Strategy for scene files of machines with runs of `turns` turns.
 pub fn scene_files(turns: f64) -> impl Strategy<Value = SceneFile> {
     vec![0.0..1.0; LOTS].prop_map(move |lots| Lots { lots: lots.into_iter() }.machine(turns))
 }
 
-/// Numbers in 0 .. 1, each drawn once.
+/// Random numbers from 0 to 1. Each is used once.
 struct Lots {
     lots: std::vec::IntoIter<f64>,
 }
@@ -41,12 +42,12 @@ impl Lots {
         self.lots.next().unwrap_or_default()
     }
 
-    /// Evenly within a range.
+    /// Uniform in a range.
     fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 
-    /// Within a range, by the logarithm.
+    /// Logarithmically uniform in a range.
     fn about(&mut self, low: f64, high: f64) -> f64 {
         logarithmic(low, high, self.next())
     }
@@ -182,8 +183,8 @@ impl Lots {
         flexible.damping_ratio = damping;
     }
 
-    /// [N] On the slider: none, a constant one, a blow near bottom dead centre with the snap after it, a pump's, or one
-    /// that swings on its own.
+    /// [N] Load on the slider: none, constant, a blow near bottom dead centre with the snap-through after it, a pump's
+    /// load, or a load that oscillates over time.
     fn load(&mut self, scene: &Scene) -> Profile {
         let crank = &scene.crank;
         let inertia = scene.slider.mass * crank.length * crank.speed_start.powi(2);
@@ -223,7 +224,7 @@ impl Lots {
         }
     }
 
-    /// [N·m] The torque of a torque drive that makes up for the load's mean work; its flywheel is added to the crank.
+    /// [N·m] Torque of a torque drive that supplies the load's mean work. Adds a flywheel to the crank.
     fn drive(&mut self, scene: &mut Scene, load: &Profile) -> f64 {
         let (prescribed, wheel, share) = (self.chance(0.5), self.about(5.0, 100.0), self.within(1.0, 1.2));
         if prescribed {
@@ -245,14 +246,14 @@ impl Lots {
         };
         let over_turn = !matches!(load, Profile::Points { against: ProfileArgument::Time, .. });
         let done: f64 = if over_turn { (0..WORK_POINTS).map(work).sum() } else { 0.0 };
-        // The flywheel stores many times the slider's own energy, and what the load takes and gives back in a turn.
+        // The flywheel stores many times the slider's energy and the energy that the load exchanges in a turn.
         let swing = 4.0 * r * greatest(load) / crank.speed_start.powi(2);
         crank.inertia += wheel * (scene.slider.mass * r * r).max(swing);
         -done / TAU * share
     }
 }
 
-/// [N] The largest load.
+/// [N] Largest absolute value of the load.
 fn greatest(load: &Profile) -> f64 {
     match load {
         Profile::Constant(value) => value.abs(),

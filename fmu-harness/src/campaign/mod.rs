@@ -1,9 +1,9 @@
-//! A randomised campaign: scenes drawn by lot, over the whole legal parameter space or among plausible machines, each put
-//! to the same test.
+//! A randomized campaign: scenes are drawn from the whole legal parameter space or from plausible machines, and each of
+//! them is put to the same test.
 //!
-//! A scene is known by the campaign's kind and seed and its number, whatever runs beside it. One that ends by an error is
-//! run by the other adaptive methods, too: where one of them finishes it, it has failed. What fails is made simpler as
-//! long as it fails, and kept as a scene file.
+//! Kind, seed and number determine a scene, whatever else is run. If a run ends with an error, the other adaptive
+//! methods repeat it; if one of them finishes, the scene has failed. A scene that fails is simplified for as long as it
+//! still fails, and is kept as a scene file.
 
 mod agreement;
 mod draw;
@@ -25,44 +25,44 @@ use stiffness::Stiffness;
 use trial::{Cost, Terms, Verdict, trial};
 use watch::Watch;
 
-/// Among which scenes.
+/// The scenes from which a campaign draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Kind {
-    /// Anything that is legal, at the ends of every range, too.
+    /// Any legal scene, with parameters at the ends of their ranges, too.
     Legal,
     /// Machines of plausible sizes, loads and speeds.
     Machines,
-    /// The shipped scenes with every choice of play, under both drives, at three tolerances, by the default method: where
-    /// another adaptive method arrives, so must it, and by the same motion.
+    /// The shipped scenes with every choice of clearances, with both drives, at three tolerances, with the default
+    /// method. Where another adaptive method finishes, the default must finish, too, with the same motion.
     Shipped,
 }
 
-/// What is drawn.
+/// A campaign.
 #[derive(Clone, Copy, Debug)]
 pub struct Campaign {
-    /// Among which scenes.
+    /// Kind of its scenes.
     pub kind: Kind,
-    /// How many scenes.
+    /// Number of scenes.
     pub scenes: u64,
-    /// The same seed draws the same scenes.
+    /// Seed: the same seed draws the same scenes.
     pub seed: u64,
     /// Turns of each run.
     pub turns: f64,
 }
 
-/// A scene and what came of it.
+/// The outcome of a scene.
 pub struct Outcome {
-    /// Draws that were no legal scene, before it.
+    /// Number of illegal scenes that were drawn before it.
     pub refused: u64,
-    /// How its run ended.
+    /// Ending of its run.
     pub verdict: Verdict,
-    /// What it took.
+    /// Cost of its run.
     pub cost: Cost,
     /// A run that failed: its scene, and the simplest that fails alike.
     pub failure: Option<[SceneFile; 2]>,
 }
 
-/// One of the scenes that took most.
+/// One of the most expensive scenes.
 pub struct Slow {
     /// Its number.
     pub number: u64,
@@ -70,44 +70,45 @@ pub struct Slow {
     pub scene: Scene,
     /// What it took.
     pub cost: Cost,
-    /// Evaluations a turn over those of the median of all scenes.
+    /// Evaluations per turn, divided by the median of all scenes.
     pub over_median: f64,
-    /// What is stiff in it.
+    /// The stiff parts of it.
     pub stiffness: Stiffness,
 }
 
-/// Most draws for one legal scene.
+/// Maximum number of draws for one legal scene.
 const DRAWS: u64 = 10_000;
-/// A crank that turned less has not shown what a turn takes.
+/// Minimum number of turns of a run whose cost per turn counts.
 const LEAST_TURNS: f64 = 0.01;
-/// Longest time that a failure is made simpler for.
+/// Maximum time for simplifying a scene that failed.
 const SIMPLER: Duration = Duration::from_secs(60);
-/// A trial that takes longer hangs.
+/// A trial that takes longer counts as hanging.
 pub const HANGS: Duration = Duration::from_secs(600);
-/// Evaluations of the equations of motion that a trial of a rigid mechanism may spend: of any legal scene, and for each turn of
-/// a machine.
+/// Maximum number of evaluations of a rigid mechanism's equations of motion: in a trial of a legal scene, and per turn
+/// of a machine.
 const EVALUATIONS: f64 = 1.2e6;
 const EVALUATIONS_PER_TURN: f64 = 5e5;
-/// The share of these with which another method must finish a shipped scene for the default to have failed that has spent
-/// them all: evaluations in blocks are many and cheap.
+/// If the default method has spent all evaluations of a shipped scene, it has failed only if another method finishes
+/// with this share of them: evaluations in blocks are numerous, but cheap.
 const FAR_LESS: f64 = 0.1;
 
 impl Cost {
-    /// Evaluations for each turn.
+    /// Evaluations per turn.
     pub fn per_turn(&self) -> f64 {
         f64::from(self.evaluations) / self.turns
     }
 }
 
 impl Kind {
-    /// How many scenes there are of this kind, if they are not drawn.
+    /// Number of scenes of this kind, unless they are drawn at random.
     pub fn count(self) -> Option<u64> {
         (self == Self::Shipped).then(shipped::count)
     }
 }
 
 impl Campaign {
-    /// Runs all trials on all threads; `progress` is called after each, `late` with the scene of one that hangs.
+    /// Runs all trials on all threads. `progress` is called after each trial, `late` with the scene of a trial that
+    /// hangs.
     pub fn run(&self, progress: impl Fn() + Sync, late: impl Fn(u64, &SceneFile) + Sync) -> Vec<Outcome> {
         let watch = Watch::default();
         std::thread::scope(|threads| {
@@ -123,7 +124,7 @@ impl Campaign {
         })
     }
 
-    /// So many of the scenes whose cranks turned, those that took the most evaluations a turn first.
+    /// The scenes that took the most evaluations per turn, among those whose cranks turned.
     pub fn slowest(&self, outcomes: &[Outcome], most: usize) -> Vec<Slow> {
         let mut costs: Vec<(u64, Cost)> = (0..).zip(outcomes).map(|(number, outcome)| (number, outcome.cost)).collect();
         costs.retain(|(_, cost)| cost.turns >= LEAST_TURNS);
@@ -137,12 +138,12 @@ impl Campaign {
         costs.par_iter().take(most).map(slow).collect()
     }
 
-    /// The scene of a number.
+    /// The scene of this number.
     pub fn scene(&self, number: u64) -> SceneFile {
         self.draw(number).1.current()
     }
 
-    /// The trial of a scene by its number.
+    /// Runs the trial of the scene of this number.
     pub fn outcome(&self, number: u64) -> Outcome {
         let (refused, mut tree) = self.draw(number);
         let file = tree.current();
@@ -154,7 +155,7 @@ impl Campaign {
         Outcome { refused, verdict, cost, failure }
     }
 
-    /// The first legal scene of a number, and how many draws were none before it.
+    /// The first legal scene of this number, and how many illegal scenes were drawn before it.
     fn draw(&self, number: u64) -> (u64, impl ValueTree<Value = SceneFile> + use<>) {
         let mut seed = [0; 32];
         seed[..8].copy_from_slice(&self.seed.to_le_bytes());
@@ -170,24 +171,29 @@ impl Campaign {
             },
         };
         for refused in 0..DRAWS {
-            // These strategies reject nothing.
+            // These strategies never reject a draw.
             if let Ok(tree) = scenes.new_tree(&mut runner)
                 && tree.current().scene.check().is_ok()
             {
                 return (refused, tree);
             }
         }
-        unreachable!("{DRAWS} draws in a row are no legal scene")
+        unreachable!("none of {DRAWS} draws is a legal scene")
     }
 
-    /// The trial of a scene, and of its file.
+    /// Runs the trial of a scene, after its file has been written and read.
     fn verdict(&self, file: &SceneFile, number: u64) -> (Verdict, Cost) {
         match read(&write(file), "drawn.toml") {
             Ok(found) if found == *file => {}
-            Ok(_) => return (Verdict::Failed("its file reads back as another scene".into()), Cost::default()),
+            Ok(_) => {
+                return (
+                    Verdict::Failed("the scene differs after its file has been written and read".into()),
+                    Cost::default(),
+                );
+            }
             Err(error) => return (Verdict::Failed(format!("its file is refused: {error}")), Cost::default()),
         }
-        // Numbers that have no pattern with what is drawn.
+        // These numbers are independent of the draws.
         let saved_at = (number as f64 * 0.618_033_988_75).fract();
         let by = |method: Method, share: f64| {
             let mut file = file.clone();
@@ -200,9 +206,11 @@ impl Campaign {
         let (verdict, cost) = by(own, 1.0);
         let why = match &verdict {
             Verdict::Ended(why) if !own.has("fixed step") => why.clone(),
-            Verdict::Spent if self.kind == Kind::Shipped => "its work is beyond its bound".into(),
+            Verdict::Spent if self.kind == Kind::Shipped => {
+                "it needs more than the maximum number of evaluations".into()
+            }
             Verdict::Finished if self.kind == Kind::Shipped => match agreement::parts(file) {
-                Some(how) => return (Verdict::Failed(format!("{} leaves the motion: {how}", own.name())), cost),
+                Some(how) => return (Verdict::Failed(format!("{} leaves the reference: {how}", own.name())), cost),
                 None => return (verdict, cost),
             },
             _ => return (verdict, cost),
@@ -211,13 +219,14 @@ impl Campaign {
         let finishes = |other: &&Method| **other != own && by(**other, share).0 == Verdict::Finished;
         match Method::ALL.iter().filter(|other| !other.has("fixed step")).find(finishes) {
             Some(other) => {
-                (Verdict::Failed(format!("{} ends where {} finishes: {why}", own.name(), other.name())), cost)
+                (Verdict::Failed(format!("{} ends early, {} finishes: {why}", own.name(), other.name())), cost)
             }
             None => (verdict, cost),
         }
     }
 
-    /// How many evaluations a trial may spend: those of a rod with many modes, with an audit or a Jacobian, are dear.
+    /// Maximum number of evaluations of a trial. It is smaller for a rod with many modes, an audit or a Jacobian, whose
+    /// evaluations are expensive.
     fn evaluations(&self, scene: &Scene) -> f64 {
         let most = match self.kind {
             Kind::Legal => EVALUATIONS,
@@ -234,7 +243,7 @@ impl Campaign {
         most / price
     }
 
-    /// The simplest scene found that fails in the same words, numbers aside.
+    /// The simplest scene found that fails with the same message, apart from numbers.
     fn simplest(&self, tree: &mut impl ValueTree<Value = SceneFile>, failed: &Verdict, number: u64) -> SceneFile {
         let words = |verdict: &Verdict| match verdict {
             Verdict::Failed(what) => what.split([' ', ',']).take(3).collect::<Vec<_>>().join(" "),

@@ -1,4 +1,4 @@
-//! The shipped scenes with every choice of play, under both drives, at three tolerances, by the default method.
+//! The shipped scenes with every choice of clearances, with both drives, at three tolerances, with the default method.
 
 use crate::accuracy::sixteen;
 use crate::scenes::{Scenario, contests, directory, ladder, names};
@@ -9,23 +9,23 @@ use slidercrank::scene::{DriveMode, Method};
 
 const DRIVES: [DriveMode; 2] = [DriveMode::Torque, DriveMode::Speed];
 const TOLERANCES: [f64; 3] = [1e-4, 1e-6, 1e-8];
-/// Ways to run one scene.
+/// Variants of one scene.
 const WAYS: usize = 16 * DRIVES.len() * TOLERANCES.len();
 
 fn scenes() -> Vec<String> {
     [names(&directory()), contests(), ladder()].concat()
 }
 
-/// How many there are.
+/// Number of all variants.
 pub fn count() -> u64 {
     (scenes().len() * WAYS) as u64
 }
 
-/// The one of this number, for so many turns, with its scene's loads and communication step. A crank that stands at the
-/// start runs for its scene's time.
+/// The variant of this number, with a run of `turns` turns and the scene's loads and communication step. If the crank
+/// does not turn at the start, the run has the scene's length.
 ///
 /// # Errors
-/// If there is none of this number, or its scene cannot be read.
+/// If there is no variant of this number, or its scene cannot be read.
 pub fn scene_file(number: u64, turns: f64) -> Result<SceneFile> {
     let number = number as usize;
     let (scene, way) = (number / WAYS, number % WAYS);

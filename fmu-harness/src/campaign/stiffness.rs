@@ -1,8 +1,8 @@
-//! What makes a scene slow: which contacts stay closed after a soft touch, and how fast the fastest motion of its equations
-//! is.
+//! Finds why a scene is stiff: contacts that stay closed after a slow impact, and the fastest rate of the equations.
 //!
-//! A contact that closed more slowly than its law's least approach speed is damped as if by that speed: pressed on by a
-//! load it is stiff out of all proportion to its own motion. So are bristles, and high modes of a rod.
+//! A contact that closed more slowly than its law's minimum approach speed is damped as if it had closed at that speed.
+//! Under a load such a contact is far stiffer than its own motion requires. Bristles and high modes of a rod are stiff,
+//! too.
 
 use super::trial::inputs;
 use nalgebra::DMatrix;
@@ -10,28 +10,28 @@ use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::{Linearization, Simulation};
 
-/// Evaluations after which a look is over.
+/// Maximum number of evaluations of this analysis.
 const EVALUATIONS: i32 = 3_000_000;
-/// Communication points between two looks at the derivatives.
+/// Communication points between two evaluations of the Jacobian.
 const SELDOM: usize = 16;
-/// A contact that approached by less than this many times the least speed counts as one that closed at it.
+/// A contact whose approach speed is below this multiple of the minimum speed counts as closed at the minimum speed.
 const AT_FLOOR: f64 = 1.01;
 
-/// What was seen of a run, as shares of its communication points.
+/// Stiffness of a run. Shares are those of its communication points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stiffness {
-    /// [1/s] The greatest eigenvalue of the equations of motion, by size.
+    /// [1/s] Largest absolute eigenvalue of the equations of motion.
     pub fastest: f64,
-    /// It is that of a decay; otherwise of an oscillation.
+    /// Whether the eigenvalue belongs to a decay; otherwise it belongs to an oscillation.
     pub decays: bool,
-    /// Contacts in A, B, C and T (any corner or face) that were closed.
+    /// Shares with closed contacts in A, B, C and T (any corner or face).
     pub closed: [f64; 4],
-    /// And those of them that had closed at the law's least approach speed.
+    /// Shares with contacts that had closed at the law's minimum approach speed.
     pub at_floor: [f64; 4],
 }
 
 impl Stiffness {
-    /// Of the first part of a scene's run; nothing of one that cannot start.
+    /// Analyses the first part of a scene's run. The result is empty if the run cannot start.
     pub fn of(file: &SceneFile) -> Self {
         let mut seen = Self::default();
         let start = inputs(file, 0.0, file.scene.crank.angle_start);
@@ -59,7 +59,7 @@ impl Stiffness {
         let floors =
             [&joint.a.contact, &joint.b.contact, &joint.c.contact, &joint.t.contact].map(|contact| contact.speed_floor);
         let approach = simulation.phase().approach;
-        // A, B, C, then the guide's corners or faces.
+        // Order: A, B, C, then the guide's corners or faces.
         for (number, floor) in floors.iter().enumerate() {
             let contacts = if number < 3 { number..number + 1 } else { 3..approach.len().max(3) };
             let closed = approach.get(contacts).unwrap_or_default().iter().flatten();

@@ -1,8 +1,8 @@
-//! One scene put to the test: whatever it is, a run of it ends in order.
+//! The test of one scene.
 //!
-//! What must hold of every legal scene: no panic; every output, output derivative and sensitivity is a number as long
-//! as steps succeed, and outputs after a step that did not, too; a state saved on the way goes on to the bit; where the
-//! energy is audited and the method keeps to a tolerance, its balance closes.
+//! For every legal scene: there is no panic; every output, output derivative and sensitivity is finite while steps
+//! succeed, and outputs are finite after a step that failed, too; a state that is saved during the run continues to the
+//! same bits; if the energy is audited and the method has a tolerance, the energy balance closes.
 
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::model::signals::{Inputs, Outputs};
@@ -12,48 +12,48 @@ use slidercrank::simulation::{Simulation, SimulationError, Snapshot, System};
 use std::f64::consts::TAU;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// How a trial ended.
+/// The ending of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
     /// The scene ran to its end.
     Finished,
-    /// All evaluations of the equations of motion were spent before.
+    /// It spent its maximum number of evaluations before the end.
     Spent,
-    /// It ended before, by an error; numbers in it stand as `#`.
+    /// It ended early with this error, with `#` in place of numbers.
     Ended(String),
-    /// Something that must hold does not: what, and when.
+    /// It broke a rule of the test: which one, and when.
     Failed(String),
 }
 
-/// How much a trial may cost, and where on its way it is saved and restored.
+/// Limits of a trial, and the point at which its state is saved and restored.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms {
-    /// Evaluations of the equations of motion in all.
+    /// Maximum number of evaluations of the equations of motion.
     pub evaluations: i32,
     /// Share of the communication points after which the state is saved.
     pub saved_at: f64,
 }
 
-/// Communication points for which a restored run is compared with the one that never stopped.
+/// Number of communication points at which a restored run is compared with the original run.
 const COMPARED: usize = 4;
-/// Every so many communication points sensitivities are asked for.
+/// Number of communication points between two evaluations of sensitivities.
 const SEEDED: usize = 8;
-/// Largest tolerance at which the balance of energy is held to anything.
+/// Largest tolerance for which the energy balance is checked.
 const TIGHT: f64 = 1e-6;
-/// Most share of the energy turned over that its balance may be off by. Works and losses are not weighted by the error
-/// norm: of a scene with a body of a milligram, whose velocities are told to 1e-5 m/s, this much was measured.
+/// Largest residual of the energy balance, as a share of the converted energy. Works and losses have no weight in the
+/// error norm. This value was measured for a body of a milligram, whose velocities are accurate to 1e-5 m/s.
 const BALANCE: f64 = 1e-3;
-/// The same for linearly implicit steps, which pass over a stiff transient without taking note of what it loses.
+/// Largest residual with linearly implicit steps, which do not resolve stiff transients and the energy lost in them.
 const IMPLICIT_BALANCE: f64 = 0.1;
 
-/// An input from here on may make outputs overflow; the FMU's face refuses to hand them out.
+/// Inputs from this size on may make outputs overflow; the FMU does not return such outputs.
 const ABSURD: f64 = 1e100;
-const FAR_TOO_LARGE: &str = "an input that is far too large makes outputs overflow";
-/// Outputs of a method without error control that has left the motion.
+const FAR_TOO_LARGE: &str = "a much too large input makes outputs overflow";
+/// Outputs of a method without error control that has become unstable.
 const BLOWN_UP: f64 = 1e15;
-const FAR_TOO_LONG: &str = "a fixed step that is far too long makes outputs overflow";
+const FAR_TOO_LONG: &str = "a much too long fixed step makes outputs overflow";
 
-/// Why a trial is over before its end.
+/// The reason why a trial ended early.
 enum Stop {
     Spent,
     Overflow(&'static str),
@@ -61,12 +61,12 @@ enum Stop {
     Failed(String),
 }
 
-/// What a trial took.
+/// The cost of a trial.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
     /// Evaluations of the equations of motion.
     pub evaluations: i32,
-    /// Turns of the crank, backwards or forwards.
+    /// Crank turns in either direction.
     pub turns: f64,
 }
 
@@ -89,7 +89,7 @@ pub fn trial(file: &SceneFile, terms: Terms) -> (Verdict, Cost) {
     (verdict, cost)
 }
 
-/// The sentence of an error with `#` for its numbers and without its time.
+/// Message of an error with `#` in place of numbers, and without the time.
 fn kind(error: &SimulationError) -> String {
     let text = match error {
         SimulationError::Integration { cause, .. } => cause.clone(),
@@ -106,11 +106,11 @@ struct Trial<'a> {
     outputs: Outputs,
     /// [J] Largest residual of the energy balance.
     residual: f64,
-    /// [J] Energy turned over.
+    /// [J] Converted energy.
     turned_over: f64,
 }
 
-/// A saved state and what the outputs were at the communication points after it.
+/// A saved state, and the outputs at the communication points after it.
 struct Saved {
     snapshot: Snapshot,
     point: usize,
@@ -155,12 +155,12 @@ impl<'a> Trial<'a> {
         (run.stop(&self.file.scene) / run.step).round().max(1.0) as usize
     }
 
-    /// [s] A communication point.
+    /// [s] Time of a communication point.
     fn time(&self, point: usize, points: usize) -> f64 {
         self.file.run.stop(&self.file.scene) * (point as f64 / points as f64)
     }
 
-    /// Goes on to a communication point and looks at what came of it, even if that was an error.
+    /// Advances to a communication point and checks the results, also after an error.
     fn step(&mut self, point: usize, points: usize) -> Result<(), Stop> {
         self.inputs = inputs(self.file, self.simulation.time(), self.outputs.crank.angle);
         self.simulation.set_inputs(self.inputs, Inputs::default());
@@ -168,7 +168,7 @@ impl<'a> Trial<'a> {
         match end {
             Ok(()) => self.look(point),
             Err(error) => {
-                // What an error leaves behind can still be asked, saved and restored.
+                // After an error, outputs can still be read, and the state can be saved and restored.
                 self.outputs = self.simulation.outputs();
                 self.finite("output after an error", &self.outputs)?;
                 let snapshot = self.simulation.snapshot();
@@ -178,7 +178,7 @@ impl<'a> Trial<'a> {
                 match same {
                     true if spent => Err(Stop::Spent),
                     true => Err(Stop::Ended(error)),
-                    false => Err(self.failed("the state after an error is not restored".into())),
+                    false => Err(self.failed("the state after an error cannot be restored".into())),
                 }
             }
         }
@@ -223,28 +223,28 @@ impl<'a> Trial<'a> {
         Stop::Failed(format!("{what}, at {:e} s", self.simulation.time()))
     }
 
-    /// The saved state gives the same outputs again, to the bit.
+    /// Checks that the saved state gives the same outputs again, bit for bit.
     fn again(&self, saved: &Saved, points: usize) -> Result<(), Stop> {
         let scene = &self.file.scene;
         let Ok(mut again) = Simulation::restore(scene, &saved.snapshot) else {
-            return Err(self.failed("a saved state is refused".into()));
+            return Err(self.failed("a saved state cannot be restored".into()));
         };
         let mut angle = saved.angle;
         for (i, wanted) in saved.after.iter().enumerate() {
             again.set_inputs(inputs(self.file, again.time(), angle), Inputs::default());
             if let Err(error) = again.advance_to(self.time(saved.point + i, points)) {
-                return Err(self.failed(format!("a restored run ends: {error}")));
+                return Err(self.failed(format!("a restored run fails: {error}")));
             }
             let outputs = again.outputs();
             if format!("{outputs:?}") != *wanted {
-                return Err(self.failed("a restored run differs from the one that never stopped".into()));
+                return Err(self.failed("a restored run differs from the original run".into()));
             }
             angle = outputs.crank.angle;
         }
         Ok(())
     }
 
-    /// The balance of energy, of a run that had an audit and a tolerance.
+    /// Checks the energy balance of a run with an audit and a tolerance.
     fn balance(&self) -> Result<(), Stop> {
         let solver = &self.file.scene.solver;
         let implicit = matches!(solver.method, Method::Rodas4 | Method::Automatic);
@@ -254,11 +254,12 @@ impl<'a> Trial<'a> {
             return Ok(());
         }
         let (residual, turned_over) = (self.residual, self.turned_over);
-        Err(self.failed(format!("the balance is off by {residual:e} J of {turned_over:e} J")))
+        Err(self.failed(format!("the energy balance has a residual of {residual:e} J of {turned_over:e} J")))
     }
 }
 
-/// [J] Energy of a motion that the error norm just notices, whatever the tolerance: below it, a balance means nothing.
+/// [J] Energy of a motion at the limit of what the error norm resolves at any tolerance. A smaller residual means
+/// nothing.
 fn noticeable(scene: &Scene) -> f64 {
     let Ok(system) = System::start(scene, Inputs::default()) else { return 0.0 };
     let positions = system.size().degrees_of_freedom;
@@ -269,7 +270,7 @@ fn noticeable(scene: &Scene) -> f64 {
     system.outputs(0.0, &y).energy.kinetic
 }
 
-/// Every real output with its name.
+/// All real outputs with their names.
 fn reals(outputs: &Outputs) -> impl Iterator<Item = (&'static str, f64)> {
     VARIABLES.iter().filter_map(|variable| match variable.access {
         Access::RealOutput(get) => Some((variable.name, get(outputs))),
@@ -277,7 +278,7 @@ fn reals(outputs: &Outputs) -> impl Iterator<Item = (&'static str, f64)> {
     })
 }
 
-/// The inputs of a communication point, to be held until the next.
+/// The inputs at a communication point, which are held until the next one.
 pub fn inputs(file: &SceneFile, time: f64, crank_angle: f64) -> Inputs {
     Inputs {
         crank_torque: file.inputs.crank_torque.value(time, crank_angle),

@@ -1,13 +1,13 @@
-//! What values are usual for a parameter: around the declared one, or, where that is 0, of a size that machines have.
+//! Usual values of parameters: values around the declared one or, if that is 0, of the size that machines have.
 
 use super::draw::logarithmic;
 use slidercrank::scene::Scene;
 use std::f64::consts::PI;
 
-/// Decades over which a usual value is spread about the declared one.
+/// Number of decades around the declared value.
 const SPREAD: f64 = 1.0;
 
-/// A usual value of the parameter `name`, whose declared one is `start`, at the share `place` of what is usual.
+/// A usual value of the parameter `name` with the declared value `start`. `place`, from 0 to 1, selects the value.
 pub fn usual(name: &str, start: f64, scene: &Scene, place: f64) -> f64 {
     let signed = 2.0 * place - 1.0;
     let joint = &scene.joint;

@@ -1,4 +1,4 @@
-//! Watches trials that run at the same time: one that does not end is told by name.
+//! Watches trials that run at the same time, and reports a trial that does not end.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,10 +6,10 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// How often it looks.
+/// Time between two checks.
 const LOOKS: Duration = Duration::from_millis(200);
 
-/// The trials under way, by their numbers.
+/// The running trials, by their numbers.
 #[derive(Default)]
 pub struct Watch {
     running: Mutex<HashMap<u64, Instant>>,
@@ -17,7 +17,7 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Does `work`, which is known as `number` meanwhile.
+    /// Runs `work` as the trial of this number.
     pub fn over<T>(&self, number: u64, work: impl FnOnce() -> T) -> T {
         self.running.lock().unwrap_or_else(PoisonError::into_inner).insert(number, Instant::now());
         let done = work();
@@ -25,7 +25,8 @@ impl Watch {
         done
     }
 
-    /// Waits until [`Watch::end`] is called; `late` is told every number that runs for longer than `limit`, once.
+    /// Waits until [`Watch::end`] is called. Calls `late` once for the number of every trial that runs longer than
+    /// `limit`.
     pub fn wait(&self, limit: Duration, late: impl Fn(u64)) {
         let mut told = vec![];
         while !self.over.load(Ordering::Relaxed) {
@@ -40,7 +41,7 @@ impl Watch {
         }
     }
 
-    /// Lets [`Watch::wait`] return.
+    /// Makes [`Watch::wait`] return.
     pub fn end(&self) {
         self.over.store(true, Ordering::Relaxed);
     }

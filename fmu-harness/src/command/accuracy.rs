@@ -1,4 +1,4 @@
-//! `accuracy`: what play does to the slider's motion.
+//! `accuracy`: the effect of clearances on the slider's motion.
 
 use super::{out_directory, shown};
 use crate::accuracy::{Plan, comparisons};
@@ -11,20 +11,21 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::path::PathBuf;
 
-/// Error of the slider's position, velocity and acceleration against the ideal mechanism at equal crank angle.
+/// Errors of the slider's position, velocity and acceleration against the ideal mechanism at the same crank angle.
 ///
-/// Tables: the sixteen choices of joints with play; clearances and speeds from a quarter to twice those of the scene;
-/// and, of a scene with a flexible rod, one with a rigid rod. Each with the error at bottom dead centre (crank angle 0), its spread from stroke to stroke
-/// and the slider's tilt there. Runs in this process, on all cores. Writes accuracy-SCENE.md, .csv and .parquet.
+/// The tables compare the sixteen choices of joints with clearance, clearances and speeds from a quarter to twice those
+/// of the scene and, for a scene with a flexible rod, the same scene with a rigid rod. They also give the error at
+/// bottom dead centre (crank angle 0), its spread from stroke to stroke and the slider's tilt there. Runs in this
+/// process, on all cores. Writes accuracy-SCENE.md, .csv and .parquet.
 #[derive(Args)]
 pub struct Accuracy {
-    /// The scene: name of a shipped one, or a .toml file
+    /// Scene: the name of a shipped scene, or a .toml file
     #[arg(long, default_value = "press", value_name = "NAME|FILE")]
     scene: String,
-    /// Turns that are forgotten
+    /// Crank turns before the evaluation starts
     #[arg(long, default_value_t = 3, value_name = "TURNS")]
     transient: usize,
-    /// Turns that are looked at
+    /// Crank turns that are evaluated
     #[arg(long, default_value_t = 20, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     turns: u32,
     /// Directory of the results [default: target/out]
@@ -33,7 +34,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Runs all cases, reports.
+    /// Runs all cases and writes the tables.
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;

@@ -1,4 +1,4 @@
-//! `campaign`: scenes drawn by lot, put to the test.
+//! `campaign`: tests of randomly drawn scenes.
 
 use super::{out_directory, shown};
 use crate::campaign::trial::Verdict;
@@ -14,32 +14,33 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::exit;
 
-/// Draws scenes by lot and puts each to the test: over all that is legal, and machines of plausible sizes, loads and
-/// speeds. Or takes the shipped ones with every choice of play, under both drives, at three tolerances: there the default
-/// method must also make the motion that other methods make, until these part.
+/// Draws scenes at random and tests each of them: any legal scene, and machines of plausible sizes, loads and speeds.
+/// Or takes the shipped scenes with every choice of clearances, with both drives, at three tolerances; for these scenes
+/// the default method must also compute the motion that the other methods compute, for as long as they agree.
 ///
-/// Every legal scene must run without a panic and without a hang; every output, its derivative and its sensitivity must
-/// be a number at every communication point; a state that is saved on the way must go on to the bit; the audited energy
-/// must balance. A run that ends by an error in plain words is run with the other adaptive methods: it has failed if one
-/// of them finishes it. A second table lists the scenes that took the most evaluations a turn, and what is stiff in them:
-/// the fastest rate of the equations, which joints were closed, and which of these contacts had closed so slowly that their
-/// damping is that of the least approach speed. A scene that fails is kept under campaign/ of the output directory, as it
-/// was drawn and as simple as it can be and still fail: run it with --scene.
+/// Every scene must run without a panic and without a hang. Every output, its derivative and its sensitivity must be a
+/// finite number at every communication point. A state that is saved during the run must continue to the same bits.
+/// Where the energy is audited, it must balance. A run that ends with an error is repeated with the other adaptive
+/// methods; the scene has failed if one of them finishes it. A second table lists the scenes that took the most
+/// evaluations per turn, and what is stiff in them: the fastest rate of the equations, the joints that were closed, and
+/// the contacts that had closed so slowly that their damping is that of the minimum approach speed. A scene that fails
+/// is kept in campaign/ of the output directory, as drawn and in its simplest form that still fails. Run it with
+/// --scene.
 #[derive(Args)]
 pub struct Campaign {
-    /// Scenes of one kind [default: legal ones and machines]
+    /// Draw only scenes of this kind [default: legal and machines]
     #[arg(long, value_name = "KIND")]
     kind: Option<Kind>,
-    /// How many scenes of each kind [default: 1000; of the shipped ones, all]
+    /// Number of scenes of each kind [default: 1000, or all shipped scenes]
     #[arg(long, value_name = "NUMBER")]
     scenes: Option<u64>,
-    /// The same seed draws the same scenes
+    /// Seed of the random numbers: the same seed draws the same scenes
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
-    /// Crank turns of each run [default: 5 of a legal scene, 60 of a machine or a shipped one]
+    /// Crank turns of each run [default: 5 for legal scenes, 60 for machines and shipped scenes]
     #[arg(long, value_name = "NUMBER")]
     turns: Option<f64>,
-    /// How many of the slowest scenes of each kind are listed
+    /// Number of the slowest scenes of each kind to list
     #[arg(long, value_name = "NUMBER", default_value_t = 10)]
     slowest: usize,
     /// Directory of the results [default: target/out]
@@ -49,10 +50,10 @@ pub struct Campaign {
     docs: Docs,
 }
 
-/// Scenes of a kind that is drawn.
+/// Default number of scenes of a random kind.
 const DRAWN: u64 = 1000;
 
-/// Turns of a run of each kind.
+/// Default number of turns of a run of each kind.
 fn turns(kind: Kind) -> f64 {
     match kind {
         Kind::Legal => 5.0,
@@ -66,9 +67,9 @@ fn name(kind: Kind) -> String {
 }
 
 impl Campaign {
-    /// Draws, runs, reports.
+    /// Draws the scenes, runs them and writes the tables.
     pub fn execute(&self) -> Result<()> {
-        ensure!(self.turns.is_none_or(|turns| turns > 0.0 && turns <= 1e6), "turns must be above 0, at most 1e6");
+        ensure!(self.turns.is_none_or(|turns| turns > 0.0 && turns <= 1e6), "turns must be above 0 and at most 1e6");
         let section = self.docs.section("campaign", self.kind.map(name).as_deref())?;
         let kinds = self.kind.map_or(vec![Kind::Legal, Kind::Machines], |kind| vec![kind]);
         let (mut failed, mut text) = (0, String::new());
@@ -80,7 +81,7 @@ impl Campaign {
         Ok(())
     }
 
-    /// Draws and runs scenes of one kind, adds their tables to `text`, and tells how many failed.
+    /// Draws and runs scenes of one kind, adds their tables to `text`, and returns how many failed.
     fn of_kind(&self, kind: Kind, text: &mut String) -> Result<usize> {
         let name = name(kind);
         let out = self.output.clone().unwrap_or_else(out_directory).join("campaign").join(&name);
@@ -92,10 +93,10 @@ impl Campaign {
         let draws = Draws { kind, scenes, seed: self.seed, turns };
         let hangs = |number: u64, file: &SceneFile| {
             let name = format!("{}-{number}-hangs", self.seed);
-            let kept = keep(&out, &name, "It does not end.", file);
+            let kept = keep(&out, &name, "The run does not end.", file);
             let place = kept.map_or_else(|error| format!("{error:#}"), |file| shown(&file));
             bar.suspend(|| eprintln!("scene {number} has been running for {} s: {place}", HANGS.as_secs()));
-            // A thread cannot be stopped from outside.
+            // A thread cannot be stopped from another one.
             exit(1);
         };
         let outcomes = draws.run(|| bar.inc(1), hangs);
@@ -122,7 +123,7 @@ impl Campaign {
     }
 }
 
-/// Writes a scene file that tells why it is kept.
+/// Writes a scene file with a comment that says why it is kept.
 fn keep(out: &Path, name: &str, what: &str, file: &SceneFile) -> Result<PathBuf> {
     fs::create_dir_all(out).with_context(|| format!("cannot make the directory {}", out.display()))?;
     let path = out.join(format!("{name}.toml"));

@@ -1,4 +1,4 @@
-//! `dynamics`: what a motion is in the long run.
+//! `dynamics`: classification of a motion over many turns.
 
 use super::{out_directory, shown};
 use crate::dynamics::bifurcation::{From, Range};
@@ -15,30 +15,30 @@ use std::path::{Path, PathBuf};
 
 /// Poincaré sections, phase portrait, journal orbits, impacts, spectrum, largest Lyapunov exponent and a verdict.
 ///
-/// With `--parameter` a bifurcation diagram over its range, too. Runs in this process; a second motion beside the first
-/// measures the exponent. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and with a parameter
-/// dynamics-SCENE-bifurcation.svg with data.
+/// `--parameter` adds a bifurcation diagram over the range of a parameter. Runs in this process; the exponent is
+/// measured with a second, neighbouring motion. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
+/// with `--parameter` dynamics-SCENE-bifurcation.svg with data.
 #[derive(Args)]
 pub struct Dynamics {
-    /// The scene: name of a shipped one, or a .toml file
+    /// Scene: the name of a shipped scene, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
     scene: String,
-    /// A parameter's value, in SI units or with a unit; may be repeated
+    /// Sets a parameter to a value in SI units or with a unit; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Setting>,
-    /// Turns that are forgotten
+    /// Crank turns before the evaluation starts
     #[arg(long, default_value_t = 100, value_name = "TURNS")]
     transient: usize,
-    /// Turns that are looked at
+    /// Crank turns that are evaluated
     #[arg(long, default_value_t = 400, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(6..=1_000_000))]
     turns: u32,
-    /// Crank angle of the section past its start
+    /// Crank angle of the section, relative to the start angle
     #[arg(long, default_value_t = 0.0, value_name = "DEGREES")]
     section: f64,
-    /// Measurements of the exponent in each turn
+    /// Number of measurements of the exponent in each turn
     #[arg(long, default_value_t = 25, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     per_turn: u32,
-    /// A bifurcation diagram over this parameter
+    /// Draw a bifurcation diagram over this parameter
     #[arg(long, value_name = "NAME", requires = "from", requires = "to")]
     parameter: Option<String>,
     /// First value, in SI units
@@ -50,13 +50,13 @@ pub struct Dynamics {
     /// Number of values
     #[arg(long, default_value_t = 60, value_name = "NUMBER")]
     values: usize,
-    /// Turns looked at for each value
+    /// Crank turns that are evaluated for each value
     #[arg(long, default_value_t = 60, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(6..=100_000))]
     value_turns: u32,
-    /// Space the values evenly in their logarithms
+    /// Space the values logarithmically
     #[arg(long)]
     logarithmic: bool,
-    /// Follow a branch: start each value where the one before ended, in place of the scene's start
+    /// Follow a branch: start each value from the end state of the value before, instead of the scene's start state
     #[arg(long)]
     follow: bool,
     /// Directory of the results [default: target/out]
@@ -65,7 +65,7 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// Runs, judges, reports.
+    /// Runs the scene, classifies the motion and writes the results.
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;

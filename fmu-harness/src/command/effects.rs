@@ -1,4 +1,4 @@
-//! `effects`: what every effect costs.
+//! `effects`: the cost of every effect.
 
 use super::{out_directory, shown};
 use crate::effects::Price;
@@ -13,18 +13,18 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::path::PathBuf;
 
-/// Share of its time that a scene runs for with `--quick`.
+/// Share of each scene's time that `--quick` runs.
 const QUICK: f64 = 0.1;
 
-/// Prices every effect: runs a ladder of scenes, each with one effect more than the one before.
+/// Measures the cost of every effect: runs a series of scenes, each with one effect more than the scene before.
 ///
-/// The scenes are those of fmu-harness/scenes/effects. Each is packaged, the packaged file is run over the scene's whole
-/// time on one thread, at least three times, and the fastest run counts. "All in" is its CPU time in fmi2DoStep over the
-/// evaluations that it made; "bare" is the right-hand side alone, called from this program at states along the run.
-/// Writes effects.csv, effects.md, effects.svg and the packaged scenes.
+/// The scenes are those in fmu-harness/scenes/effects. Each scene is packaged, and the package is run over the scene's
+/// whole time on one thread, at least three times; the fastest run counts. "All in" is its CPU time in fmi2DoStep
+/// divided by its number of evaluations; "bare" is the right-hand side alone, called by this program at states of the
+/// run. Writes effects.csv, effects.md, effects.svg and the packaged scenes.
 #[derive(Args)]
 pub struct Effects {
-    /// Run every scene for a tenth of its time
+    /// Run every scene for only a tenth of its time
     #[arg(long)]
     quick: bool,
     /// Directory of the results [default: target/out]
@@ -35,7 +35,7 @@ pub struct Effects {
 }
 
 impl Effects {
-    /// Packages, measures, reports.
+    /// Packages and runs the scenes and writes the tables.
     pub fn execute(&self) -> Result<()> {
         let section = self.docs.section("effects", None)?;
         let out = self.output.clone().unwrap_or_else(out_directory);

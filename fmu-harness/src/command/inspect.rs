@@ -10,17 +10,17 @@ use std::path::PathBuf;
 /// Prints what an FMU declares.
 #[derive(Args)]
 pub struct Inspect {
-    /// The FMU
+    /// The FMU file
     fmu: PathBuf,
 }
 
 impl Inspect {
-    /// Prints; an FMU for another platform will do.
+    /// Prints the declaration. The FMU may be for another platform.
     pub fn execute(&self) -> Result<()> {
         let mut archive = Archive::open(&self.fmu)?;
         let description = Description::parse(&archive.description()?)?;
         let text = inspect::declared(&description, &archive.platforms(), &archive.names());
-        // A reader that has seen enough closes the pipe; that is no failure.
+        // A closed pipe is not an error: `| head`, for example, closes it.
         let _ = std::io::stdout().lock().write_all(text.as_bytes());
         Ok(())
     }

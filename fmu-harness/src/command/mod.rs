@@ -32,12 +32,12 @@ use crate::package::build::workspace;
 use std::env;
 use std::path::{Path, PathBuf};
 
-/// Where results go unless told otherwise.
+/// The default directory of results.
 fn out_directory() -> PathBuf {
     workspace().join("target").join("out")
 }
 
-/// A path as seen from the working directory, where that is shorter.
+/// A path relative to the working directory, if it is inside that directory.
 fn shown(path: &Path) -> String {
     let relative = env::current_dir().ok().and_then(|here| path.strip_prefix(here).ok().map(Path::to_path_buf));
     relative.as_deref().unwrap_or(path).display().to_string()

@@ -1,4 +1,4 @@
-//! `package`: a scene as an FMU.
+//! `package`: packages a scene as an FMU.
 
 use super::{out_directory, shown};
 use crate::host::Setting;
@@ -13,24 +13,25 @@ use std::path::{Path, PathBuf};
 /// Packages a scene as an FMU.
 #[derive(Args)]
 pub struct Package {
-    /// Scene: the name of a shipped one, or a .toml file
+    /// Scene: the name of a shipped scene, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
     scene: String,
-    /// A parameter's start value, in SI units or with a unit; may be repeated. For hosts that cannot set every type
+    /// Sets a parameter's start value in SI units or with a unit; may be repeated. Useful for hosts that cannot set
+    /// every type of variable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Setting>,
-    /// The FMU to write [default: target/out/SCENE.fmu]
+    /// FMU file to write [default: target/out/SCENE.fmu]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Leaves the library for newer processors out: a smaller package with the same bits on every machine, as
-    /// `--set solver.portable=true` makes them too
+    /// Leave out the library for newer processors: the package is smaller and computes the same bits on every machine.
+    /// `--set solver.portable=true` has the same bits with both libraries in the package
     #[arg(long)]
     portable: bool,
-    /// Platforms that the FMU has a library for, separated by commas [default: this machine's]. FMI 2.0 has no name for
-    /// Linux on ARM: its library, for FMPy on such a machine, is in another file, SCENE-linux-aarch64.fmu
+    /// Platforms of the FMU's libraries, separated by commas [default: this machine's platform]. FMI 2.0 has no name
+    /// for Linux on ARM: the library for it is in a separate file, SCENE-linux-aarch64.fmu, which FMPy can load there
     #[arg(long, value_delimiter = ',', value_name = "PLATFORM")]
     platforms: Vec<Platform>,
-    /// All of these platforms
+    /// Libraries for all platforms
     #[arg(long, conflicts_with = "platforms")]
     all_platforms: bool,
     /// Version of FMI
@@ -39,7 +40,7 @@ pub struct Package {
 }
 
 impl Package {
-    /// Builds, packages, writes.
+    /// Builds the libraries and writes the packages.
     pub fn execute(&self) -> Result<()> {
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
         let file = self.output.clone().unwrap_or_else(|| out_directory().join(format!("{}.fmu", scenario.name)));
@@ -50,7 +51,7 @@ impl Package {
         packages.iter().try_for_each(|(file, package)| save(package, file))
     }
 
-    /// What is packaged, and what the names of the files end in.
+    /// The libraries for each file, with the ending of the file's name.
     fn stocks(&self) -> Result<Vec<(&'static str, Stock)>> {
         let mut platforms =
             if self.all_platforms { Platform::value_variants().to_vec() } else { self.platforms.clone() };
@@ -58,14 +59,14 @@ impl Package {
         platforms.dedup();
         let levels = if self.portable { Levels::Portable } else { Levels::All };
         if platforms.is_empty() {
-            Ok(vec![("", Stock::build_for_old_linux_if_ready(levels)?)])
+            Ok(vec![("", Stock::build_for_old_linux(levels)?)])
         } else {
-            Stock::build_for(&platforms, levels)
+            Stock::build_for(self.fmi, &platforms, levels)
         }
     }
 }
 
-/// The file whose name without its extension ends so.
+/// Adds an ending to a file's name, before the extension.
 fn ended(file: &Path, ending: &str) -> PathBuf {
     if ending.is_empty() {
         return file.to_path_buf();
@@ -79,7 +80,7 @@ fn ended(file: &Path, ending: &str) -> PathBuf {
     file.with_file_name(name)
 }
 
-/// Builds, packages, writes, and says what came of it.
+/// Builds the library, writes the package and prints its size and what it needs.
 pub fn write(scenario: &Scenario, file: &Path) -> Result<()> {
     save(&package::Package::make(scenario)?, file)
 }

@@ -1,4 +1,4 @@
-//! `peers`: the same scene in what people use instead.
+//! `peers`: other programs run the same scene.
 
 use super::{out_directory, shown};
 use crate::peers::{Contest, Task, contest, scene, scenes};
@@ -11,20 +11,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Times the same scene in what people use instead: SUNDIALS, SciPy, Exudyn, MuJoCo, Siconos.
+/// Measures what other programs need for the same scene: SUNDIALS, SciPy, Exudyn, MuJoCo, Siconos.
 ///
-/// Every method of every competitor runs a ladder of tolerances or steps, ours too, one after the other on one thread.
-/// The table tells CPU seconds per simulated second at equal error, interpolated between runs, and the ratio to our
-/// packaged FMU. The error is the largest difference from a reference solution of every joint's eccentricity over its
-/// clearance. Inputs keep the values of the start; a run ends where two reference solutions part. Python packages are
-/// installed under target/peers; what else is missing is named, with the command that installs it. Writes peers.csv,
-/// peers.md and peers.svg.
+/// Every method of every program, this one included, runs a series of tolerances or step sizes, one after the other on
+/// one thread. The table gives CPU seconds per simulated second at equal error, interpolated between runs, and the
+/// ratio to the packaged FMU. The error is the largest difference of any joint's eccentricity from a reference
+/// solution, divided by the clearance. Inputs keep their start values; a run ends where two reference solutions begin
+/// to differ. Python packages are installed under target/peers; other missing tools are named, with the command that
+/// installs them. Writes peers.csv, peers.md and peers.svg.
 #[derive(Args)]
 pub struct Peers {
-    /// A shipped scene, or a scene file [default: those of fmu-harness/scenes/peers, and the others of `precision`]
+    /// Scene: the name of a shipped scene, or a .toml file [default: the scenes in fmu-harness/scenes/peers, and those
+    /// of `precision`]
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
-    /// Longest time on the clock for one method of one competitor, in seconds
+    /// Longest wall time for one method of one program, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60)]
     budget: u64,
     /// Directory of the results [default: target/out]
@@ -35,7 +36,7 @@ pub struct Peers {
 }
 
 impl Peers {
-    /// Runs and reports.
+    /// Runs all programs and writes the tables.
     pub fn execute(&self) -> Result<()> {
         let section = self.docs.section("peers", self.scene.as_deref())?;
         let out = self.output.clone().unwrap_or_else(out_directory);

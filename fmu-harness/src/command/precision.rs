@@ -1,4 +1,4 @@
-//! `precision`: what accuracy costs.
+//! `precision`: the cost of accuracy.
 
 use super::{out_directory, shown};
 use crate::host::Fmu;
@@ -23,30 +23,31 @@ use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// [s] What may be asked for.
+/// [s] Range of durations that can be set.
 const DURATIONS: RangeInclusive<f64> = 1e-4..=1e4;
 
-/// Draws work-precision diagrams: the error that every method reaches at a ladder of tolerances, and what it costs.
+/// Draws work-precision diagrams: the error and the cost of every method at a series of tolerances.
 ///
-/// Every scene is packaged and the packaged file is run in this process, on one thread; the fastest of several runs
-/// counts. An error is the largest position error over the clearance, against a reference solution that two methods of
-/// different orders agree on. Runs that fail or are too dear are drawn too. Where there is a Python environment, FMPy
-/// runs the same files at three communication steps, and its CVode in model exchange. Writes precision.csv, precision.md and precision-SCENE.svg.
+/// Every scene is packaged, and the package is run in this process, on one thread; the fastest of several runs counts.
+/// The error is the largest position error divided by the clearance, against a reference solution on which two methods
+/// of different orders agree. Runs that fail or take too long are drawn, too. If there is a Python environment, FMPy
+/// runs the same files at three communication steps, and with its CVode in model exchange. Writes precision.csv,
+/// precision.md and precision-SCENE.svg.
 #[derive(Args)]
 pub struct Precision {
-    /// One scene in place of six: the name of a shipped one, or a .toml file
+    /// Only this scene: the name of a shipped scene, or a .toml file [default: six scenes]
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
-    /// Errors within the first "20 ms", say, in place of two turns of the crank, as far as the motion is known
+    /// Time in which errors count, such as "20 ms" [default: two crank turns, or as long as the reference is known]
     #[arg(long, value_name = "DURATION", value_parser = duration)]
     window: Option<f64>,
-    /// Costs over the first "1 s", say, in place of one turn; as much of it as there is time for
+    /// Time over which costs are measured, such as "1 s"; slow runs stop earlier [default: one crank turn]
     #[arg(long, value_name = "DURATION", value_parser = duration)]
     span: Option<f64>,
-    /// A coarse ladder
+    /// Use few tolerances
     #[arg(long)]
     quick: bool,
-    /// Make the Python environment for FMPy if it is not there, from the package index
+    /// Install the Python environment for FMPy from the package index if it is missing
     #[arg(long)]
     host: bool,
     /// Directory of the results [default: target/out]
@@ -58,16 +59,16 @@ pub struct Precision {
 
 /// A duration with its unit, in seconds.
 fn duration(text: &str) -> Result<f64, String> {
-    let seconds = quantity(text, "s").map_err(|error| format!("{error}; wanted a duration such as `20 ms`"))?;
+    let seconds = quantity(text, "s").map_err(|error| format!("{error}; expected a duration such as `20 ms`"))?;
     if DURATIONS.contains(&seconds) {
         Ok(seconds)
     } else {
-        Err(format!("wanted {:e} to {:e} s", DURATIONS.start(), DURATIONS.end()))
+        Err(format!("expected {:e} to {:e} s", DURATIONS.start(), DURATIONS.end()))
     }
 }
 
 impl Precision {
-    /// Packages, measures, reports.
+    /// Packages and runs the scenes and writes the diagrams.
     pub fn execute(&self) -> Result<()> {
         let section = self.docs.section("precision", self.scene.as_deref())?;
         let out = self.output.clone().unwrap_or_else(out_directory);
@@ -75,7 +76,7 @@ impl Precision {
         let scenes = self.scene.clone().map_or(SCENES.map(String::from).into(), |scene| vec![scene]);
         let python = environment("hosts", if self.host { Missing::Make } else { Missing::Refuse });
         if let (Err(error), false) = (&python, self.host) {
-            eprintln!("FMPy is left out: {error:#}; `precision --host` makes what it needs");
+            eprintln!("FMPy is left out: {error:#}; `precision --host` installs it");
         }
         let stock = Stock::build()?;
         let runs: usize = methods().0.into_iter().map(|method| rungs(method, self.quick).len()).sum();
@@ -128,7 +129,7 @@ impl Precision {
     }
 }
 
-/// Figures, tables and the CSV.
+/// Writes figures, tables and the CSV file.
 fn write(
     diagrams: &[Diagram],
     points: &[HostPoint],

@@ -1,4 +1,4 @@
-//! `realtime`: how long one communication step takes.
+//! `realtime`: the time of one communication step.
 
 use super::{out_directory, shown};
 use crate::host::Fmu;
@@ -18,25 +18,26 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// One step of so many is taken with every setting.
+/// With every setting only one step of so many is taken.
 const SETTINGS_SHARE: u64 = 5;
 
-/// Times every one of many communication steps of 1 ms: median, 99.9 %, worst, and what is in the worst.
+/// Measures the time of every single communication step of 1 ms: median, 99.9 %, worst, and the contents of the worst
+/// step.
 ///
-/// Every scene is packaged and the packaged file is stepped in this process, its inputs set before each step. Times are
-/// those in fmi2DoStep, by the clock and as CPU time, so that a step during which another program ran can be told from a
-/// long one. Then a few settings of the solver are tried, with error control and with fixed steps: what a step takes at
-/// most with each, and the error that it makes, for a loop that waits for every step. Writes realtime.md,
-/// and realtime.csv, realtime.svg, realtime-settings.csv and realtime-settings.svg.
+/// Every scene is packaged, and the package is stepped in this process, with inputs set before each step. The times are
+/// those in fmi2DoStep, as wall time and as CPU time, which distinguishes a long step from a step during which another
+/// program ran. Then several settings of the solver are compared, with error control and with fixed steps: the longest
+/// time of a step and the error, for a loop that waits for every step. Writes realtime.md, realtime.csv, realtime.svg,
+/// realtime-settings.csv and realtime-settings.svg.
 #[derive(Args)]
 pub struct Realtime {
-    /// One scene in place of all: the name of a shipped one, or a .toml file
+    /// Only this scene: the name of a shipped scene, or a .toml file [default: all shipped scenes]
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
-    /// Steps of every scene; a fifth of them with every setting
+    /// Number of steps of every scene; a fifth as many with every setting
     #[arg(long, default_value_t = 100_000, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
-    /// Longest time for one scene, and for one setting of it; one that takes longer makes fewer steps
+    /// Longest time for one scene, and for one setting; a slower run takes fewer steps
     #[arg(long, default_value_t = 300.0, value_name = "SECONDS", value_parser = budget)]
     budget: f64,
     /// Directory of the results [default: target/out]
@@ -46,14 +47,14 @@ pub struct Realtime {
     docs: Docs,
 }
 
-/// A time above 0 that is not endless.
+/// Reads a time above 0 and at most a million seconds.
 fn budget(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok().filter(|seconds: &f64| *seconds > 0.0 && *seconds <= 1e6);
-    seconds.ok_or_else(|| "wanted seconds, above 0 and at most a million".into())
+    seconds.ok_or_else(|| "expected seconds, above 0 and at most a million".into())
 }
 
 impl Realtime {
-    /// Packages, measures, reports.
+    /// Packages and runs the scenes and writes the tables.
     pub fn execute(&self) -> Result<()> {
         let section = self.docs.section("realtime", self.scene.as_deref())?;
         let out = self.output.clone().unwrap_or_else(out_directory);

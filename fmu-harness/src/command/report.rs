@@ -1,4 +1,4 @@
-//! `report`: one page that shows a scene.
+//! `report`: one page about a scene.
 
 use super::{out_directory, package, run as runs, shown};
 use crate::accuracy::{self, comparisons};
@@ -22,26 +22,26 @@ use slidercrank::simulation::Simulation;
 use std::fs;
 use std::path::PathBuf;
 
-/// Points of the section a turn at which the exponent is measured.
+/// Number of measurements of the exponent in each turn.
 const PER_TURN: usize = 25;
 
-/// One self-contained HTML page of a scene: the mechanism moving, figures that can be zoomed, and tables.
+/// One self-contained HTML page about a scene, with an animation, figures that can be zoomed, and tables.
 ///
-/// The scene is packaged and the packaged file is run, beside the same with ideal joints; then come its motion in the
-/// long run, its accuracy, and the price of accuracy from a coarse work-precision diagram. The page needs no network.
-/// Writes report-SCENE.html.
+/// The scene is packaged, and the package is run with its joints and with ideal joints. The page also shows the motion
+/// over many turns, its accuracy, and the cost of accuracy from a work-precision diagram with few tolerances. The page
+/// needs no network. Writes report-SCENE.html.
 #[derive(Args)]
 pub struct Report {
-    /// The scene: name of a shipped one, or a .toml file
+    /// Scene: the name of a shipped scene, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
     scene: String,
-    /// Turns that are forgotten before the motion in the long run is looked at
+    /// Crank turns before the motion over many turns is evaluated
     #[arg(long, default_value_t = 20, value_name = "TURNS")]
     transient: usize,
-    /// Turns that the motion in the long run is looked at for
+    /// Crank turns for which the motion over many turns is evaluated
     #[arg(long, default_value_t = 100, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(6..=1_000_000))]
     turns: u32,
-    /// Leave out what is measured: the price of accuracy and of an evaluation
+    /// Leave out measured times: the cost of accuracy and of an evaluation
     #[arg(long)]
     unmeasured: bool,
     /// Directory of the results [default: target/out]
@@ -50,7 +50,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Runs, looks, writes the page.
+    /// Runs the scene and writes the page.
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
@@ -94,7 +94,7 @@ impl Report {
     }
 }
 
-/// A section, or its title with what came in the way.
+/// A section, or its title with the error that prevented it.
 fn or_why(title: &str, section: Result<Section>) -> Section {
     section.unwrap_or_else(|error| Section::missing(title, format!("Not shown: {error:#}.")))
 }

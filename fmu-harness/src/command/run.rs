@@ -1,4 +1,4 @@
-//! `run`: a scene, or any FMU, through time; figures and numbers of it.
+//! `run`: runs a scene or any FMU, draws figures and prints a table.
 
 use super::{out_directory, package, shown};
 use crate::host::{Archive, Fmu, LogLine, Setting, Status};
@@ -18,37 +18,38 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where the FMU is told how fast its crank starts.
+/// Parameter of the FMU: the crank's start speed.
 const SPEED: &str = "crank.speed_start";
-/// A crank that needs so many times longer than at its start speed is taken for stuck.
+/// A crank that needs so many times longer than at its start speed counts as stuck.
 const PATIENCE: f64 = 20.0;
 const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
 
 /// Runs a scene, or any co-simulation FMU of FMI 2.0 or 3.0.
 #[derive(Args, Default)]
 pub struct Run {
-    /// Scene: the name of a shipped one, or a .toml file
+    /// Scene: the name of a shipped scene, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
     scene: String,
-    /// An FMU to run in place of a scene; one of ours brings its scene's inputs and length along
+    /// FMU file to run instead of a scene. Packages of this program contain the inputs and the length of their scene's
+    /// run
     #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     fmu: Option<PathBuf>,
     /// Crank turns [default: the scene's]
     #[arg(long, value_name = "NUMBER", conflicts_with = "stop")]
     turns: Option<f64>,
-    /// Stop time in seconds, in place of turns
+    /// Stop time in seconds, instead of turns
     #[arg(long, value_name = "SECONDS")]
     stop: Option<f64>,
-    /// Communication step in seconds [default: the scene's, or what the FMU suggests]
+    /// Communication step in seconds [default: the scene's, or that of the FMU's default experiment]
     #[arg(long, value_name = "SECONDS")]
     step: Option<f64>,
-    /// Relative tolerance, in place of the FMU's own
+    /// Relative tolerance, instead of the FMU's own
     #[arg(long, value_name = "NUMBER")]
     tolerance: Option<f64>,
-    /// Inputs: a CSV whose first column is time and whose others are named as inputs
+    /// CSV file of inputs: the first column is time, the others have the inputs' names
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
-    /// Sets a variable before initialisation; may be repeated
+    /// Sets a variable before initialization; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Setting>,
     /// Directory of the results [default: target/out]
@@ -56,7 +57,7 @@ pub struct Run {
     output: Option<PathBuf>,
 }
 
-/// What to run: an FMU, the name of its results, and its scene if it has one.
+/// An FMU to run, the name of its results, and its scene if it has one.
 struct Subject {
     name: String,
     fmu: Fmu,
@@ -64,7 +65,7 @@ struct Subject {
 }
 
 impl Run {
-    /// Packages if need be, runs, reports.
+    /// Packages the scene, unless there is an FMU, runs it and writes the results.
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
@@ -86,7 +87,7 @@ impl Run {
         Ok(())
     }
 
-    /// The FMU that was asked for, or the scene as one.
+    /// The FMU of the command line, or the packaged scene.
     fn subject(&self, out: &Path) -> Result<Subject> {
         match &self.fmu {
             Some(file) => {
@@ -103,7 +104,7 @@ impl Run {
         }
     }
 
-    /// What was asked for, else what the scene says, else what the FMU suggests.
+    /// The experiment of the command line, or else of the scene, or else of the FMU's default experiment.
     fn experiment(&self, fmu: &Fmu, scene: Option<&SceneFile>) -> Result<Experiment> {
         let suggested = |name: &str| fmu.description().experiment.number(name);
         let start = suggested("startTime").unwrap_or(0.0);
@@ -116,7 +117,7 @@ impl Run {
         let until = match (end, self.start_speed(fmu)) {
             (End::Time(stop), _) => Until::Time(stop),
             (End::Turns(turns), Some(speed)) => Until::Turns { turns, latest: start + PATIENCE * turns * TAU / speed },
-            (End::Turns(_), None) => bail!("`{SPEED}` does not tell how long a turn lasts; give a --stop time"),
+            (End::Turns(_), None) => bail!("without `{SPEED}` the length of a turn is unknown; give a --stop time"),
         };
         let (Until::Time(latest) | Until::Turns { latest, .. }) = until;
         ensure!(latest > start, "the end, {latest} s, is not after the start, {start} s");
@@ -130,7 +131,7 @@ impl Run {
         Ok(Experiment { settings: self.set.clone(), inputs, start, until, step, tolerance: self.tolerance })
     }
 
-    /// [rad/s] Speed of the crank at the start, if the FMU has a crank and it turns.
+    /// [rad/s] Start speed of the crank, if the FMU has a crank that turns.
     fn start_speed(&self, fmu: &Fmu) -> Option<f64> {
         let set =
             self.set.iter().rev().find(|setting| setting.name == SPEED).and_then(|setting| setting.value.parse().ok());
@@ -139,22 +140,22 @@ impl Run {
     }
 }
 
-/// The scene that an FMU of ours was packaged with.
+/// The scene in a package of this program.
 fn packaged_scene(file: &Path, name: &str) -> Result<Option<SceneFile>> {
     let mut archive = Archive::open(file)?;
     let text = archive.text("documentation/scene.toml");
-    // Whatever file the scene names its modes in, the package holds them under one name.
+    // The package has the table of modes under this name, whatever name the scene gives it.
     let modes = archive.text(&format!("documentation/{MODES}")).unwrap_or_default();
     Ok(text.and_then(|text| read_with(&text, name, &|_| Ok(modes.clone())).ok()))
 }
 
-/// Whether the figures of a slider-crank can be drawn of it.
+/// Whether the FMU has the outputs for the figures of a slider-crank.
 fn is_slider_crank(fmu: &Fmu) -> bool {
     let has = |name: &str| fmu.description().variable(name).is_ok();
     has(ANGLE) && has("accuracy.position") && JOINTS.iter().all(|joint| has(&format!("joint.{joint}.model")))
 }
 
-/// The same experiment with every joint ideal.
+/// Runs the same experiment with ideal joints.
 fn with_ideal_joints(fmu: &Fmu, experiment: &Experiment) -> Result<Recording> {
     let mut experiment = experiment.clone();
     let ideal = |joint: &str| Setting { name: format!("joint.{joint}.model"), value: "1".into() };
@@ -162,14 +163,14 @@ fn with_ideal_joints(fmu: &Fmu, experiment: &Experiment) -> Result<Recording> {
     watched(fmu, &experiment, "the same with ideal joints").context("with ideal joints")
 }
 
-/// A scene's own run through its packaged file, and the same with every joint ideal.
+/// Runs the package of a scene with the scene's joints and with ideal joints.
 pub(super) fn beside_ideal(fmu: &Fmu, scene: &SceneFile, name: &str) -> Result<[Recording; 2]> {
     let run = Run::default();
     let experiment = run.experiment(fmu, Some(scene))?;
     Ok([watched(fmu, &experiment, name)?, with_ideal_joints(fmu, &experiment)?])
 }
 
-/// Runs with a progress bar; warnings and errors of the FMU go above it.
+/// Runs with a progress bar. Log lines of the FMU are printed above the bar.
 fn watched(fmu: &Fmu, experiment: &Experiment, name: &str) -> Result<Recording> {
     let style = ProgressStyle::with_template("{msg:30} {wide_bar:.cyan/blue} {percent:>3} % {elapsed:>4}")?;
     let bar = ProgressBar::new(1000).with_style(style).with_message(name.to_owned());
@@ -184,7 +185,7 @@ fn watched(fmu: &Fmu, experiment: &Experiment, name: &str) -> Result<Recording> 
     recording
 }
 
-/// Draws every figure that the run has data for, and returns the files.
+/// Draws every figure for which the run has data, and returns the files.
 fn draw(pair: &Pair, out: &Path) -> Result<Vec<PathBuf>> {
     let sheets = [
         ("slider", Some(figure::slider_motion(pair)?)),

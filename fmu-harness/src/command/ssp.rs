@@ -1,4 +1,4 @@
-//! `ssp`: the press with its controller as an SSP package, and what coupling does to it.
+//! `ssp`: the press with its controller as an SSP package, and the error of its coupling.
 
 use super::{out_directory, shown};
 use crate::package::Stock;
@@ -15,15 +15,15 @@ use std::time::Duration;
 
 /// Writes the press with a servo drive and the sheet that it cuts as an SSP 1.0 package.
 ///
-/// The press is the scene of that name without its flywheel; the drive is a sampled PI controller with a speed profile
-/// over the stroke and a torque limit; the sheet is the scene's load. Both are made by PythonFMU, from the Python
-/// environment under target/hosts, and run in hosts that bring Python. With --study, masters of our own run the package
-/// with inputs held, extrapolated and iterated with rollback, at communication steps from 10 µs to 2 ms, and at several
-/// clearances; that takes some minutes and writes ssp.csv, ssp.md, ssp-strokes.csv, and ssp-strokes.svg,
-/// ssp-clearance.svg and ssp-step.svg.
+/// The press is the scene `press` without its flywheel. The drive is a sampled PI controller with a speed profile over
+/// the stroke and a torque limit. The sheet is the scene's load. PythonFMU makes drive and sheet, in the Python
+/// environment under target/hosts; they run in hosts that have Python. With --study, three masters run the package with
+/// inputs held, extrapolated, and iterated with rollback, at communication steps from 10 µs to 2 ms, and at several
+/// clearances; this takes some minutes and writes ssp.csv, ssp.md, ssp-strokes.csv, ssp-strokes.svg, ssp-clearance.svg
+/// and ssp-step.svg.
 #[derive(Args)]
 pub struct Ssp {
-    /// Tell what coupling does to the press
+    /// Measure the error of the coupling
     #[arg(long)]
     study: bool,
     /// Directory of the results [default: target/out]
@@ -32,11 +32,12 @@ pub struct Ssp {
 }
 
 impl Ssp {
-    /// Packages; studies and reports where that is asked for.
+    /// Writes the package, and with `--study` runs the masters and writes their results.
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
-        let python = environment("hosts", Missing::Make).context("no Python environment for the companions")?;
+        let python = environment("hosts", Missing::Make)
+            .context("the Python environment of drive and sheet cannot be set up")?;
         let file = out.join(format!("{PRESS}.ssp"));
         let bytes = package(&Stock::build()?, &python)?;
         fs::write(&file, &bytes).with_context(|| format!("cannot write {}", file.display()))?;

@@ -1,4 +1,4 @@
-//! `sweep`: a study.
+//! `sweep`: runs a study.
 
 use super::{out_directory, shown};
 use crate::package::Stock;
@@ -15,20 +15,21 @@ use std::time::Duration;
 
 /// Runs a study: a scene with many parameter values, on all cores.
 ///
-/// Finished runs are kept in sweep-NAME.jsonl and never run again; a study that was killed goes on. A run that fails
-/// stops no other. Results do not depend on the number of workers. Writes sweep-NAME.parquet, .csv and a summary,
-/// sweep-NAME.md: of each quantity mean, deviation, quantiles and a confidence interval of the mean.
+/// Finished runs are recorded in sweep-NAME.jsonl and are not run again, so that a study that was killed continues. A
+/// run that fails does not stop the others. Results do not depend on the number of workers. Writes sweep-NAME.parquet,
+/// .csv and a summary, sweep-NAME.md: mean, standard deviation, quantiles and a confidence interval of the mean for
+/// each quantity.
 #[derive(Args)]
 pub struct Sweep {
-    /// The study: a .toml file; examples are in fmu-harness/studies/
+    /// Study: a .toml file; examples are in fmu-harness/studies/
     study: PathBuf,
-    /// Threads [default: as many as there are cores]
+    /// Number of threads [default: the number of cores]
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=1024))]
     workers: Option<u32>,
     /// Longest time for one run
     #[arg(long, default_value_t = 600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     budget: u64,
-    /// Write the table of runs and how each is done, sweep-NAME-plan.csv and .json, and run nothing
+    /// Write the table of runs with their settings, sweep-NAME-plan.csv and .json, and run nothing
     #[arg(long)]
     plan: bool,
     /// Directory of the results [default: target/out]
@@ -37,7 +38,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Runs what is not there yet, reports.
+    /// Runs the runs that are not finished yet and writes the results.
     pub fn execute(&self) -> Result<()> {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;

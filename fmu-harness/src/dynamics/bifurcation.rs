@@ -1,4 +1,4 @@
-//! What becomes of the section's visits as one parameter changes.
+//! Bifurcation diagrams: points of the Poincaré section as one parameter changes.
 
 use super::portrait::{Plan, noticed};
 use super::section::{Visit, stroboscope};
@@ -19,33 +19,36 @@ pub struct Range {
     pub values: Vec<f64>,
 }
 
-/// Where each value's run starts.
+/// The start state of each value's run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum From {
-    /// At the scene's own start: values are independent, and run on all cores.
+    /// The scene's start state. Values are independent and run on all cores.
     Fresh,
-    /// Where the run at the value before ended: a branch is followed, one value after the other.
+    /// The end state of the run at the value before. A branch is followed, one value after the other.
     Before,
 }
 
-/// What came of one value.
+/// The results of one value.
 pub struct Branch {
-    /// The parameter.
+    /// The parameter's value.
     pub value: f64,
-    /// Visits and evidence, or why there are none.
+    /// Points and evidence, or the error that prevented them.
     pub outcome: Result<(Vec<Visit>, Evidence)>,
 }
 
 impl Range {
-    /// So many values of a parameter, evenly spaced or, with `logarithmic`, evenly in their logarithms.
+    /// `count` values of a parameter, spaced evenly or, with `logarithmic`, logarithmically.
     ///
     /// # Errors
     /// If there is no such real parameter, or values lie outside its range.
     pub fn new(name: &str, from: f64, to: f64, count: usize, logarithmic: bool) -> Result<Self> {
         let parameter = Parameter::named(name).with_context(|| format!("there is no parameter `{name}`"))?;
-        ensure!(matches!(parameter.kind, Kind::Real { .. }), "`{name}` is no real number");
-        ensure!(count >= 2, "{count} values are no range: at least 2");
-        ensure!(!logarithmic || (from > 0.0 && to > 0.0), "logarithms need values above 0, not {from} and {to}");
+        ensure!(matches!(parameter.kind, Kind::Real { .. }), "`{name}` is not a real number");
+        ensure!(count >= 2, "a range needs at least 2 values, not {count}");
+        ensure!(
+            !logarithmic || (from > 0.0 && to > 0.0),
+            "logarithmic spacing needs values above 0, not {from} and {to}"
+        );
         parameter.admit(from)?;
         parameter.admit(to)?;
         let share = |i: usize| i as f64 / (count - 1) as f64;
@@ -61,10 +64,10 @@ impl Range {
         Ok(Self { name: name.into(), values: (0..count).map(value).collect() })
     }
 
-    /// Runs all values; one that fails stops no other.
+    /// Runs all values. A run that fails does not stop the others.
     ///
     /// # Errors
-    /// If the scene cannot take a value.
+    /// If the scene does not allow a value.
     pub fn branches(&self, file: &SceneFile, plan: &Plan, from: From, tick: impl Fn() + Sync) -> Result<Vec<Branch>> {
         let files = self.values.iter().map(|value| self.applied(file, *value)).collect::<Result<Vec<_>>>()?;
         let runs = self.values.iter().zip(&files);
@@ -99,7 +102,7 @@ impl Range {
         })
     }
 
-    /// The scene with a value of the parameter.
+    /// The scene with this value of the parameter.
     fn applied(&self, file: &SceneFile, value: f64) -> Result<SceneFile> {
         let mut file = file.clone();
         Parameter::named(&self.name).context("a parameter")?.write(&mut file.scene, value)?;
@@ -108,7 +111,7 @@ impl Range {
     }
 }
 
-/// A machine that starts where another is, after its transient.
+/// A machine that starts from the state of another one, after its transient.
 fn go_on(file: &SceneFile, plan: &Plan, other: &mut Machine) -> Result<Machine> {
     let mut machine = Machine::start(file)?;
     machine.take_over(other);

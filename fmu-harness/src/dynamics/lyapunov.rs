@@ -1,56 +1,57 @@
 //! The largest Lyapunov exponent by two trajectories (G. Benettin, L. Galgani, J.-M. Strelcyn, Phys. Rev. A 14 (1976)
-//! 2338): a neighbour is followed for a while, the growth of its distance noted, and it is brought near again along the
-//! same direction.
+//! 2338): a neighbouring motion is followed for a while, the growth of its distance is recorded, and the neighbour is
+//! moved near again along the same direction.
 //!
-//! The distance has in it all that decides how the motion goes on: bristles and the approach speeds of closed contacts
-//! too. Two neighbours may for a moment have different contacts closed; then their distance is taken as soon as they
-//! agree again. Both start anew after each measurement, so that they take like steps and what these err by cancels.
+//! The distance contains everything that determines the further motion, bristles and approach speeds of closed contacts
+//! included. Two neighbours may have different contacts closed for a moment; their distance is then measured as soon as
+//! they agree again. Both start anew after each measurement, so that they take similar steps, whose errors cancel.
 
 use super::{Flow, Point};
 use anyhow::{Result, bail};
 
-/// How an exponent is measured.
+/// Settings for measuring an exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// [s] Between two measurements.
+    /// [s] Time between two measurements.
     pub interval: f64,
-    /// How many measurements there are.
+    /// Number of measurements.
     pub count: usize,
-    /// Of these the first are not counted, while the neighbour turns into the direction of fastest growth.
+    /// Number of first measurements that do not count, during which the neighbour turns into the direction of fastest
+    /// growth.
     pub settling: usize,
     /// The neighbour's distance, in noticeable differences.
     pub distance: f64,
 }
 
-/// An exponent and how well it is known.
+/// An exponent and its uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exponent {
     /// [1/s]
     pub value: f64,
-    /// [1/s] Standard error, from the scatter of the means of [`BATCHES`] consecutive parts.
+    /// [1/s] Standard error, from the standard deviation of the means of [`BATCHES`] consecutive parts.
     pub error: f64,
     /// Time [s] and the mean up to it [1/s].
     pub history: Vec<(f64, f64)>,
 }
 
-/// Parts whose means are compared: long ones, so that what happens in one does not tell about the next.
+/// Number of parts whose means are compared. They are long enough to be independent.
 pub const BATCHES: usize = 20;
-/// Waits for equal modes, in parts of an interval.
+/// Time between two comparisons of the discrete states, as a share of the interval.
 const WAITS: usize = 400;
 const PATIENCE: f64 = 0.02;
 
 impl Probe {
-    /// Measures the exponent of `flow` by `neighbour`, another flow of the same system, wherever that is.
+    /// Measures the exponent of `flow` with `neighbour`, another flow of the same system in any state.
     ///
     /// # Errors
-    /// If nothing is free, a flow cannot go on, or neighbours never agree on their modes.
+    /// If nothing is free to move, a flow cannot go on, or the neighbours' discrete states never agree.
     pub fn measure<F: Flow>(&self, flow: &mut F, neighbour: &mut F, mut tick: impl FnMut()) -> Result<Exponent> {
         let start = flow.point();
         if start.coordinates.is_empty() {
-            bail!("nothing is free to move otherwise, so that the motion has no neighbours");
+            bail!("the motion is prescribed and has no neighbouring motions");
         }
         let mut near = start.clone();
-        // Alternating signs: no symmetry of the system leaves such a direction as it is.
+        // Alternating signs: such a direction is not invariant under any symmetry of the system.
         let sign = |i: usize| if i % 3 == 1 { -1.0 } else { 1.0 };
         near.coordinates.iter_mut().enumerate().for_each(|(i, x)| *x += sign(i) * self.distance);
         neighbour.place(&near);
@@ -78,7 +79,7 @@ impl Probe {
         Ok(Exponent { value: sum / span, error: standard_error(&growths), history })
     }
 
-    /// Both at the first time from `time` on at which their modes are the same.
+    /// Both points at the first time from `time` on at which their discrete states agree.
     fn meet<F: Flow>(&self, flow: &mut F, neighbour: &mut F, time: f64) -> Result<(Point, Point)> {
         for wait in 0..WAITS {
             let to = time + PATIENCE * self.interval * wait as f64;
@@ -89,17 +90,17 @@ impl Probe {
                 return Ok((here, there));
             }
         }
-        bail!("from {time} s on two neighbours do not agree on their contacts")
+        bail!("from {time} s on, two neighbouring motions have different contacts closed")
     }
 }
 
-/// The point at `share` of the way from `here` to `there`.
+/// The point between `here` and `there` at this share of the distance.
 fn nearer(here: &Point, there: &Point, share: f64) -> Point {
     let between = here.coordinates.iter().zip(&there.coordinates).map(|(a, b)| a + share * (b - a));
     Point { coordinates: between.collect(), ..here.clone() }
 }
 
-/// Of the mean rate, by batch means.
+/// Standard error of the mean rate, by batch means.
 fn standard_error(growths: &[(f64, f64)]) -> f64 {
     let size = growths.len() / BATCHES;
     if size == 0 {

@@ -1,4 +1,4 @@
-//! A scene's mechanism in this process, with its inputs, as a flow.
+//! The mechanism of a scene with its inputs as a flow, simulated in this process.
 
 use super::{Flow, Point};
 use anyhow::{Context, Result, bail, ensure};
@@ -9,17 +9,17 @@ use slidercrank::scene::{DriveMode, JointModel, Scene};
 use slidercrank::simulation::{Phase, PhaseScales, Simulation};
 use std::f64::consts::TAU;
 
-/// Looks for a crank angle within a turn.
+/// Number of steps per turn in the search for a crank angle.
 const LOOKS: f64 = 400.0;
-/// Turns that a crank may take for one at its start speed, before it counts as stopped.
+/// A crank counts as stopped if a turn takes this many times as long as at the start speed.
 const SLOWEST: f64 = 100.0;
 
-/// A mechanism that runs.
+/// A running mechanism.
 pub struct Machine {
     simulation: Simulation,
     scene: Scene,
     inputs: Profiles,
-    /// [s] Between two looks at the inputs, where they change.
+    /// [s] Time between two updates of changing inputs.
     step: Option<f64>,
     scales: PhaseScales,
 }
@@ -28,10 +28,13 @@ impl Machine {
     /// Starts a scene.
     ///
     /// # Errors
-    /// If it cannot start, or its crank is not moving.
+    /// If it cannot start, or its crank does not turn.
     pub fn start(file: &SceneFile) -> Result<Self> {
         let SceneFile { scene, inputs, run, .. } = file;
-        ensure!(scene.crank.speed_start != 0.0, "crank.speed_start = 0 rad/s: a crank that stands has no turns");
+        ensure!(
+            scene.crank.speed_start != 0.0,
+            "crank.speed_start = 0 rad/s: turns cannot be counted if the crank does not turn"
+        );
         let changes = |profile: &Profile| !matches!(profile, Profile::Constant(_));
         let step = (changes(&inputs.crank_torque) || changes(&inputs.slider_load)).then_some(run.step);
         let simulation = Simulation::start(scene, values(inputs, 0.0, scene.crank.angle_start))?;
@@ -39,30 +42,30 @@ impl Machine {
         Ok(Self { simulation, scene: scene.clone(), inputs: inputs.clone(), step, scales })
     }
 
-    /// What it does.
+    /// Its scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// [s] Of one turn at the speed of the start.
+    /// [s] Time of one turn at the start speed.
     pub fn turn(&self) -> f64 {
         TAU / self.scene.crank.speed_start.abs()
     }
 
-    /// Outputs where it is.
+    /// Outputs in the current state.
     pub fn outputs(&mut self) -> Outputs {
         self.simulation.outputs()
     }
 
-    /// [rad] Turned since the start, forwards.
+    /// [rad] Angle since the start, positive in the direction of rotation.
     pub fn turned(&mut self) -> f64 {
         (self.outputs().crank.angle - self.scene.crank.angle_start).abs()
     }
 
-    /// Moves to where the crank has turned by `angle` [rad] since the start.
+    /// Advances until the crank has turned by `angle` [rad] since the start.
     ///
     /// # Errors
-    /// If it cannot go on, or the crank does not get there.
+    /// If it cannot go on, or the crank does not reach the angle.
     pub fn advance_turned(&mut self, angle: f64) -> Result<()> {
         if self.scene.drive.mode == DriveMode::Speed {
             return self.advance(angle / self.scene.crank.speed_start.abs());
@@ -76,16 +79,17 @@ impl Machine {
                 self.advance(self.time() + look)?;
                 continue;
             }
-            // Once from near below, where what is left is almost a straight line.
+            // The last step starts close below the angle, where the motion is almost uniform.
             self.advance(self.time() + 0.99 * reach)?;
             let left = angle - self.turned();
             let speed = self.outputs().crank.speed.abs();
             return if left > 0.0 { self.advance(self.time() + left / speed) } else { Ok(()) };
         }
-        bail!("the crank does not come round: at {} s it has made {:.3} turns", self.time(), self.turned() / TAU)
+        bail!("the crank does not turn on: at {} s it has made {:.3} turns", self.time(), self.turned() / TAU)
     }
 
-    /// Moves to the next closing or opening of a contact, or to `time`; tells whether there was one.
+    /// Advances to the next instant at which a contact closes or opens, or to `time`. Returns whether there was an
+    /// event.
     ///
     /// # Errors
     /// If it cannot go on.
@@ -100,12 +104,12 @@ impl Machine {
         Ok(false)
     }
 
-    /// [m/s] Approach speed of the closed contact in joint A, B or C (0, 1, 2).
+    /// [m/s] Approach speed of the closed contact in joint A, B or C (index 0, 1, 2).
     pub fn approach(&mut self, joint: usize) -> Option<f64> {
         self.simulation.phase().approach.get(joint).copied().flatten()
     }
 
-    /// Goes on where another machine of the same joints is, at the same crank angle.
+    /// Takes over the state of another machine with the same joints, at the same crank angle.
     pub fn take_over(&mut self, other: &mut Self) {
         let mut phase = other.simulation.phase();
         if self.scene.drive.mode == DriveMode::Speed {
@@ -119,7 +123,7 @@ impl Machine {
         self.step.map_or(time, |step| time.min(((self.time() / step + 1e-6).floor() + 1.0) * step))
     }
 
-    /// Sets the inputs to what holds now.
+    /// Sets the inputs to their current values.
     fn look(&mut self) {
         if self.step.is_some() {
             let angle = self.outputs().crank.angle;
@@ -128,7 +132,7 @@ impl Machine {
     }
 }
 
-/// Clearances of a scene's joints that have one: name, value [m].
+/// Name and clearance [m] of every joint that has clearance.
 pub fn clearances(scene: &Scene) -> Vec<(char, f64)> {
     let joint = &scene.joint;
     let all = [

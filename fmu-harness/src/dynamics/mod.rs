@@ -1,7 +1,7 @@
-//! What a motion is in the long run: where it pierces sections, how fast neighbours part, whether it repeats.
+//! Classification of a motion over many turns: Poincaré sections, divergence of neighbouring motions, periods.
 //!
-//! [`lyapunov`] and [`verdict`] know no mechanism, only a [`Flow`], so that they can be tried on motions whose answers
-//! are known.
+//! [`lyapunov`] and [`verdict`] use no mechanism, only a [`Flow`], so that they can be tested on motions with known
+//! results.
 
 pub mod bifurcation;
 pub mod lyapunov;
@@ -15,18 +15,18 @@ pub use machine::Machine;
 
 use anyhow::Result;
 
-/// A motion that can be looked at, perturbed and started anew.
+/// A motion that can be observed, perturbed and restarted.
 pub trait Flow {
-    /// [s] Where it is.
+    /// [s] Current time.
     fn time(&self) -> f64;
-    /// Moves on.
+    /// Advances to `time` [s].
     ///
     /// # Errors
     /// If it cannot go on.
     fn advance(&mut self, time: f64) -> Result<()>;
-    /// The point of phase space where it is.
+    /// The current point in phase space.
     fn point(&mut self) -> Point;
-    /// Goes on from another point.
+    /// Continues from another point.
     fn place(&mut self, point: &Point);
 }
 
@@ -35,15 +35,15 @@ pub trait Flow {
 pub struct Point {
     /// [s]
     pub time: f64,
-    /// All numbers that decide how the motion goes on, each over the size of a noticeable difference. Which ones there
-    /// are depends on the modes.
+    /// All numbers that determine the further motion, each divided by the size of a noticeable difference. The discrete
+    /// state decides which numbers there are.
     pub coordinates: Vec<f64>,
-    /// Contacts that are closed, or whatever else is discrete.
+    /// The discrete state, such as which contacts are closed.
     pub modes: Vec<bool>,
 }
 
 impl Point {
-    /// Root mean square of the differences, of points with equal modes.
+    /// Root mean square of the differences between two points with the same discrete state.
     pub fn distance(&self, other: &Self) -> f64 {
         let squares = self.coordinates.iter().zip(&other.coordinates).map(|(a, b)| (a - b).powi(2));
         (squares.sum::<f64>() / self.coordinates.len().max(1) as f64).sqrt()

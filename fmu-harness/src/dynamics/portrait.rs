@@ -1,4 +1,4 @@
-//! What one scene's motion is, from one long run and a second beside it.
+//! Classifies one scene's motion with one long run and a neighbouring run.
 
 use super::lyapunov::{Exponent, Probe};
 use super::section::{Impact, Visit, impacts, stroboscope};
@@ -9,57 +9,57 @@ use slidercrank::model::signals::Outputs;
 use slidercrank::scene::Scene;
 use slidercrank::scene::read::SceneFile;
 
-/// How long, and where.
+/// Length of the run, and the section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Turns that are forgotten.
+    /// Turns before the evaluation starts.
     pub transient: usize,
-    /// Turns that are looked at.
+    /// Turns that are evaluated.
     pub turns: usize,
-    /// [rad] Of the section, from the crank's start.
+    /// [rad] Crank angle of the section, relative to the start angle.
     pub section: f64,
-    /// Measurements of the exponent in each turn.
+    /// Number of measurements of the exponent in each turn.
     pub per_turn: usize,
 }
 
-/// Turns of which the path is kept, points in each, and points in each turn for the spectrum.
+/// Number of turns of the stored path, points per turn of the path, and points per turn for the spectrum.
 const PATH_TURNS: usize = 8;
 const PATH_POINTS: usize = 2000;
-/// Samples of one segment of the spectrum.
+/// Number of samples of one segment of the spectrum.
 const SEGMENT: usize = 8192;
-/// Most impacts that are kept.
+/// Maximum number of impacts that are stored.
 const MOST_IMPACTS: usize = 20_000;
-/// The neighbour's distance [noticeable differences]: far above what the integrator errs by, far below what contacts
-/// notice.
+/// The neighbour's distance, in noticeable differences: far above the integrator's errors and far below distances that
+/// change contacts.
 const DISTANCE: f64 = 1e-3;
 /// Share of the measurements that are not counted.
 const SETTLING: f64 = 0.1;
 
-/// All of it.
+/// The results.
 pub struct Portrait {
-    /// Passages through the section, one a turn.
+    /// Points of the section, one for each turn.
     pub visits: Vec<Visit>,
     /// Path of the last turns.
     pub path: Vec<Visit>,
-    /// Closings of journals' contacts.
+    /// Impacts of journals.
     pub impacts: Vec<Impact>,
-    /// Density of the slider's acceleration: frequency [Hz], density [(m/s²)²/Hz].
+    /// Power spectral density of the slider's acceleration: frequency [Hz], density [(m/s²)²/Hz].
     pub spectrum: Vec<(f64, f64)>,
     /// The largest Lyapunov exponent.
     pub exponent: Exponent,
-    /// [s] One turn.
+    /// [s] Time of one turn.
     pub turn: f64,
-    /// Periodic or chaotic, and why.
+    /// The verdict with its evidence.
     pub evidence: Evidence,
 }
 
 impl Plan {
-    /// Ticks of one portrait.
+    /// Number of progress ticks of one portrait.
     pub fn ticks(&self) -> usize {
         self.turns * (1 + self.per_turn)
     }
 
-    /// The portrait of a scene.
+    /// Classifies the motion of a scene.
     ///
     /// # Errors
     /// If it cannot run.
@@ -78,7 +78,7 @@ impl Plan {
         Ok(Portrait { visits, path, impacts, spectrum, exponent, turn: machine.turn(), evidence })
     }
 
-    /// The exponent from where the machine is.
+    /// The exponent, measured from the machine's current state.
     ///
     /// # Errors
     /// If it cannot run.
@@ -101,7 +101,7 @@ impl Plan {
     }
 }
 
-/// Evenly spaced points of the next turns at the speed of the start.
+/// Evenly spaced points of the next turns, timed with the start speed.
 fn path(machine: &mut Machine, turns: usize, points: usize) -> Result<Vec<Visit>> {
     let (start, step) = (machine.time(), machine.turn() / points as f64);
     let mut path = Vec::with_capacity(turns * points);
@@ -112,8 +112,8 @@ fn path(machine: &mut Machine, turns: usize, points: usize) -> Result<Vec<Visit>
     Ok(path)
 }
 
-/// What is compared from visit to visit: journals and slider in their clearances, in clearances; the rod's deflection
-/// and, without any clearance, the slider in thousandths of the crank's length.
+/// The numbers that are compared between points of the section: positions of journals and slider, in clearances; and
+/// the rod's deflection or, if there is no clearance, the slider's position in thousandths of the crank's length.
 pub fn noticed(scene: &Scene, outputs: &Outputs) -> Vec<f64> {
     let mut noticed = Vec::new();
     let clearances = machine::clearances(scene);

@@ -1,41 +1,41 @@
-//! Sections of a motion: once a turn at a crank angle, and at impact.
+//! Sections of a motion: at a crank angle once per turn, and at impacts.
 
 use super::{Flow, Machine};
 use anyhow::Result;
 use slidercrank::model::signals::Outputs;
 use std::f64::consts::TAU;
 
-/// A passage through a section.
+/// A point of a section.
 #[derive(Clone, Copy, Debug)]
 pub struct Visit {
     /// [s]
     pub time: f64,
-    /// Outputs there.
+    /// Outputs at this time.
     pub outputs: Outputs,
 }
 
-/// A journal or a corner that touches.
+/// The impact of a journal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// [s]
     pub time: f64,
     /// The joint: A, B, C.
     pub joint: char,
-    /// [rad] Crank angle, within a turn.
+    /// [rad] Crank angle, from 0 to one turn.
     pub crank: f64,
-    /// [rad] Where on the bearing.
+    /// [rad] Position on the bearing.
     pub place: f64,
     /// [m/s] Approach speed.
     pub speed: f64,
 }
 
-/// Passages of the crank through `angle` [rad] past its start, once in each of `count` turns after the machine's whole
-/// turns so far.
+/// Points at the crank angle `angle` [rad] relative to the start, one in each of the next `count` turns after the last
+/// complete turn.
 ///
 /// # Errors
 /// If the machine cannot go on.
 pub fn stroboscope(machine: &mut Machine, angle: f64, count: usize, mut tick: impl FnMut()) -> Result<Vec<Visit>> {
-    // A billionth of a turn, which rounding may have left, is no turn.
+    // A billionth of a turn is a rounding error.
     let first = ((machine.turned() - angle) / TAU - 1e-9).ceil();
     let mut visits = Vec::with_capacity(count);
     for turn in 0..count {
@@ -46,7 +46,7 @@ pub fn stroboscope(machine: &mut Machine, angle: f64, count: usize, mut tick: im
     Ok(visits)
 }
 
-/// Every closing of a revolute contact within the next `turns` at the speed of the start, at most `most`.
+/// All impacts in revolute joints during the next `turns` turns, timed with the start speed; not more than `most`.
 ///
 /// # Errors
 /// If the machine cannot go on.
@@ -71,7 +71,7 @@ pub fn impacts(machine: &mut Machine, turns: f64, most: usize) -> Result<Vec<Imp
     Ok(impacts)
 }
 
-/// The journals, by name.
+/// Names of the joints with journals.
 fn revolutes(outputs: &Outputs) -> [(char, slidercrank::model::signals::RevoluteOutputs); 3] {
     [('A', outputs.joint_a), ('B', outputs.joint_b), ('C', outputs.joint_c)]
 }

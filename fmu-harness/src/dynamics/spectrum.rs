@@ -5,8 +5,8 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// One-sided density of evenly sampled `values`: frequency [Hz] and density [unit²/Hz], of segments of `length` samples
-/// that are `step` [s] apart; the mean of each segment is left out.
+/// One-sided power spectral density of samples with the spacing `step` [s]: frequency [Hz] and density [unit²/Hz]. The
+/// segments have `length` samples, and their means are subtracted.
 pub fn density(values: &[f64], step: f64, length: usize) -> Vec<(f64, f64)> {
     let length = length.min(values.len());
     if length < 4 {

@@ -1,24 +1,24 @@
-//! Periodic, chaotic, or not to be told: from the section's visits and the exponent.
+//! Classifies a motion as periodic, chaotic or irregular, from the points of the section and the exponent.
 
 use super::lyapunov::Exponent;
 use std::fmt;
 
-/// Longest period that is looked for [turns].
+/// [turns] Longest period that is searched.
 pub const LONGEST: usize = 32;
-/// Visits that repeat within this share of a clearance are the same.
+/// Points that differ by less than this share of a clearance count as the same.
 pub const SAME: f64 = 1e-3;
-/// Standard errors beyond which a sign is certain.
+/// Number of standard errors from which the sign of the exponent is certain.
 pub const CERTAIN: f64 = 3.0;
 
-/// What a motion is.
+/// The class of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// It repeats after so many turns.
+    /// It repeats after this number of turns.
     Periodic(usize),
-    /// Neighbours part exponentially, and it does not repeat.
+    /// Neighbouring motions diverge exponentially, and the motion does not repeat.
     Chaotic,
-    /// It does not repeat, and neighbours neither part nor meet for certain: quasi-periodic, of a longer period, or not
-    /// settled yet.
+    /// The motion does not repeat, and the sign of the exponent is not certain: it is quasi-periodic, has a longer
+    /// period, or is still in its transient.
     Irregular,
 }
 
@@ -37,17 +37,17 @@ impl fmt::Display for Verdict {
 pub struct Evidence {
     /// The verdict.
     pub verdict: Verdict,
-    /// Over how many turns the best repetition is.
+    /// Number of turns of the best repetition.
     pub repeats_after: usize,
-    /// By how much it fails, at worst.
+    /// Largest difference of the best repetition.
     pub misses_by: f64,
     /// [1/s] The exponent.
     pub exponent: f64,
-    /// [1/s] Its standard error.
+    /// [1/s] Standard error of the exponent.
     pub error: f64,
 }
 
-/// Judges visits to a section, each a list of numbers in which a difference of 1 is a large one.
+/// Classifies a motion from the points of a section. A difference of 1 between two numbers of points is large.
 pub fn judge(visits: &[Vec<f64>], exponent: &Exponent) -> Evidence {
     let miss = |period: usize| {
         let pairs = visits.iter().zip(visits.iter().skip(period));
@@ -67,7 +67,7 @@ pub fn judge(visits: &[Vec<f64>], exponent: &Exponent) -> Evidence {
     Evidence { verdict, repeats_after, misses_by, exponent: exponent.value, error: exponent.error }
 }
 
-/// The largest difference.
+/// Largest difference between two points.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

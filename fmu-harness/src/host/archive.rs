@@ -1,4 +1,4 @@
-//! A `.fmu` file: a ZIP archive under FMI's rules, read whole or refused.
+//! Reads a `.fmu` file, a ZIP archive that follows FMI's rules. An archive that breaks a rule is refused.
 
 use super::error::HostError;
 use std::fs::{self, File};
@@ -17,7 +17,7 @@ pub const PLATFORM: &str = if cfg!(target_os = "windows") {
     "linux32"
 };
 
-/// An archive whose directory has been read and found legal.
+/// An archive whose entries all follow FMI's rules.
 pub struct Archive {
     file: PathBuf,
     zip: ZipArchive<File>,
@@ -33,7 +33,8 @@ impl Archive {
         Ok(archive)
     }
 
-    /// FMI 2.0.5 §2.3: forward slashes, stored or deflated, no links; and nothing outside of the archive.
+    /// FMI 2.0.5 §2.3: names with forward slashes, entries stored or deflated, no links; and no name that leaves the
+    /// archive.
     fn check(&mut self, index: usize) -> Result<(), HostError> {
         let entry = self.zip.by_index_raw(index).map_err(|error| torn(&self.file, &error))?;
         let name = entry.name().map_err(|error| torn(&self.file, &error))?.into_owned();
@@ -41,7 +42,7 @@ impl Archive {
         let fault = if name.contains('\\') {
             "has a backslash in its name"
         } else if entry.enclosed_name().is_none() {
-            "would be unpacked outside of the archive's directory"
+            "would be unpacked outside the archive's directory"
         } else if entry.is_symlink() {
             "is a symbolic link"
         } else if !legal_method {
@@ -57,7 +58,7 @@ impl Archive {
         (0..self.zip.len()).filter_map(|index| Some(self.zip.name_for_index(index)?.ok()?.into_owned())).collect()
     }
 
-    /// The platforms that it has binaries for.
+    /// The platforms for which it has binaries.
     pub fn platforms(&self) -> Vec<String> {
         let mut platforms: Vec<String> = (self.names().iter())
             .filter_map(|name| name.strip_prefix("binaries/")?.split_once('/'))
@@ -68,7 +69,7 @@ impl Archive {
         platforms
     }
 
-    /// The text of an entry, where there is one and it is a text.
+    /// The text of an entry; `None` if there is no such entry or if it is not UTF-8 text.
     pub fn text(&mut self, name: &str) -> Option<String> {
         let mut text = String::new();
         self.zip.by_name(name).ok()?.read_to_string(&mut text).ok()?;
@@ -85,7 +86,7 @@ impl Archive {
         Ok(text)
     }
 
-    /// Writes every entry below `directory`; checksums are verified on the way.
+    /// Unpacks every entry below `directory` and verifies its checksum.
     pub fn unpack(&mut self, directory: &Path) -> Result<(), HostError> {
         for index in 0..self.zip.len() {
             let mut entry = self.zip.by_index(index).map_err(|error| torn(&self.file, &error))?;
@@ -103,7 +104,7 @@ impl Archive {
     }
 }
 
-/// The archive cannot be read to the end.
+/// An archive that cannot be read to its end.
 fn torn(file: &Path, error: &dyn std::fmt::Display) -> HostError {
     HostError::Archive { file: file.into(), cause: error.to_string() }
 }

@@ -1,23 +1,23 @@
-//! modelDescription.xml: what an FMU says that it is.
+//! The contents of modelDescription.xml.
 
 use super::error::HostError;
 use super::parser::Parser;
 use std::collections::HashMap;
 
-/// All that a host needs of modelDescription.xml.
+/// The part of modelDescription.xml that a host needs.
 #[derive(Clone, Debug, Default)]
 pub struct Description {
     /// Attributes of the root element, such as `modelName`, `guid` and `generationTool`.
     pub model: Attributes,
-    /// Attributes of the element CoSimulation, `None` where there is none.
+    /// Attributes of the element CoSimulation, if there is one.
     pub co_simulation: Option<Attributes>,
-    /// Whether model exchange is offered too.
+    /// Whether the FMU has an interface for model exchange.
     pub model_exchange: bool,
     /// Attributes of DefaultExperiment.
     pub experiment: Attributes,
     /// Names of the units.
     pub units: Vec<String>,
-    /// Attributes of BaseUnit, by the unit's name, where there is one.
+    /// Attributes of BaseUnit by the unit's name, for units that have one.
     pub bases: HashMap<String, Attributes>,
     /// The simple types, by name.
     pub types: HashMap<String, SimpleType>,
@@ -25,7 +25,7 @@ pub struct Description {
     pub log_categories: Vec<String>,
     /// Every variable, in the order of the file.
     pub variables: Vec<Variable>,
-    /// ModelStructure.
+    /// The lists of ModelStructure.
     pub structure: Structure,
 }
 
@@ -36,13 +36,13 @@ pub struct Attributes(pub(super) HashMap<String, String>);
 /// A type that variables may refer to.
 #[derive(Clone, Debug, Default)]
 pub struct SimpleType {
-    /// Unit and range, where declared.
+    /// Attributes of its kind, such as unit and range.
     pub attributes: Attributes,
     /// Items of an enumeration: name and value.
     pub items: Vec<(String, i32)>,
 }
 
-/// The five types of FMI 2.0, as which their like of FMI 3.0 count.
+/// The five types of FMI 2.0. A type of FMI 3.0 counts as the type of FMI 2.0 that it corresponds to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// fmi2Real.
@@ -53,7 +53,7 @@ pub enum Kind {
     Boolean,
     /// fmi2String.
     String,
-    /// An fmi2Integer with names.
+    /// An fmi2Integer whose values have names.
     Enumeration,
     /// A type that only FMI 3.0 has, or an array; this program does not read its values.
     Other,
@@ -64,7 +64,7 @@ pub enum Kind {
 pub struct Variable {
     /// Unique name.
     pub name: String,
-    /// The number by which the binary knows it.
+    /// Its value reference.
     pub reference: u32,
     /// Its type.
     pub kind: Kind,
@@ -74,14 +74,14 @@ pub struct Variable {
     pub of_kind: Attributes,
 }
 
-/// Numbers of variables, from 1, as listed in ModelStructure.
+/// The lists of ModelStructure. Variables are numbered from 1.
 #[derive(Clone, Debug, Default)]
 pub struct Structure {
     /// Outputs.
     pub outputs: Vec<Unknown>,
     /// Derivatives.
     pub derivatives: Vec<Unknown>,
-    /// What can be asked for while initialising.
+    /// Initial unknowns, which can be read in initialization mode.
     pub initial_unknowns: Vec<Unknown>,
 }
 
@@ -90,41 +90,41 @@ pub struct Structure {
 pub struct Unknown {
     /// The variable's number, from 1.
     pub index: usize,
-    /// What it depends on; `None` where that is not said.
+    /// Numbers of the variables that it depends on; `None` if the file does not list them.
     pub dependencies: Option<Vec<usize>>,
 }
 
 impl Attributes {
-    /// The attribute's text.
+    /// The text of an attribute.
     pub fn get(&self, name: &str) -> Option<&str> {
         self.0.get(name).map(String::as_str)
     }
 
-    /// The attribute as a number.
+    /// The value of an attribute that is a number.
     pub fn number(&self, name: &str) -> Option<f64> {
         self.get(name)?.trim().parse().ok()
     }
 
-    /// All of them, by name.
+    /// All attributes, by name.
     pub fn sorted(&self) -> Vec<(&str, &str)> {
         let mut sorted: Vec<_> = self.0.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
         sorted.sort_unstable();
         sorted
     }
 
-    /// Whether the attribute is there and true.
+    /// Whether an attribute is present and true.
     pub fn flag(&self, name: &str) -> bool {
         matches!(self.get(name), Some("true" | "1"))
     }
 }
 
 impl Variable {
-    /// Parameter, input, output, local, …
+    /// Causality: `parameter`, `input`, `output`, `local`, …
     pub fn causality(&self) -> &str {
         self.attributes.get("causality").unwrap_or("local")
     }
 
-    /// Constant, fixed, tunable, discrete or continuous.
+    /// Variability: `constant`, `fixed`, `tunable`, `discrete` or `continuous`.
     pub fn variability(&self) -> &str {
         self.attributes.get("variability").unwrap_or("continuous")
     }
@@ -141,7 +141,7 @@ impl Description {
         self.model.get("fmiVersion").unwrap_or("not given")
     }
 
-    /// An entry of FMI 3.0's ModelStructure, which names variables by reference.
+    /// An entry of FMI 3.0's ModelStructure, which lists variables by value reference.
     pub(super) fn unknown_by_reference(&self, attributes: &Attributes) -> Option<Unknown> {
         let number = |reference: &str| {
             let reference: u32 = reference.parse().ok()?;
@@ -157,7 +157,7 @@ impl Description {
         self.model.get("modelName").unwrap_or_default()
     }
 
-    /// The variable of this name, or an error that suggests another.
+    /// The variable of this name. The error suggests a similar name.
     pub fn variable(&self, name: &str) -> Result<&Variable, HostError> {
         self.variables.iter().find(|variable| variable.name == name).ok_or_else(|| {
             let nearest = self.variables.iter().min_by_key(|variable| distance(&variable.name, name));
@@ -165,17 +165,17 @@ impl Description {
         })
     }
 
-    /// The variable's unit, its own or its type's.
+    /// Unit of the variable, or else of its type.
     pub fn unit<'a>(&'a self, variable: &'a Variable) -> Option<&'a str> {
         self.of_type(variable, "unit")
     }
 
-    /// The variable's display unit, its own or its type's.
+    /// Display unit of the variable, or else of its type.
     pub fn display_unit<'a>(&'a self, variable: &'a Variable) -> Option<&'a str> {
         self.of_type(variable, "displayUnit")
     }
 
-    /// Items of the variable's enumeration.
+    /// Items of the enumeration that is the variable's type.
     pub fn items(&self, variable: &Variable) -> &[(String, i32)] {
         self.declared_type(variable).map_or(&[], |declared| &declared.items)
     }
@@ -190,7 +190,7 @@ impl Description {
     }
 }
 
-/// Number of letters to insert, delete or change (Levenshtein).
+/// Levenshtein distance: the number of letters to insert, delete or replace.
 fn distance(from: &str, to: &str) -> usize {
     let to: Vec<char> = to.chars().collect();
     let mut row: Vec<usize> = (0..=to.len()).collect();

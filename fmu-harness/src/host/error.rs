@@ -1,60 +1,60 @@
-//! What can be wrong with an FMU, one sentence each.
+//! Errors of FMUs, each in one sentence.
 
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why an FMU cannot be opened, loaded, or asked.
+/// An FMU cannot be opened or loaded, or a call failed.
 #[derive(Debug, Error)]
 pub enum HostError {
-    /// The file cannot be read, or is no archive.
-    #[error("{}: not a whole ZIP archive: {cause}", file.display())]
+    /// The file cannot be read or is not an archive.
+    #[error("{}: not a complete ZIP archive: {cause}", file.display())]
     Archive {
         /// The FMU.
         file: PathBuf,
-        /// The reader's words.
+        /// Message of the ZIP reader.
         cause: String,
     },
-    /// An entry of the archive breaks FMI's rules for it.
+    /// An entry of the archive breaks FMI's rules.
     #[error("{}: entry `{entry}` {fault}", file.display())]
     Entry {
         /// The FMU.
         file: PathBuf,
         /// Name inside the archive.
         entry: String,
-        /// What is wrong with it.
+        /// The broken rule, as the end of a sentence.
         fault: &'static str,
     },
-    /// An archive, but of something else.
+    /// The archive is not an FMU.
     #[error("{}: no modelDescription.xml at the top of the archive", file.display())]
     NoDescription {
         /// The FMU.
         file: PathBuf,
     },
-    /// The description cannot be understood.
+    /// The model description cannot be read.
     #[error("modelDescription.xml, byte {position}: {fault}")]
     Description {
-        /// Where in the file.
+        /// Position in the file, in bytes.
         position: u64,
-        /// What is wrong.
+        /// The fault.
         fault: String,
     },
-    /// No library for the platform that this program runs on.
-    #[error("no `{wanted}` in the FMU; it has binaries for: {offered}")]
+    /// The FMU has no library for this program's platform.
+    #[error("the FMU does not contain `{wanted}`; it has binaries for: {offered}")]
     NoBinary {
-        /// The entry looked for.
+        /// The missing entry.
         wanted: String,
-        /// The platforms it has, or "none".
+        /// Platforms of the binaries that it has, or "none".
         offered: String,
     },
-    /// The operating system refuses the library.
+    /// The operating system cannot load the library.
     #[error("{} cannot be loaded: {cause}", library.display())]
     Load {
         /// The unpacked library.
         library: PathBuf,
-        /// The loader's words.
+        /// Message of the loader.
         cause: String,
     },
-    /// A function that FMI 2.0 demands is missing.
+    /// A function that the standard requires is missing.
     #[error("{} lacks the function {symbol}", library.display())]
     Symbol {
         /// The unpacked library.
@@ -62,18 +62,18 @@ pub enum HostError {
         /// Its name in C.
         symbol: &'static str,
     },
-    /// Instantiation returned nothing.
-    #[error("the FMU refuses to be instantiated{}", because(log))]
+    /// Instantiation returned a null pointer.
+    #[error("the FMU could not be instantiated{}", because(log))]
     Refused {
         /// Its last log line.
         log: Option<String>,
     },
     /// A call failed.
-    #[error("{call} answers {status}{}", because(log))]
+    #[error("{call} returned {status}{}", because(log))]
     Call {
-        /// The C function, and what it was asked.
+        /// The C function and its arguments.
         call: String,
-        /// Anything but OK or Warning, by its name in C.
+        /// A status other than OK and Warning, by its name in C.
         status: String,
         /// Its last log line.
         log: Option<String>,
@@ -81,9 +81,9 @@ pub enum HostError {
     /// No variable of this name.
     #[error("the FMU has no variable `{name}`{}", did_you_mean(nearest))]
     Unknown {
-        /// As asked for.
+        /// The name that was given.
         name: String,
-        /// The most similar name that exists.
+        /// The most similar name of a variable.
         nearest: Option<String>,
     },
     /// A value that the variable cannot take.
@@ -91,9 +91,9 @@ pub enum HostError {
     Value {
         /// The variable.
         name: String,
-        /// As given.
+        /// The value that was given.
         value: String,
-        /// What it may be.
+        /// The values that it can take.
         wanted: String,
     },
     /// The temporary directory cannot be written.
@@ -101,12 +101,12 @@ pub enum HostError {
     Unpack(#[from] std::io::Error),
 }
 
-/// `: <log line>`, where there is one.
+/// `: <log line>`, if there is a log line.
 fn because(log: &Option<String>) -> String {
     log.as_ref().map(|line| format!(": {line}")).unwrap_or_default()
 }
 
-/// `; did you mean …?`, where something is near.
+/// `; did you mean …?`, if there is a similar name.
 fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! An FMU's binary, of FMI 2.0 or 3.0: its functions, and one instance of it. The harness's only `unsafe`.
+//! The binary of an FMU of FMI 2.0 or 3.0: its functions and its instances. The harness has `unsafe` code only here.
 
 #![allow(unsafe_code)]
 
@@ -13,19 +13,19 @@ use std::sync::Arc;
 /// fmi2Status, fmi3Status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Done.
+    /// Success.
     Ok,
-    /// Done, with something to say.
+    /// Success, with a warning in the log.
     Warning,
-    /// Not done, but the instance is as before.
+    /// The call did nothing; the instance can go on.
     Discard,
-    /// Not done, and this instance is lost.
+    /// The call failed; this instance must not be used any more.
     Error,
-    /// Not done, and all instances are lost.
+    /// The call failed; no instance must be used any more.
     Fatal,
-    /// Under way.
+    /// The step has not finished yet.
     Pending,
-    /// A number that the standard does not know.
+    /// A number that the standard does not define.
     Unknown(c_int),
 }
 
@@ -56,7 +56,7 @@ impl fmt::Display for Status {
 type Component = *mut c_void;
 /// fmi2Boolean.
 type Boolean = c_int;
-/// fmi2CallbackLogger, whose variable arguments nobody reads here.
+/// fmi2CallbackLogger. Its variable arguments are not read.
 type Logger = extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
 
 /// fmi2CallbackFunctions.
@@ -72,7 +72,7 @@ struct Callbacks {
 /// fmi3LogMessageCallback.
 type Logger3 = extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 
-/// Declares the functions that are looked up, with their types in C.
+/// Declares a table of functions, with their names and types in C.
 macro_rules! functions {
     ($name:ident; $($field:ident = $symbol:literal: fn($($argument:ty),*) $(-> $result:ty)?;)+) => {
         struct $name { $($field: unsafe extern "C" fn($($argument),*) $(-> $result)?),+ }
@@ -80,7 +80,7 @@ macro_rules! functions {
         impl $name {
             fn find(library: &libloading::Library, path: &Path) -> Result<Self, HostError> {
                 Ok(Self { $($field: {
-                    // SAFETY: the standard fixes this name's type; the FMU vouches for keeping to it.
+                    // SAFETY: the standard defines the type of this function; the FMU must conform to it.
                     let symbol = unsafe { library.get($symbol) };
                     *symbol.map_err(|_| HostError::Symbol { library: path.into(), symbol: $symbol })?
                 }),+ })
@@ -131,13 +131,13 @@ functions! { Functions3;
     do_step = "fmi3DoStep": fn(Component, f64, f64, bool, *mut u8, *mut u8, *mut u8, *mut f64) -> c_int;
 }
 
-/// The functions of the version that the binary was made for.
+/// The functions of the binary's version of FMI.
 enum Functions {
     Fmi2(Functions2),
     Fmi3(Functions3),
 }
 
-/// Which version of FMI a binary was made for.
+/// The version of FMI of a binary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     /// FMI 2.0.
@@ -147,7 +147,7 @@ pub enum Version {
 }
 
 impl Version {
-    /// What the names of its functions begin with.
+    /// Prefix of its functions' names.
     pub fn prefix(self) -> &'static str {
         match self {
             Self::Fmi2 => "fmi2",
@@ -159,14 +159,14 @@ impl Version {
 /// A loaded binary.
 pub struct Library {
     functions: Functions,
-    /// Unloaded after the last instance, since every instance holds the library.
+    /// Every instance holds the library, so it is unloaded after the last one.
     _library: libloading::Library,
 }
 
 impl Library {
-    /// Loads the shared library at `path` and looks up every function that a host needs.
+    /// Loads the shared library at `path` and finds every function that a host needs.
     pub fn load(path: &Path, version: Version) -> Result<Self, HostError> {
-        // SAFETY: loading runs the FMU's initialisers, which is what the caller asks for.
+        // SAFETY: loading runs the FMU's initialisers, as the caller intends.
         let library = unsafe { libloading::Library::new(path) }
             .map_err(|error| HostError::Load { library: path.into(), cause: cause(&error) })?;
         let functions = match version {
@@ -176,9 +176,9 @@ impl Library {
         Ok(Self { functions, _library: library })
     }
 
-    /// The version of FMI that the binary was made for.
+    /// The version of FMI, as the binary returns it.
     pub fn version(&self) -> String {
-        // SAFETY: no arguments; the answer is a static string.
+        // SAFETY: no arguments; the function returns a static string.
         text(unsafe {
             match &self.functions {
                 Functions::Fmi2(functions) => (functions.get_version)(),
@@ -187,31 +187,31 @@ impl Library {
         })
     }
 
-    /// The platform of its types, `default` in practice; FMI 3.0 has no other.
+    /// The types' platform: `default` in all known FMUs of FMI 2.0; FMI 3.0 has no such function.
     pub fn types_platform(&self) -> String {
         match &self.functions {
-            // SAFETY: no arguments; the answer is a static string.
+            // SAFETY: no arguments; the function returns a static string.
             Functions::Fmi2(functions) => text(unsafe { (functions.get_types_platform)() }),
             Functions::Fmi3(_) => "default".into(),
         }
     }
 }
 
-/// The loader's words with their cause, which libloading keeps apart.
+/// The loader's message with its cause, which libloading reports separately.
 fn cause(error: &libloading::Error) -> String {
     std::error::Error::source(error).map_or_else(|| error.to_string(), ToString::to_string)
 }
 
-/// A C string, or nothing.
+/// A C string; a null pointer gives an empty string.
 fn text(pointer: *const c_char) -> String {
     if pointer.is_null() {
         return String::new();
     }
-    // SAFETY: non-null above; the FMU vouches for the terminating zero.
+    // SAFETY: not null, see above; the FMU must terminate the string with a null character.
     unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
 }
 
-/// Receives the FMU's log lines. `message` may hold a format whose arguments are out of reach from here.
+/// Receives the FMU's log lines. `message` may be a format whose arguments cannot be read here.
 extern "C" fn receive(
     environment: *mut c_void,
     _instance: *const c_char,
@@ -222,17 +222,17 @@ extern "C" fn receive(
     if environment.is_null() {
         return;
     }
-    // SAFETY: non-null above, and the `Log` that `Instance::new` passed, which outlives the instance.
+    // SAFETY: not null, see above; it is the `Log` that `Instance::new` passed, which outlives the instance.
     let log = unsafe { &*environment.cast::<Log>() };
     log.receive(LogLine { status: status.into(), category: text(category), message: text(message) });
 }
 
-/// The same for FMI 3.0.
+/// Receives the log lines of an FMU of FMI 3.0.
 extern "C" fn receive3(environment: *mut c_void, status: c_int, category: *const c_char, message: *const c_char) {
     receive(environment, std::ptr::null(), status, category, message);
 }
 
-/// Times and tolerance, which FMI 3.0 wants on entering initialization mode.
+/// Times and tolerance, which FMI 3.0 takes when initialization mode is entered.
 #[derive(Clone, Copy, Default)]
 struct Setup {
     tolerance: Option<f64>,
@@ -240,11 +240,11 @@ struct Setup {
     stop: Option<f64>,
 }
 
-/// One instance: each function of the standard as a safe call that hands back its status.
+/// An instance. Each function of the standard is a safe method that returns the status.
 pub struct Instance {
     component: NonNull<c_void>,
     library: Arc<Library>,
-    /// The FMU keeps pointers to both until it is freed.
+    /// The FMU holds pointers to both until it is freed.
     _callbacks: Box<Callbacks>,
     log: Arc<Log>,
     setup: Setup,
@@ -262,7 +262,7 @@ impl Drop for Instance {
     }
 }
 
-/// Declares get and set functions, whose lists of references and values have one length.
+/// Declares get and set functions. They take as many values as value references.
 macro_rules! transfer {
     ($($(#[$doc:meta])* $name:ident($values:ty) = $pointer:ident;)+) => {$(
         $(#[$doc])*
@@ -281,7 +281,7 @@ macro_rules! transfer {
 }
 
 impl Instance {
-    /// Instantiates for co-simulation, invisible, without event mode. A name or GUID with a zero byte is no C string and refused.
+    /// Instantiates for co-simulation, invisible, without event mode. A name or GUID with a null character is refused.
     pub fn new(
         library: Arc<Library>,
         name: &str,
@@ -333,12 +333,12 @@ impl Instance {
         }
     }
 
-    /// What it said last.
+    /// Message of its last log line.
     pub fn last_log(&self) -> Option<String> {
         self.log.last()
     }
 
-    /// fmi2SetupExperiment; kept for [`Instance::enter_initialization`] in FMI 3.0.
+    /// fmi2SetupExperiment; with FMI 3.0 the values are passed by [`Instance::enter_initialization`].
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Status {
         self.setup = Setup { tolerance, start, stop };
         let (has_tolerance, has_stop) = (tolerance.is_some().into(), stop.is_some().into());
@@ -395,7 +395,7 @@ impl Instance {
         .into()
     }
 
-    /// DoStep, never to be taken back, up to its end.
+    /// DoStep. The host will not return to a time before the step.
     pub fn do_step(&mut self, time: f64, step: f64) -> Status {
         let component = self.component.as_ptr();
         match &self.library.functions {
@@ -421,7 +421,7 @@ impl Instance {
         .into()
     }
 
-    /// The version that the binary was made for.
+    /// The binary's version of FMI.
     pub fn version(&self) -> Version {
         match &self.library.functions {
             Functions::Fmi2(_) => Version::Fmi2,

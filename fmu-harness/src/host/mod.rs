@@ -1,5 +1,5 @@
-//! An FMU, foreign or own, as a host uses it: `Fmu::open`, then `instantiate`, then a `Slave` whose type tells
-//! where in the lifecycle of FMI 2.0 §4.2.4 it is. An FMU of FMI 3.0 is used in the same way, without its event mode.
+//! A host of FMUs: `Fmu::open`, then `instantiate`, then a `Slave` whose type is its state in the life cycle of FMI 2.0
+//! §4.2.4. FMUs of FMI 3.0 are used in the same way, without event mode.
 
 mod archive;
 mod description;
@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
 
-/// An unpacked FMU with its binary loaded. The directory goes when this goes.
+/// An unpacked FMU with its binary loaded. Dropping it removes the directory.
 pub struct Fmu {
     description: Description,
     library: Arc<Library>,
@@ -50,7 +50,7 @@ impl Fmu {
         Ok(Self { description, library, resources, _directory: directory })
     }
 
-    /// What it says that it is.
+    /// Its model description.
     pub fn description(&self) -> &Description {
         &self.description
     }
@@ -64,16 +64,17 @@ impl Fmu {
     }
 }
 
-/// Path of this platform's binary inside the archive; an error unless it is a co-simulation FMU with one.
+/// Path of this platform's binary inside the archive. An FMU without co-simulation, or without such a binary, is an
+/// error.
 fn binary_of(description: &Description, archive: &Archive) -> Result<(PathBuf, Version), HostError> {
     let fault = |fault: String| HostError::Description { position: 0, fault };
     let (version, platform) = match description.version() {
         "2.0" => (Version::Fmi2, PLATFORM.to_owned()),
         three if three == "3.0" || three.starts_with("3.0.") => (Version::Fmi3, platform_of_fmi3()),
-        version => return Err(fault(format!("FMI version {version}, wanted 2.0 or 3.0"))),
+        version => return Err(fault(format!("the FMI version is {version}; this program reads 2.0 and 3.0"))),
     };
     let identifier = description.co_simulation.as_ref().and_then(|element| element.get("modelIdentifier"));
-    let identifier = identifier.ok_or_else(|| fault("no co-simulation is offered".into()))?;
+    let identifier = identifier.ok_or_else(|| fault("the FMU has no co-simulation interface".into()))?;
     let wanted = format!("binaries/{platform}/{identifier}{}", std::env::consts::DLL_SUFFIX);
     if archive.names().contains(&wanted) {
         return Ok((wanted.into(), version));
@@ -89,7 +90,7 @@ fn platform_of_fmi3() -> String {
     format!("{}-{system}", std::env::consts::ARCH)
 }
 
-/// `file:///…` with every byte escaped that RFC 3986 wants escaped.
+/// The URI `file:///…` of a directory, percent-encoded after RFC 3986.
 fn file_uri(path: &Path) -> String {
     let path = path.to_string_lossy().replace('\\', "/");
     let root = if path.starts_with('/') { "" } else { "/" };
@@ -103,11 +104,11 @@ fn file_uri(path: &Path) -> String {
     uri
 }
 
-/// Fresh: start values can be set.
+/// Instantiated: start values can be set.
 pub struct Instantiated;
-/// In initialisation mode: start values and inputs can be set, outputs read.
+/// In initialization mode: start values and inputs can be set, outputs can be read.
 pub struct Initialising;
-/// At a communication point: inputs can be set, outputs read, steps taken.
+/// At a communication point: inputs can be set, outputs can be read, steps can be taken.
 pub struct Stepping;
 
 /// One instance of an FMU.
@@ -132,7 +133,7 @@ impl<'a, Phase> Slave<'a, Phase> {
                 let text = CString::new(text.as_str()).map_err(|_| HostError::Value {
                     name: variable.name.clone(),
                     value: text.clone(),
-                    wanted: "a text without zero bytes".into(),
+                    wanted: "a string without null characters".into(),
                 })?;
                 self.instance.set_string(variable.reference, &text)
             }
@@ -146,7 +147,7 @@ impl<'a, Phase> Slave<'a, Phase> {
         self.check(status, || format!("setting the reals {references:?}"))
     }
 
-    /// OK and Warning pass; anything else is an error that carries the FMU's last log line.
+    /// Returns an error with the FMU's last log line unless the status is OK or Warning.
     fn check(&self, status: Status, call: impl FnOnce() -> String) -> Result<(), HostError> {
         match status {
             Status::Ok | Status::Warning => Ok(()),
@@ -154,12 +155,12 @@ impl<'a, Phase> Slave<'a, Phase> {
         }
     }
 
-    /// A function of the FMU's version of FMI.
+    /// Name of a function in the FMU's version of FMI.
     fn function(&self, name: &str) -> String {
         format!("{}{name}", self.instance.version().prefix())
     }
 
-    /// A status by its name in the FMU's version of FMI.
+    /// Name of a status in the FMU's version of FMI.
     fn named(&self, status: Status) -> String {
         match status {
             Status::Unknown(_) => status.to_string(),
@@ -198,7 +199,7 @@ impl<'a> Slave<'a, Initialising> {
 }
 
 impl Slave<'_, Stepping> {
-    /// A step from `time` by `step`.
+    /// Takes the communication step from `time` to `time + step`.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), HostError> {
         let status = self.instance.do_step(time, step);
         self.check(status, || format!("{} from {time} s by {step} s", self.function("DoStep")))
@@ -211,19 +212,19 @@ impl Slave<'_, Stepping> {
     }
 }
 
-/// Variables whose values can be asked for.
+/// States in which variables can be read.
 pub trait Readable {}
 impl Readable for Initialising {}
 impl Readable for Stepping {}
 
 impl<Phase: Readable> Slave<'_, Phase> {
-    /// Reads a selection.
+    /// Reads the variables of a selection.
     pub fn read(&mut self, selection: &mut Selection) -> Result<(), HostError> {
         let status = selection.read_from(&mut self.instance);
         self.check(status, || "reading outputs".into())
     }
 
-    /// One variable as a number.
+    /// Reads one variable as a number.
     pub fn read_one(&mut self, name: &str) -> Result<f64, HostError> {
         let mut selection = Selection::new([self.description.variable(name)?]);
         self.read(&mut selection)?;

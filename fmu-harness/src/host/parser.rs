@@ -1,4 +1,4 @@
-//! From the XML's elements to a `Description`, in one walk.
+//! Reads modelDescription.xml into a `Description` in one pass.
 
 use super::description::{Attributes, Description, Kind, SimpleType, Unknown, Variable};
 use super::error::HostError;
@@ -7,26 +7,26 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 use std::collections::HashMap;
 
-/// Walks the XML once, with the open elements' names on a stack.
+/// Reads the XML in one pass and keeps the names of the open elements on a stack.
 pub struct Parser<'a> {
     reader: Reader<&'a [u8]>,
     path: Vec<String>,
     found: Description,
     /// Name of the simple type being read.
     open_type: String,
-    /// The scalar variable being read, until its type's element comes.
+    /// Attributes of the scalar variable being read, until the element of its type follows.
     open_variable: Attributes,
 }
 
 impl<'a> Parser<'a> {
-    /// At the start of `xml`.
+    /// A parser at the start of `xml`.
     pub fn new(xml: &'a str) -> Self {
         let reader = Reader::from_str(xml.trim_start_matches('\u{feff}'));
         let (path, open_type) = (Vec::new(), String::new());
         Self { reader, path, found: Description::default(), open_type, open_variable: Attributes::default() }
     }
 
-    /// Reads to the end.
+    /// Reads the document to its end.
     pub fn run(mut self) -> Result<Description, HostError> {
         loop {
             match self.reader.read_event().map_err(|error| self.fault(error.to_string()))? {
@@ -45,8 +45,8 @@ impl<'a> Parser<'a> {
             }
         }
         match self.path.last() {
-            Some(open) => Err(self.fault(format!("ends inside <{open}>"))),
-            None if self.found.model.0.is_empty() => Err(self.fault("no <fmiModelDescription>".into())),
+            Some(open) => Err(self.fault(format!("the file ends inside <{open}>"))),
+            None if self.found.model.0.is_empty() => Err(self.fault("there is no <fmiModelDescription>".into())),
             None => Ok(self.found),
         }
     }
@@ -55,7 +55,7 @@ impl<'a> Parser<'a> {
         HostError::Description { position: self.reader.buffer_position(), fault }
     }
 
-    /// Takes one element in, by where it stands.
+    /// Reads one element, depending on the elements around it.
     fn element(&mut self, element: &BytesStart<'_>) -> Result<String, HostError> {
         let name = element.local_name().as_ref().to_owned();
         let attributes = self.attributes(element)?;
@@ -82,7 +82,7 @@ impl<'a> Parser<'a> {
             (["TypeDefinitions", "SimpleType", "Enumeration"], "Item") => self.item(&attributes),
             (["ModelVariables"], "ScalarVariable") => self.open_variable = attributes,
             (["ModelVariables", "ScalarVariable"], _) => self.variable(&name, attributes)?,
-            // FMI 3.0 has one element for each of these.
+            // FMI 3.0 has one element for each type and variable.
             (["TypeDefinitions"], _) => {
                 self.open_type = attributes.get("name").unwrap_or_default().into();
                 self.found.types.insert(self.open_type.clone(), SimpleType { attributes, items: vec![] });
@@ -129,14 +129,14 @@ impl<'a> Parser<'a> {
         Ok(Attributes(found))
     }
 
-    /// An item of the enumeration being read.
+    /// Reads an item of the current enumeration.
     fn item(&mut self, attributes: &Attributes) {
         let value = attributes.get("value").and_then(|value| value.parse().ok());
         let item = attributes.get("name").map(str::to_owned).zip(value);
         self.found.types.entry(self.open_type.clone()).or_default().items.extend(item);
     }
 
-    /// The type's element completes the variable that it stands in.
+    /// Reads the element of a variable's type, which completes the variable.
     fn variable(&mut self, kind: &str, of_kind: Attributes) -> Result<(), HostError> {
         let kind = match kind {
             "Real" | "Float64" => Kind::Real,
@@ -147,18 +147,18 @@ impl<'a> Parser<'a> {
             "Float32" | "Int8" | "UInt8" | "Int16" | "UInt16" | "UInt32" | "Int64" | "UInt64" | "Binary" | "Clock" => {
                 Kind::Other
             }
-            _ => return Ok(()), // Annotations are none of ours.
+            _ => return Ok(()), // Annotations are ignored.
         };
         let attributes = std::mem::take(&mut self.open_variable);
         let name = attributes.get("name").ok_or_else(|| self.fault("a variable without a name".into()))?.to_owned();
         let reference = attributes.get("valueReference").and_then(|reference| reference.parse().ok());
-        let reference = reference.ok_or_else(|| self.fault(format!("`{name}` lacks a valueReference")))?;
+        let reference = reference.ok_or_else(|| self.fault(format!("`{name}` has no valueReference")))?;
         self.found.variables.push(Variable { name, reference, kind, attributes, of_kind });
         Ok(())
     }
 }
 
-/// An entry of ModelStructure, where it names a variable.
+/// An entry of ModelStructure; `None` if it names no variable.
 fn unknown(attributes: &Attributes) -> Option<Unknown> {
     let dependencies = attributes.get("dependencies");
     let dependencies =

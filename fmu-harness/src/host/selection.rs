@@ -1,9 +1,9 @@
-//! Many variables read with one call a type.
+//! Reads many variables with one call for each type.
 
 use super::description::{Kind, Variable};
 use super::library::{Instance, Status};
 
-/// Variables to read together, and their values when last read. Texts have no number and read as 0.
+/// Variables that are read together, with the values last read. Strings have no numerical value and are read as 0.
 #[derive(Default)]
 pub struct Selection {
     real: Group<f64>,
@@ -13,7 +13,7 @@ pub struct Selection {
     values: Vec<f64>,
 }
 
-/// Those of one C type: references, places in the selection, and the buffer of one call.
+/// The variables of one C type: value references, positions in the selection, and a buffer for the call.
 #[derive(Default)]
 struct Group<T> {
     references: Vec<u32>,
@@ -44,7 +44,7 @@ impl<T: Copy + Default> Group<T> {
 }
 
 impl Selection {
-    /// Selects `variables`, in their order.
+    /// Selects `variables` in this order.
     pub fn new<'a>(variables: impl IntoIterator<Item = &'a Variable>) -> Self {
         let mut selection = Self::default();
         for (place, variable) in variables.into_iter().enumerate() {
@@ -60,7 +60,8 @@ impl Selection {
         selection
     }
 
-    /// The getters of FMI 2.0 or 3.0, each once if there is something to ask; the first complaint, if any.
+    /// Calls the get function of each type that the selection has. Returns the first status that is not OK, if there is
+    /// one.
     pub(super) fn read_from(&mut self, instance: &mut Instance) -> Status {
         let Self { real, integer, enumeration, boolean, values } = self;
         let calls = [
@@ -76,7 +77,7 @@ impl Selection {
         calls.into_iter().find(|status| *status != Status::Ok).unwrap_or(Status::Ok)
     }
 
-    /// As last read.
+    /// The values last read.
     pub fn values(&self) -> &[f64] {
         &self.values
     }

@@ -1,4 +1,4 @@
-//! A value for a variable, as a person writes it.
+//! Reads a variable's value from text.
 
 use super::description::{Description, Kind, Variable};
 use super::error::HostError;
@@ -8,7 +8,7 @@ use super::error::HostError;
 pub enum Value {
     /// fmi2Real.
     Real(f64),
-    /// fmi2Integer, or an enumeration's.
+    /// fmi2Integer, or an item of an enumeration.
     Integer(i32),
     /// fmi2Boolean.
     Boolean(bool),
@@ -16,12 +16,12 @@ pub enum Value {
     String(String),
 }
 
-/// `name=value`, as typed.
+/// A setting `name=value` of the command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// The variable.
+    /// Name of the variable.
     pub name: String,
-    /// Its value, not yet understood.
+    /// Text of its value.
     pub value: String,
 }
 
@@ -29,13 +29,13 @@ impl std::str::FromStr for Setting {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (name, value) = text.split_once('=').ok_or("write it as name=value")?;
+        let (name, value) = text.split_once('=').ok_or("expected name=value")?;
         Ok(Self { name: name.trim().into(), value: value.trim().into() })
     }
 }
 
 impl Value {
-    /// Understands `text` as a value of `variable`: an enumeration also by its item's name.
+    /// Reads `text` as a value of `variable`. An item of an enumeration is given by its number or its name.
     pub fn parse(description: &Description, variable: &Variable, text: &str) -> Result<Self, HostError> {
         let items = description.items(variable);
         let value = match variable.kind {
@@ -59,7 +59,7 @@ impl Value {
                 Kind::Integer => "a whole number".into(),
                 Kind::Boolean => "true or false".into(),
                 Kind::String => "a text".into(),
-                Kind::Other => "of a type whose values this program sets".into(),
+                Kind::Other => "of a type that this program can set".into(),
                 Kind::Enumeration => {
                     let names: Vec<&str> = items.iter().map(|(name, _)| name.as_str()).collect();
                     format!("one of {}", names.join(", "))

@@ -1,5 +1,6 @@
-//! The FMU's libraries, built by cargo so that their bytes do not tell where they were built.
+//! Builds the FMU's libraries with cargo. Their bytes do not depend on the folder they are built in.
 
+use super::EPOCH;
 use super::platform::Platform;
 use super::tools;
 use crate::python::Missing;
@@ -11,10 +12,10 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The old Linux that zig links for: CentOS 7's.
+/// The glibc that zig links for: that of CentOS 7, of 2014.
 const OLD_GLIBC: &str = "2.17";
 
-/// This machine's own platform, as the compiler calls it.
+/// The compiler's name of this machine's platform.
 const OWN_TRIPLE: &str = env!("TARGET_TRIPLE");
 
 /// The workspace that this program was built from.
@@ -23,7 +24,7 @@ pub fn workspace() -> PathBuf {
     harness.parent().unwrap_or(harness).into()
 }
 
-/// The cargo to call: the one that runs this program, or the one on PATH.
+/// Calls cargo in the workspace: the cargo that runs this program, or the one on PATH.
 pub fn cargo() -> Command {
     let mut command = Command::new(own_cargo());
     command.current_dir(workspace());
@@ -34,23 +35,23 @@ fn own_cargo() -> OsString {
     env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
-/// What links a library.
+/// The program that links a library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Linker {
-    /// The machine's own.
+    /// The machine's own linker.
     Own,
-    /// zig, called by cargo-zigbuild in this folder: for an old Linux, and for other platforms.
+    /// zig, which links for old Linux and for other platforms. cargo-zigbuild, in this folder, calls it.
     Zig(PathBuf),
-    /// MinGW-w64, for Windows.
+    /// MinGW-w64, which links for Windows.
     MinGw,
 }
 
 /// A library in its release form.
 #[derive(Clone, Debug)]
 pub struct Library {
-    /// Where it runs.
+    /// The platform that loads it.
     pub platform: Platform,
-    /// The compiler's name of the processors that it is for.
+    /// The compiler's name of the platform and its processor.
     pub triple: &'static str,
     /// The level of processors that it needs, if it needs one; see [`dispatch_x86_64_v3`].
     pub level: Option<&'static str>,
@@ -58,31 +59,28 @@ pub struct Library {
     pub file: PathBuf,
 }
 
-/// Which libraries of a platform are built.
+/// The libraries of a platform that are built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Levels {
-    /// That for every processor, and that for newer ones where the platform has levels of them.
+    /// The library for every processor, and on x86-64 Linux the library for newer processors.
     All,
-    /// That for every processor alone.
+    /// Only the library for every processor.
     Portable,
 }
 
-/// Builds the libraries of this machine with the machine's own linker. cargo's own words go to standard error.
-pub fn own(levels: Levels) -> Result<Vec<Library>> {
-    build(&[own_target(Platform::here()?)], levels)
+/// Builds the libraries of this machine. On Linux zig links them for glibc 2.17 if it is installed, or if `zig` is
+/// [`Missing::Make`] and it can be installed; otherwise the machine's own linker does. cargo prints to standard error.
+pub fn for_this_machine(levels: Levels, zig: Missing) -> Result<Vec<Library>> {
+    build(&[own_target(zig)?], levels)
 }
 
-/// Builds the libraries of this machine, on Linux for an old one if zig is there already.
-pub fn own_for_old_linux_if_ready(levels: Levels) -> Result<Vec<Library>> {
-    let zig = if links_for_old_linux() { tools::zig(Missing::Refuse).ok() } else { None };
-    match zig {
-        Some(zig) => build(&[zig_target(Platform::here()?, zig)], levels),
-        None => own(levels),
-    }
+/// Builds the libraries of this machine with its own linker.
+pub fn with_own_linker(levels: Levels) -> Result<Vec<Library>> {
+    build(&[own_linker(Platform::here()?)], levels)
 }
 
-/// Builds the libraries of these platforms. What that takes is set up before; nothing is built if something is missing.
-pub fn of(platforms: &[Platform], levels: Levels) -> Result<Vec<Library>> {
+/// Builds the libraries of these platforms. The tools are set up first; if one is missing, nothing is built.
+pub fn for_platforms(platforms: &[Platform], levels: Levels) -> Result<Vec<Library>> {
     let targets: Result<Vec<Target>> = platforms
         .iter()
         .map(|platform| target(*platform).with_context(|| format!("no library for {}", platform.name())))
@@ -90,71 +88,75 @@ pub fn of(platforms: &[Platform], levels: Levels) -> Result<Vec<Library>> {
     build(&targets?, levels)
 }
 
-/// Sets up what it takes to build for a platform.
+/// Sets up the tools that build for a platform.
 ///
 /// # Errors
-/// If something is missing and cannot be installed; the text says what.
+/// If a tool is missing and cannot be installed; the text names it.
 pub fn prepare(platform: Platform) -> Result<()> {
     target(platform).map(|_| ())
 }
 
-/// One platform to build for.
+/// A platform to build for, and the linker.
 struct Target {
     platform: Platform,
     triples: &'static [&'static str],
     linker: Linker,
 }
 
-/// Whether this is a Linux on which zig makes libraries that older ones load, too.
-fn links_for_old_linux() -> bool {
+/// Whether this machine runs a Linux for which zig can link.
+fn has_glibc() -> bool {
     cfg!(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))
 }
 
-/// With everything that it takes. On Linux the machine's own platform does without zig where zig cannot be had.
+/// A platform with its linker. All tools are set up.
 fn target(platform: Platform) -> Result<Target> {
-    let is_own = Platform::here().is_ok_and(|own| own == platform);
-    if is_own && platform == Platform::Darwin64 {
+    if Platform::here().is_ok_and(|own| own == platform) {
+        return own_target(Missing::Make);
+    }
+    let linker = if platform == Platform::Win64 {
+        tools::mingw()?;
+        Linker::MinGw
+    } else {
+        Linker::Zig(tools::zig(Missing::Make)?)
+    };
+    tools::standard_library(platform)?;
+    Ok(Target { platform, triples: platform.triples(), linker })
+}
+
+/// This machine's platform. If zig could not be installed, one line says what the library needs instead.
+fn own_target(zig: Missing) -> Result<Target> {
+    let platform = Platform::here()?;
+    if platform == Platform::Darwin64 {
         tools::standard_library(platform)?;
         return Ok(Target { platform, triples: platform.triples(), linker: Linker::Own });
     }
-    if is_own && !links_for_old_linux() {
-        return Ok(own_target(platform));
+    if !has_glibc() {
+        return Ok(own_linker(platform));
     }
-    if platform == Platform::Win64 {
-        tools::mingw()?;
-        tools::standard_library(platform)?;
-        return Ok(Target { platform, triples: platform.triples(), linker: Linker::MinGw });
-    }
-    match tools::zig(Missing::Make) {
-        Ok(zig) => {
-            tools::standard_library(platform)?;
-            Ok(zig_target(platform, zig))
+    match tools::zig(zig) {
+        Ok(folder) => Ok(Target { platform, triples: platform.triples(), linker: Linker::Zig(folder) }),
+        Err(error) => {
+            if zig == Missing::Make {
+                eprintln!("{error:#}; the library is linked for this machine's glibc and newer ones");
+            }
+            Ok(own_linker(platform))
         }
-        Err(error) if is_own => {
-            eprintln!("{error:#}\n{} is linked for this machine's Linux and newer ones instead", platform.name());
-            Ok(own_target(platform))
-        }
-        Err(error) => Err(error),
     }
 }
 
-fn own_target(platform: Platform) -> Target {
+fn own_linker(platform: Platform) -> Target {
     Target { platform, triples: &[OWN_TRIPLE], linker: Linker::Own }
 }
 
-fn zig_target(platform: Platform, zig: PathBuf) -> Target {
-    Target { platform, triples: platform.triples(), linker: Linker::Zig(zig) }
-}
-
-/// Builds all libraries of all targets. Those that one call of cargo can build are built by one; as many calls run at a time
-/// as there are processors.
+/// Builds all libraries of all targets. One call of cargo builds all libraries of one linker and level; as many calls run at
+/// the same time as there are processors.
 fn build(targets: &[Target], levels: Levels) -> Result<Vec<Library>> {
     let workspace = workspace();
     let manifest = workspace.join("Cargo.toml");
-    ensure!(manifest.is_file(), "the sources are gone: no {}", manifest.display());
+    ensure!(manifest.is_file(), "the source files are missing: there is no {}", manifest.display());
     let mut calls: Vec<Call> = Vec::new();
     for target in targets {
-        // The level is that of Linux on x86-64 alone, whose library for every processor looks for the other one.
+        // Only on x86-64 Linux does the library for every processor look for one for newer processors.
         let has_newer = levels == Levels::All && target.platform == Platform::Linux64;
         let newer = has_newer.then_some(Some(dispatch_x86_64_v3::LEVEL));
         for level in [None].into_iter().chain(newer) {
@@ -179,7 +181,7 @@ struct Call {
 }
 
 impl Call {
-    /// Builds, for the processors of a level alone if the call has one.
+    /// Builds the libraries, for processors of the call's level if it has one.
     fn run(&self, workspace: &Path) -> Result<Vec<Library>> {
         let mut command = self.program()?;
         let linker = match self.linker {
@@ -188,11 +190,11 @@ impl Call {
             Linker::MinGw => "-mingw",
         };
         let level = self.level.map(|level| format!("-{level}")).unwrap_or_default();
-        // Each linker and level has a directory: cargo does not build anew for another linker.
+        // Each linker and level has a directory of its own, so that no build replaces another.
         let directory = workspace.join("target").join(format!("library{linker}{level}"));
         command.args(["--profile", "fmu", "--lib", "--package", "slidercrank", "--target-dir"]).arg(&directory);
         for (platform, triple) in &self.products {
-            // With a target, flags are not for what runs here.
+            // If a target is named, cargo keeps the flags from build scripts, which run here.
             command.arg("--target").arg(match (&self.linker, platform) {
                 (Linker::Zig(_), Platform::Linux64 | Platform::LinuxAarch64) => format!("{triple}.{OLD_GLIBC}"),
                 _ => (*triple).to_owned(),
@@ -202,7 +204,8 @@ impl Call {
         if let Some(level) = self.level {
             flags.push(format!("\u{1f}-Ctarget-cpu={level}"));
         }
-        command.env("CARGO_ENCODED_RUSTFLAGS", flags).env_remove("CARGO_BUILD_TARGET");
+        // The date of a package is no part of its libraries. zig would refuse to run if the date is invalid.
+        command.env("CARGO_ENCODED_RUSTFLAGS", flags).env_remove("CARGO_BUILD_TARGET").env_remove(EPOCH);
         let status = command.stdin(Stdio::null()).status().context("cargo cannot be started")?;
         ensure!(status.success(), "cargo could not build the FMU's library ({status})");
         let library = |&(platform, triple): &(Platform, &'static str)| {
@@ -213,7 +216,7 @@ impl Call {
         Ok(self.products.iter().map(library).collect())
     }
 
-    /// cargo, as the linker needs it.
+    /// cargo or cargo-zigbuild, set up for the linker.
     fn program(&self) -> Result<Command> {
         let mut command = match &self.linker {
             Linker::Own | Linker::MinGw => cargo(),
@@ -235,7 +238,7 @@ impl Call {
     }
 }
 
-/// Flags that replace this machine's paths in panic messages, separated as cargo wants it.
+/// Flags that replace this machine's paths in panic messages, with the separator that cargo expects between them.
 fn remapped(workspace: &Path) -> OsString {
     let home = env::home_dir().unwrap_or_default();
     let cargo_home = env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);

@@ -1,17 +1,32 @@
-//! What a Linux library asks of the machine that loads it.
+//! The glibc that a Linux library needs.
 
 use object::elf::FileHeader64;
 use object::endian::Endianness;
 use object::read::elf::FileHeader;
+use std::fmt::{Display, Formatter, Result};
 
-/// The newest glibc that a 64-bit ELF library has symbols of, such as `2.34`; `None` if it asks for none or is no ELF.
-pub fn glibc(library: &[u8]) -> Option<String> {
-    let newest = versions(library)?.into_iter().max()?;
-    Some(newest.map(|number| number.to_string()).join("."))
+/// A version of glibc. A third number is left out: the symbol version GLIBC_2.2.5 counts as 2.2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Glibc {
+    /// The first number.
+    pub major: u32,
+    /// The second number.
+    pub minor: u32,
 }
 
-/// Every `GLIBC_…` version that it needs. A third number is none of ours: GLIBC_2.2.5 counts as 2.2.
-fn versions(library: &[u8]) -> Option<Vec<[u32; 2]>> {
+impl Display for Glibc {
+    fn fmt(&self, formatter: &mut Formatter) -> Result {
+        write!(formatter, "{}.{}", self.major, self.minor)
+    }
+}
+
+/// The oldest glibc that a 64-bit ELF library can run with; `None` if it needs no glibc or is no ELF library.
+pub fn glibc(library: &[u8]) -> Option<Glibc> {
+    versions(library)?.into_iter().max()
+}
+
+/// Every version `GLIBC_…` among the symbol versions that the library needs.
+fn versions(library: &[u8]) -> Option<Vec<Glibc>> {
     let header = FileHeader64::<Endianness>::parse(library).ok()?;
     let endian = header.endian().ok()?;
     let sections = header.sections(endian, library).ok()?;
@@ -23,7 +38,7 @@ fn versions(library: &[u8]) -> Option<Vec<[u32; 2]>> {
             let name = std::str::from_utf8(need.name(endian, strings).ok()?).ok()?;
             let Some(numbers) = name.strip_prefix("GLIBC_") else { continue };
             let mut numbers = numbers.split('.').map_while(|number| number.parse().ok());
-            versions.extend(numbers.next().zip(numbers.next()).map(|(major, minor)| [major, minor]));
+            versions.extend(numbers.next().zip(numbers.next()).map(|(major, minor)| Glibc { major, minor }));
         }
     }
     Some(versions)

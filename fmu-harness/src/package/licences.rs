@@ -1,4 +1,4 @@
-//! The licences that the FMU's library is under: ours, and those of the crates linked into it.
+//! The licences of the FMU's library: its own, and those of the crates that are linked into it.
 
 use super::build;
 use anyhow::{Context, Result, ensure};
@@ -9,7 +9,7 @@ use std::path::Path;
 
 const RULE: &str = "────────────────────────────────────────────────────────────────────────────────";
 
-/// Our own licences, one after the other.
+/// The two licences of SliderCrank.
 pub fn own() -> String {
     let mit = include_str!("../../../LICENSE-MIT");
     let apache = include_str!("../../../LICENSE-APACHE");
@@ -18,8 +18,8 @@ pub fn own() -> String {
     )
 }
 
-/// Names, licences and licence texts of every crate linked into the libraries for these processors, of Rust's standard
-/// library, and of what the linkers for Windows add.
+/// Name, licence and licence text of every crate that is linked into the libraries for these platforms, of Rust's
+/// standard library, and of the runtime that MinGW-w64 links into Windows libraries.
 pub fn third_party(triples: &BTreeSet<&str>) -> Result<String> {
     let mut text = String::from(
         "The binary contains code of these packages beside SliderCrank's own.\n\n\
@@ -41,7 +41,7 @@ pub fn third_party(triples: &BTreeSet<&str>) -> Result<String> {
     Ok(text)
 }
 
-/// Every licence text once, with those that it came with, in the order of the first of them.
+/// Every licence text once, with the crates that contain it, in the order of its first crate.
 fn texts(packages: &[Package]) -> Vec<(&str, Vec<String>)> {
     let mut texts: Vec<(&str, Vec<String>)> = Vec::new();
     for package in packages {
@@ -61,11 +61,11 @@ struct Package {
     name: String,
     version: String,
     licence: String,
-    /// Its licence files by name.
+    /// Licence files, by file name.
     texts: BTreeMap<String, String>,
 }
 
-/// `cargo metadata` for the platforms that cargo builds for.
+/// Output of `cargo metadata` for these platforms.
 fn metadata(triples: &BTreeSet<&str>) -> Result<Value> {
     let mut command = build::cargo();
     command.args(["metadata", "--format-version", "1"]);
@@ -73,10 +73,10 @@ fn metadata(triples: &BTreeSet<&str>) -> Result<Value> {
     let output = command.output().context("cargo cannot be started")?;
     let words = String::from_utf8_lossy(&output.stderr);
     ensure!(output.status.success(), "cargo cannot list the linked crates: {}", words.trim());
-    serde_json::from_slice(&output.stdout).context("cargo metadata wrote something else than JSON")
+    serde_json::from_slice(&output.stdout).context("the output of cargo metadata is not JSON")
 }
 
-/// Those that `slidercrank` reaches through normal dependencies, procedural macros apart, sorted by name.
+/// The crates that `slidercrank` depends on through normal dependencies, without procedural macros, sorted by name.
 fn linked_packages(metadata: &Value) -> Result<Vec<Package>> {
     let of_id = |list: &'static str, at: &Value| -> BTreeMap<String, Value> {
         let entries = at[list].as_array().into_iter().flatten();

@@ -1,8 +1,8 @@
-//! Libraries of macOS: several processors' in one file, and signatures that fit the bytes.
+//! Libraries for macOS: several processors in one file, and code signatures that match the bytes.
 //!
-//! macOS on ARM ends a process whose code is not that which the signature's digests tell. A linker signs what it links
-//! (ad hoc: digests alone, nobody's key); the scene is written into the library after that. Layouts: Apple's
-//! `mach-o/loader.h`, `mach-o/fat.h` and, for signatures, `kern/cs_blobs.h` of XNU.
+//! macOS on ARM kills a process whose code does not match the digests in its signature. The linker signs the library
+//! (ad hoc: digests without a key), and the scene is written into the library after that, so it must be signed again.
+//! Layouts: Apple's `mach-o/loader.h`, `mach-o/fat.h` and, for signatures, `kern/cs_blobs.h` of XNU.
 
 use anyhow::{Context, Result, ensure};
 use sha2::{Digest, Sha256};
@@ -15,13 +15,13 @@ const SUPER_BLOB: u32 = 0xFADE_0CC0;
 const CODE_DIRECTORY: u32 = 0xFADE_0C02;
 const HASH_SHA256: u8 = 2;
 const UNIVERSAL: u32 = 0xCAFE_BABE;
-/// log2 of the largest page of these processors.
+/// Base-2 logarithm of the largest page size of these processors.
 const ALIGNMENT: u32 = 14;
 
-/// Writes the digests of the pages as they are now into the library's signature, if it has one.
+/// Computes the digests of all pages anew and writes them into the library's signature, if it has one.
 ///
 /// # Errors
-/// If the bytes are no 64-bit Mach-O file, or the signature is of a kind that linkers do not make.
+/// If the bytes are not a 64-bit Mach-O file, or if the signature has a form that linkers do not write.
 pub fn sign(library: &mut [u8]) -> Result<()> {
     let Some(signature) = signature(library)? else { return Ok(()) };
     let directory = code_directory(library, signature)?;
@@ -29,19 +29,19 @@ pub fn sign(library: &mut [u8]) -> Result<()> {
     let word = |at: usize| big(library, directory + at);
     let (hashes, pages, limit) = (word(16)? as usize, word(28)? as usize, word(32)? as usize);
     let (length, kind, page) = (usize::from(byte(36)?), byte(37)?, 1usize << byte(39)?.min(ALIGNMENT as u8));
-    ensure!(kind == HASH_SHA256 && length == 32, "the signature has no SHA-256 digests");
-    ensure!(limit.div_ceil(page) == pages, "the signature is not of all pages");
-    let code = library.get(..limit).context("the signature is of more than the file")?;
+    ensure!(kind == HASH_SHA256 && length == 32, "the signature's digests are not SHA-256");
+    ensure!(limit.div_ceil(page) == pages, "the signature does not cover all pages");
+    let code = library.get(..limit).context("the signature covers more than the file")?;
     let digests: Vec<u8> = code.chunks(page).flat_map(|page| Sha256::digest(page).to_vec()).collect();
     let place = library.get_mut(directory + hashes..).and_then(|rest| rest.get_mut(..digests.len()));
     place.context("the signature is cut short")?.copy_from_slice(&digests);
     Ok(())
 }
 
-/// The libraries of several processors as one file; that of a single one stays what it is.
+/// Joins the libraries of several processors to one universal file. A single library is returned unchanged.
 ///
 /// # Errors
-/// If one of them is no 64-bit Mach-O file.
+/// If one of them is not a 64-bit Mach-O file.
 pub fn universal(libraries: Vec<Vec<u8>>) -> Result<Vec<u8>> {
     if let [_] = libraries[..] {
         return Ok(libraries.into_iter().flatten().collect());
@@ -50,7 +50,7 @@ pub fn universal(libraries: Vec<Vec<u8>>) -> Result<Vec<u8>> {
     let align = |end: usize| end.next_multiple_of(1 << ALIGNMENT);
     let mut end = file.len() + 20 * libraries.len();
     for library in &libraries {
-        ensure!(little(library, 0)? == MAGIC_64, "no 64-bit Mach-O file");
+        ensure!(little(library, 0)? == MAGIC_64, "not a 64-bit Mach-O file");
         let (processor, kind, start) = (little(library, 4)?, little(library, 8)?, align(end));
         let entry = [processor, kind, u32::try_from(start)?, u32::try_from(library.len())?, ALIGNMENT];
         file.extend(entry.into_iter().flat_map(u32::to_be_bytes));
@@ -63,9 +63,9 @@ pub fn universal(libraries: Vec<Vec<u8>>) -> Result<Vec<u8>> {
     Ok(file)
 }
 
-/// Where the signature is.
+/// Offset of the signature in the file, if there is one.
 fn signature(library: &[u8]) -> Result<Option<Range<usize>>> {
-    ensure!(little(library, 0)? == MAGIC_64, "no 64-bit Mach-O file");
+    ensure!(little(library, 0)? == MAGIC_64, "not a 64-bit Mach-O file");
     let mut at = HEADER_64;
     for _ in 0..little(library, 16)? {
         let (command, size) = (little(library, at)?, little(library, at + 4)? as usize);
@@ -78,10 +78,10 @@ fn signature(library: &[u8]) -> Result<Option<Range<usize>>> {
     Ok(None)
 }
 
-/// Where the list of digests begins.
+/// Offset of the code directory, which holds the digests.
 fn code_directory(library: &[u8], signature: Range<usize>) -> Result<usize> {
     let start = signature.start;
-    ensure!(big(library, start)? == SUPER_BLOB, "the signature is of an unknown kind");
+    ensure!(big(library, start)? == SUPER_BLOB, "the signature has an unknown form");
     for blob in 0..big(library, start + 8)? as usize {
         let at = start + big(library, start + 12 + 8 * blob + 4)? as usize;
         if signature.contains(&at) && big(library, at)? == CODE_DIRECTORY {
@@ -108,7 +108,7 @@ fn big(bytes: &[u8], at: usize) -> Result<u32> {
 mod tests {
     use super::*;
 
-    /// Two pages of code, the second not full, and a signature of them without digests yet.
+    /// A library of two pages, the second not full, whose signature has no digests yet.
     fn library() -> Vec<u8> {
         const CODE: u32 = 5000;
         let header = [MAGIC_64, 7, 3, 6, 1, 16, 0, 0, CODE_SIGNATURE, 16, CODE, 20 + 44 + 64];

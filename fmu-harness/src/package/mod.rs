@@ -1,4 +1,4 @@
-//! Libraries + description + documents → a `.fmu` whose bytes depend on nothing else.
+//! Packages libraries, model description and documents as a `.fmu` file. Its bytes depend on nothing else.
 
 pub mod archive;
 pub mod build;
@@ -12,10 +12,12 @@ mod version;
 
 pub use version::Version;
 
+use crate::python::Missing;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use archive::Part;
 use build::{Levels, Library};
+use elf::Glibc;
 use platform::Platform;
 use slidercrank::fmi::slave::states::{clocks, exchange};
 use slidercrank::fmi::v2::description::documentation;
@@ -32,52 +34,53 @@ use std::env;
 use std::fs;
 use std::path::Path;
 
-/// Name of the rod's modes in a package's documentation, if its scene has such.
+/// File name of the rod's table of modes in a package's documentation.
 pub const MODES: &str = "modes.toml";
 
 /// A packaged FMU.
 pub struct Package {
     /// The `.fmu` file.
     pub bytes: Vec<u8>,
-    /// Newest glibc that the Linux binary asks for.
-    pub glibc: Option<String>,
-    /// Those that it has a library for.
+    /// The oldest glibc that all its Linux libraries can run with.
+    pub glibc: Option<Glibc>,
+    /// The platforms that it has a library for.
     pub platforms: Vec<Platform>,
 }
 
-/// What packages of all scenes have in common.
+/// The parts that packages of all scenes have in common.
 #[derive(Clone)]
 pub struct Stock {
     binaries: Vec<Binary>,
     third_party: String,
 }
 
-/// A library of the package.
+/// A library of the package, for all processors of a platform.
 #[derive(Clone)]
 struct Binary {
     platform: Platform,
     /// The level of processors that it needs, if it needs one.
     level: Option<&'static str>,
-    /// That of each processor of the platform.
+    /// The library of each processor of the platform.
     libraries: Vec<Vec<u8>>,
 }
 
 impl Stock {
-    /// Builds the library, and that for newer processors, for this machine and with its own linker.
+    /// Builds the libraries for this machine. On Linux zig links them for an old glibc if zig is already installed.
     pub fn build() -> Result<Self> {
-        Self::of(build::own(Levels::All)?)
+        Self::of(build::for_this_machine(Levels::All, Missing::Refuse)?)
     }
 
-    /// The same; on Linux for an old one, if zig is there already.
-    pub fn build_for_old_linux_if_ready(levels: Levels) -> Result<Self> {
-        Self::of(build::own_for_old_linux_if_ready(levels)?)
+    /// Builds the libraries for this machine. On Linux zig links them for an old glibc if zig can be installed.
+    pub fn build_for_old_linux(levels: Levels) -> Result<Self> {
+        Self::of(build::for_this_machine(levels, Missing::Make)?)
     }
 
-    /// Builds for these platforms; a stock for every file that FMI 2.0 makes of them, and what the file's name ends in.
-    pub fn build_for(platforms: &[Platform], levels: Levels) -> Result<Vec<(&'static str, Self)>> {
+    /// Builds the libraries of these platforms. Returns one stock for each file of this version of FMI, with the ending of the
+    /// file's name.
+    pub fn build_for(version: Version, platforms: &[Platform], levels: Levels) -> Result<Vec<(&'static str, Self)>> {
         let mut stocks: Vec<(&'static str, Vec<Library>)> = Vec::new();
-        for library in build::of(platforms, levels)? {
-            let ending = library.platform.ending();
+        for library in build::for_platforms(platforms, levels)? {
+            let ending = version.ending(library.platform);
             match stocks.iter_mut().find(|(known, _)| *known == ending) {
                 Some((_, libraries)) => libraries.push(library),
                 None => stocks.push((ending, vec![library])),
@@ -86,7 +89,7 @@ impl Stock {
         stocks.into_iter().map(|(ending, libraries)| Ok((ending, Self::of(libraries)?))).collect()
     }
 
-    /// Packages are made of these libraries, which are in the order of their platforms.
+    /// Takes these libraries, which are sorted by platform, into packages.
     pub fn of(libraries: Vec<Library>) -> Result<Self> {
         let triples: BTreeSet<&str> = libraries.iter().map(|library| library.triple).collect();
         let third_party = licences::third_party(&triples)?;
@@ -101,7 +104,7 @@ impl Stock {
         Ok(Self { binaries, third_party })
     }
 
-    /// The same for packages that compute the same bits on every processor.
+    /// Leaves out libraries for newer processors, so that packages compute the same bits on every processor.
     #[must_use]
     pub fn portable(mut self) -> Self {
         self.binaries.retain(|binary| binary.level.is_none());
@@ -113,16 +116,16 @@ impl Stock {
         self.package_for(Version::Fmi2, scenario)
     }
 
-    /// The same for a version of FMI.
+    /// Packages the library for a version of FMI with the scenario's values as start values.
     pub fn package_for(&self, version: Version, scenario: &Scenario) -> Result<Package> {
         let parts = self.parts(version, scenario)?;
-        let glibc = parts.iter().find_map(|part| elf::glibc(&part.bytes));
+        let glibc = parts.iter().filter_map(|part| elf::glibc(&part.bytes)).max();
         let mut platforms: Vec<Platform> = self.binaries.iter().map(|binary| binary.platform).collect();
         platforms.dedup();
         Ok(Package { bytes: archive::write(&parts)?, glibc, platforms })
     }
 
-    /// Everything that goes into the archive, in its order.
+    /// All files of the archive, in their order.
     fn parts(&self, version: Version, scenario: &Scenario) -> Result<Vec<Part>> {
         let scene = &scenario.file.scene;
         let declaration = model_description::load().context("the declaration of the variables")?;
@@ -147,11 +150,11 @@ impl Stock {
 }
 
 impl Binary {
-    /// The files of the archive, with a scene in them.
+    /// The archive's files for this library, with the scene written into them.
     fn parts(&self, version: Version, identifier: &str, scene: &Scene) -> Result<Vec<Part>> {
         let mut libraries = self.libraries.clone();
         for library in &mut libraries {
-            // A library for newer processors computes scenes that the other one hands it: it needs none of its own.
+            // A library for newer processors gets its scene from the library for every processor.
             if self.level.is_none() {
                 slot::write(library, scene)?;
             }
@@ -202,16 +205,16 @@ fn description(version: Version, declaration: &Declaration, scenario: &Scenario,
     version.description(declaration, &package)
 }
 
-/// The variable by which builds that can be repeated are told when they are made, in seconds since 1970.
+/// Environment variable that gives reproducible builds their date, in seconds since 1970.
 const EPOCH: &str = "SOURCE_DATE_EPOCH";
 /// [s] The last second of the year 9999.
 const LAST: u64 = 253_402_300_799;
 
-/// [s] What that variable says, if it is set.
+/// [s] The date that the variable gives, if it is set.
 fn epoch() -> Result<Option<u64>> {
     let Some(text) = env::var_os(EPOCH) else { return Ok(None) };
     let seconds = text.to_str().and_then(|text| text.parse().ok()).filter(|seconds| *seconds <= LAST);
-    let context = || format!("{EPOCH} = {} is no number of seconds since 1970", text.display());
+    let context = || format!("{EPOCH} = {} is not a number of seconds between 1970 and the year 9999", text.display());
     seconds.map(Some).with_context(context)
 }
 

@@ -13,7 +13,7 @@ pub enum Platform {
     Win64,
     /// macOS on x86-64 and on ARM processors
     Darwin64,
-    /// Linux on 64-bit ARM processors; in a file of its own
+    /// Linux on 64-bit ARM processors; with FMI 2.0 in a separate file
     LinuxAarch64,
 }
 
@@ -21,14 +21,14 @@ impl Platform {
     /// The platform of this program.
     ///
     /// # Errors
-    /// On a platform that no package has a library for.
+    /// If packages cannot have a library for this platform.
     pub fn here() -> Result<Self> {
         match (OS, ARCH) {
             ("linux", "x86_64") => Ok(Self::Linux64),
             ("linux", "aarch64") => Ok(Self::LinuxAarch64),
             ("windows", "x86_64") => Ok(Self::Win64),
             ("macos", "x86_64" | "aarch64") => Ok(Self::Darwin64),
-            (os, arch) => bail!("no FMU has a library for the platform {arch} {os}"),
+            (os, arch) => bail!("FMUs cannot have a library for {os} on {arch}"),
         }
     }
 
@@ -42,12 +42,7 @@ impl Platform {
         }
     }
 
-    /// What the name of a package for this platform ends in, if the package must be a file of its own.
-    pub fn ending(self) -> &'static str {
-        if self == Self::LinuxAarch64 { "-linux-aarch64" } else { "" }
-    }
-
-    /// The compiler's names of its processors.
+    /// The compiler's name of the platform with each of its processors.
     pub fn triples(self) -> &'static [&'static str] {
         match self {
             Self::Linux64 => &["x86_64-unknown-linux-gnu"],
@@ -57,7 +52,7 @@ impl Platform {
         }
     }
 
-    /// What stands before and after the name of a library.
+    /// Prefix and suffix of the file name of a library.
     pub fn affixes(self) -> (&'static str, &'static str) {
         match self {
             Self::Linux64 | Self::LinuxAarch64 => ("lib", ".so"),

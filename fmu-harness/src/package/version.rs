@@ -1,4 +1,4 @@
-//! What differs between packages of FMI 2.0 and 3.0.
+//! The differences between packages of FMI 2.0 and FMI 3.0.
 
 use super::archive::Part;
 use super::platform::Platform;
@@ -12,7 +12,7 @@ use slidercrank::model_description::{terminals, xml_v3};
 const PICTURE: &[u8] = include_bytes!("../../assets/model.png");
 const DRAWING: &[u8] = include_bytes!("../../assets/model.svg");
 
-/// A version of FMI that packages are made for.
+/// The version of FMI of a package.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Version {
     /// FMI 2.0.
@@ -41,7 +41,7 @@ impl Version {
         })
     }
 
-    /// The picture, and the terminals where the version has them.
+    /// The pictures, and in FMI 3.0 the terminals.
     pub fn pictures(self, declaration: &Declaration) -> Result<Vec<Part>> {
         Ok(match self {
             Self::Fmi2 => vec![Part::new("model.png", PICTURE)],
@@ -53,10 +53,16 @@ impl Version {
         })
     }
 
-    /// The folders of a platform's libraries: one, or one for each of its processors.
+    /// The ending of the file name of a package for this platform, if the platform needs a file of its own; or empty.
+    pub fn ending(self, platform: Platform) -> &'static str {
+        if (self, platform) == (Self::Fmi2, Platform::LinuxAarch64) { "-linux-aarch64" } else { "" }
+    }
+
+    /// The folders of a platform's libraries: one for all its processors, or one for each.
     pub fn folders(self, platform: Platform) -> &'static [&'static str] {
         match (self, platform) {
-            // FMI 2.0 has no name for Linux on ARM; importers there, FMPy among them, look where they would on x86-64.
+            // FMI 2.0 has no name for Linux on ARM. Importers on such machines, among them FMPy, look in the folder for
+            // x86-64.
             (Self::Fmi2, Platform::Linux64 | Platform::LinuxAarch64) => &["linux64"],
             (Self::Fmi2, Platform::Win64) => &["win64"],
             (Self::Fmi2, Platform::Darwin64) => &["darwin64"],

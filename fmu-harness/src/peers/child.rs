@@ -1,4 +1,4 @@
-//! A competitor as a process: its answers, line by line, within a budget of time.
+//! Runs another program as a process and reads its results line by line, within a time limit.
 
 use anyhow::{Context, Result};
 use serde_json::Value;
@@ -8,40 +8,40 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What a run found, one instant after the other.
+/// The results of a run, one list for each instant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Found {
-    /// Our positions.
+    /// Positions of our mechanism.
     Positions(Vec<f64>),
-    /// What the error is measured in.
+    /// The measured quantities of the error.
     Measured(Vec<f64>),
 }
 
-/// What a competitor says of one tolerance.
+/// The result of a program at one tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
-    /// It got to the end.
+    /// The run reached its end.
     Run {
         /// Or step.
         tolerance: f64,
-        /// [s] CPU time of the whole span.
+        /// [s] CPU time of the whole run.
         seconds: f64,
-        /// In the whole span.
+        /// Number of evaluations in the whole run.
         evaluations: f64,
-        /// At equidistant instants.
+        /// Results at equidistant instants.
         found: Found,
     },
-    /// It did not.
+    /// The run failed.
     Failure {
         /// Or step.
         tolerance: f64,
-        /// Why.
+        /// The reason.
         note: String,
     },
 }
 
 impl Answer {
-    /// Of a line of JSON.
+    /// Reads a line of JSON.
     pub fn parse(line: &str) -> Option<Self> {
         let value: Value = serde_json::from_str(line).ok()?;
         let number = |name: &str| value.get(name)?.as_f64();
@@ -55,8 +55,8 @@ impl Answer {
     }
 }
 
-/// Runs the command until it ends or has taken `budget`. The answers, and what is to be said of the ending if it was
-/// not a good one.
+/// Runs the command until it ends or has taken the time `budget`. Returns its results and, if it did not end well, a
+/// note.
 pub fn run(mut command: Command, budget: Duration) -> Result<(Vec<Answer>, Option<String>)> {
     let mut child = command
         .stdin(Stdio::null())
@@ -65,7 +65,7 @@ pub fn run(mut command: Command, budget: Duration) -> Result<(Vec<Answer>, Optio
         .spawn()
         .with_context(|| format!("{} cannot be started", command.get_program().to_string_lossy()))?;
     let (send, receive) = mpsc::channel();
-    let output = child.stdout.take().context("no output of the process")?;
+    let output = child.stdout.take().context("the process has no standard output")?;
     let reader = thread::spawn(move || {
         for line in BufReader::new(output).lines().map_while(Result::ok) {
             if send.send(line).is_err() {
@@ -73,7 +73,7 @@ pub fn run(mut command: Command, budget: Duration) -> Result<(Vec<Answer>, Optio
             }
         }
     });
-    let mut errors = child.stderr.take().context("no messages of the process")?;
+    let mut errors = child.stderr.take().context("the process has no standard error")?;
     let complaints = thread::spawn(move || {
         let mut text = vec![];
         errors.read_to_end(&mut text).map(|_| String::from_utf8_lossy(&text).into_owned())
@@ -88,17 +88,17 @@ pub fn run(mut command: Command, budget: Duration) -> Result<(Vec<Answer>, Optio
         }
     };
     if !ended {
-        child.kill().context("a process cannot be stopped")?;
+        child.kill().context("the process cannot be stopped")?;
     }
     let status = child.wait()?;
-    // Both threads end with the process's pipes.
+    // Both threads end when the process closes its pipes.
     let complaint = complaints.join().ok().and_then(Result::ok).unwrap_or_default();
     drop(receive);
     let _ = reader.join();
     let note = match (ended, status.success()) {
         (false, _) => Some(format!("stopped after {} s", budget.as_secs())),
         (true, true) => None,
-        (true, false) => Some(complaint.trim().lines().last().unwrap_or("failed without a word").to_owned()),
+        (true, false) => Some(complaint.trim().lines().last().unwrap_or("failed without a message").to_owned()),
     };
     Ok((answers, note))
 }

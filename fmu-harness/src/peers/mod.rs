@@ -1,8 +1,8 @@
-//! The same scene in what people would use instead: CPU time per simulated second against the error reached.
+//! Other programs run the same scene: CPU time per simulated second against error.
 //!
-//! Every competitor runs a ladder of tolerances (or of steps). The error is that of [`Ruler`]; the time is that of the
-//! fastest of several runs over the scene's whole time without any output, on one thread. Competitors with
-//! rigid contacts are measured against our own rigid solution, and compared with what that costs.
+//! Every program runs a series of tolerances or of step sizes. [`Ruler`] measures the error. The time is that of the
+//! fastest of several runs over the scene's whole time without output, on one thread. Programs with rigid contacts are
+//! measured against our own solution with rigid contacts, and their cost is compared with its cost.
 
 mod child;
 mod ours;
@@ -24,18 +24,18 @@ use std::path::PathBuf;
 use std::time::Duration;
 use tools::Tools;
 
-/// One method of one competitor.
+/// The runs of one method of one program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// The competitor.
+    /// The program.
     pub peer: String,
     /// Its method.
     pub method: String,
-    /// Its contacts are rigid.
+    /// Whether its contacts are rigid.
     pub rigid: bool,
-    /// What it reached, from the loosest tolerance to the tightest.
+    /// Its runs, from the loosest tolerance to the tightest.
     pub points: Vec<Point>,
-    /// What a reader must know: where its model differs, what failed, how to install it.
+    /// Notes for the reader: differences of its model, failures, how to install it.
     pub notes: Vec<String>,
 }
 
@@ -44,33 +44,33 @@ pub struct Series {
 pub struct Point {
     /// Tolerance, or step [s] of a method without one.
     pub tolerance: f64,
-    /// Largest error over the run, of the clearance.
+    /// Largest error of the run, divided by the clearance.
     pub error: f64,
     /// [s/s] CPU time per simulated second.
     pub cost: f64,
-    /// Evaluations of the right-hand side per simulated second; steps of an engine that does not tell.
+    /// Evaluations of the right-hand side per simulated second, or steps if the program does not count evaluations.
     pub evaluations: f64,
 }
 
-/// All competitors on one scene.
+/// All programs on one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contest {
     /// The scene.
     pub scene: String,
-    /// Ours first, in the packaged FMU: that is what the others are compared with, those with rigid contacts with the
-    /// first of them.
+    /// The series of all programs. The first series is that of the packaged FMU, with which the others are compared.
+    /// Series with rigid contacts are compared with the first series with rigid contacts.
     pub series: Vec<Series>,
     /// [s] Length of a run.
     pub span: f64,
-    /// By how much two reference solutions of different methods differ.
+    /// Difference between two reference solutions by different methods.
     pub reference_error: f64,
 }
 
-/// What is to be solved.
+/// The problem to solve.
 pub struct Task {
     /// The scene.
     pub scenario: Scenario,
-    /// Where its file is.
+    /// Path of its file.
     pub file: PathBuf,
     /// [s] Length of a run.
     pub span: f64,
@@ -79,7 +79,8 @@ pub struct Task {
 }
 
 impl Task {
-    /// The whole run of a scene under the inputs of its start, its error measured at the scene's step.
+    /// The whole run of a scene with the inputs' start values. The error is measured at the scene's communication
+    /// points.
     pub fn of(name: &str) -> Result<Self> {
         let scenario = Scenario::find(name)?;
         let run = &scenario.file.run;
@@ -95,7 +96,7 @@ impl Task {
         self.points = points;
     }
 
-    /// Everything that a Python peer is told, as JSON.
+    /// The input of a Python program, as JSON.
     fn job(&self, system: &System, tolerances: &[f64], library: &str) -> String {
         let scene = &self.scenario.file.scene;
         let states = system.size().states;
@@ -120,7 +121,7 @@ impl Task {
     }
 }
 
-/// The usual ones: the scenes made for a contest, and those of `precision` that none of them stands for.
+/// The default scenes: those in scenes/peers, and the scenes of `precision` that have no counterpart there.
 pub fn scenes() -> Vec<String> {
     let mut all = contests();
     let others = precision::SCENES.into_iter().filter(|name| !made_for_contest(name));
@@ -128,7 +129,7 @@ pub fn scenes() -> Vec<String> {
     all
 }
 
-/// A shipped scene by its name, where there are two of a name the one for the contest; or a file.
+/// A shipped scene of this name, with precedence for scenes/peers, or a file.
 pub fn scene(name: &str) -> String {
     if made_for_contest(name) { format!("peers/{name}") } else { name.to_owned() }
 }
@@ -137,8 +138,8 @@ fn made_for_contest(name: &str) -> bool {
     contests().contains(&format!("peers/{name}"))
 }
 
-/// Runs all competitors that know the scene, one after the other, for as long as its motion is known. `budget` is the
-/// longest time on the clock that one method of one of them may take; `progress` is told who is next.
+/// Runs all programs that support the scene, one after the other, for as long as its motion is known. `budget` is the
+/// longest wall time for one method of one program. `progress` is called with the name of the next program.
 pub fn contest(mut task: Task, budget: Duration, progress: impl Fn(&str)) -> Result<Contest> {
     progress("reference");
     let ruler = Ruler::new(&mut task)?;
@@ -164,7 +165,7 @@ pub fn contest(mut task: Task, budget: Duration, progress: impl Fn(&str)) -> Res
     Ok(Contest { scene, series, span: task.span, reference_error: ruler.own_error })
 }
 
-/// One method of one competitor.
+/// Runs one method of one program.
 fn compete(
     task: &Task,
     ruler: &Ruler,

@@ -1,4 +1,4 @@
-//! Our own methods on the task, without an FMU and through one.
+//! Our own methods, without an FMU and in the packaged FMU.
 
 use super::ruler::choose;
 use super::{Point, Ruler, Series, Task};
@@ -22,17 +22,17 @@ const METHODS: [(Method, &str); 5] = [
     (Method::Dopri5, "dopri5"),
 ];
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
-/// [s] Of Moreau's rule.
+/// [s] Steps of Moreau's rule.
 const STEPS: [f64; 8] = [1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7];
 /// [s] Communication step of the FMU.
 const STEP: f64 = 1e-4;
-/// Runs, of which the fastest counts.
+/// Number of runs. The fastest one counts.
 const LEAST_RUNS: usize = 3;
 const MOST_RUNS: usize = 200;
-/// Repeated until they have taken so long together.
+/// Runs are repeated until they have taken this long together.
 const ENOUGH: Duration = Duration::from_millis(200);
 
-/// Our series: what the others are compared with comes first.
+/// Our series. The first one is that with which other programs are compared.
 pub fn series(task: &Task, ruler: &Ruler, progress: &impl Fn(&str)) -> Result<Vec<Series>> {
     let mut all = vec![];
     for (method, name) in METHODS {
@@ -73,8 +73,8 @@ fn point(task: &Task, ruler: &Ruler, method: Method, tolerance: f64) -> Result<P
     Ok(Point { tolerance, error, cost: seconds / task.span, evaluations: evaluations / task.span })
 }
 
-/// The method of `core` in an FMU with the libraries of `stock`: its steps, and so its errors, are those of `core`, but for
-/// what a library for newer processors rounds otherwise.
+/// The method of `core` in an FMU with the libraries of `stock`. Its steps and errors are those of `core`, except for
+/// rounding in a library for newer processors.
 fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<Series> {
     let directory = tempfile::tempdir()?;
     let file = directory.path().join("peers.fmu");
@@ -92,7 +92,7 @@ fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<
         };
         let seconds = fastest(|| {
             let March { spent, ending, .. } = march(&fmu, &experiment, Look::AtEnds, Duration::MAX)?;
-            ensure!(ending == Ending::Reached, "the packaged FMU gave up: {ending:?}");
+            ensure!(ending == Ending::Reached, "the run of the packaged FMU ended early: {ending:?}");
             Ok(spent)
         })?;
         points.push(Point { cost: seconds / task.span, ..*point });
@@ -102,7 +102,7 @@ fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<
     Ok(Series { peer: "SliderCrank".into(), method, rigid: false, points, notes })
 }
 
-/// [s] The least of several runs.
+/// [s] Time of the fastest of several runs.
 fn fastest(mut run: impl FnMut() -> Result<Duration>) -> Result<f64> {
     let (mut least, mut total) = (Duration::MAX, Duration::ZERO);
     for count in 1..=MOST_RUNS {

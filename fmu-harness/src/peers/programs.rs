@@ -1,35 +1,35 @@
-//! Who competes on which scene, with which ladder of tolerances or steps.
+//! The programs for each scene, with their tolerances or step sizes.
 
 use slidercrank::model::rod::Rod;
 use slidercrank::scene::{DriveMode, JointModel, Scene};
 
-/// What a competitor runs on.
+/// The kind of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// C program on SUNDIALS and our equations.
+    /// A C program with SUNDIALS and our equations.
     Sundials,
     /// A Python file in the environment of the peers.
     Python(&'static str),
-    /// C++ program on Siconos.
+    /// A C++ program with Siconos.
     Siconos,
 }
 
-/// One method of one competitor.
+/// One method of one program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Program {
-    /// Shown.
+    /// Name of the program in tables.
     pub peer: &'static str,
-    /// Shown.
+    /// Name of the method in tables.
     pub method: &'static str,
-    /// How it is run.
+    /// How the program is run.
     pub kind: Kind,
-    /// Its own name for the method.
+    /// The program's own name for the method.
     pub word: &'static str,
-    /// Tolerances, or steps [s] where the method's are fixed, from loose to tight.
+    /// Tolerances, or steps [s] of a method with fixed steps, from loose to tight.
     pub ladder: &'static [f64],
-    /// Its contacts are rigid.
+    /// Whether its contacts are rigid.
     pub rigid: bool,
-    /// Where it differs.
+    /// Differences of its model.
     pub note: Option<&'static str>,
 }
 
@@ -50,7 +50,7 @@ const fn scipy(word: &'static str) -> Program {
         word,
         ladder,
         rigid: false,
-        note: Some("equations of its own in numba; steps of at most 10 µs, or it skips hops"),
+        note: Some("own equations in numba; steps of at most 10 µs, since longer ones miss short flights"),
     }
 }
 
@@ -92,7 +92,7 @@ const SICONOS: Program = Program {
     note: Some("rigid impacts; fixed steps"),
 };
 
-/// The competitors that know the scene.
+/// The programs that support the scene.
 pub fn of(scene: &Scene) -> Vec<&'static Program> {
     let joint = &scene.joint;
     let clear =

@@ -1,8 +1,9 @@
-//! What the error of a competitor is: the largest difference from a reference, over equidistant instants, of the
-//! components of every joint's eccentricity over its clearance.
+//! Measures the error of a program: the largest difference from a reference, over equidistant instants, of the
+//! components of every joint's eccentricity, divided by its clearance.
 //!
-//! In a guide the slider's displacement across and its tilt times half its length stand for the eccentricity. Without
-//! any clearance it is the angles of crank and rod [rad] and the slider's place over the crank's length.
+//! In a guide, the eccentricity is replaced by the slider's displacement across the guide and by its tilt times half
+//! its length. Without any clearance, the angles of crank and rod [rad] and the slider's position divided by the
+//! crank's length are compared.
 
 use super::Task;
 use super::child::Found;
@@ -13,7 +14,7 @@ use slidercrank::model::signals::Outputs;
 use slidercrank::scene::{JointModel, Method, Scene};
 use slidercrank::simulation::{Simulation, System};
 
-/// Lets a scene be solved so; `tolerance` is the step [s] of Moreau's rule.
+/// Sets method and tolerance of a scene. For Moreau's rule `tolerance` is the step [s].
 pub fn choose(scene: &mut Scene, method: Method, tolerance: f64) {
     scene.solver.method = method;
     match method {
@@ -22,9 +23,9 @@ pub fn choose(scene: &mut Scene, method: Method, tolerance: f64) {
     }
 }
 
-/// Tolerance of the reference solutions.
+/// Tolerance of the reference solutions with compliant contacts.
 const REFERENCE: f64 = 1e-12;
-/// [s] Step of the rigid one.
+/// [s] Step of the reference solution with rigid contacts.
 const RIGID_STEP: f64 = 5e-8;
 
 /// Measured quantities, one list for each instant.
@@ -35,13 +36,13 @@ pub struct Ruler {
     scene: Scene,
     times: Vec<f64>,
     reference: Paths,
-    /// By how much two reference solutions, of different methods or steps, differ.
+    /// Difference between two reference solutions with different methods or steps.
     pub own_error: f64,
 }
 
 impl Ruler {
-    /// Solves the task with two methods of ours at a tight tolerance, and shortens it to where they part: after that
-    /// nobody knows the motion.
+    /// Solves the task with two of our methods at a tight tolerance, and shortens it to the time at which they begin to
+    /// differ; the motion is not known after that.
     pub fn new(task: &mut Task) -> Result<Self> {
         let mut ruler = Self::bare(task);
         let mut one = ruler.start(task, Method::Dop853, REFERENCE)?;
@@ -57,13 +58,13 @@ impl Ruler {
             ruler.reference.extend(found);
         }
         let known = ruler.reference.len();
-        ensure!(known > 0, "two solutions that should agree part at {} s", task.span / task.points as f64);
+        ensure!(known > 0, "two reference solutions differ already at {} s", task.span / task.points as f64);
         task.shorten(known);
         ruler.times.truncate(known);
         Ok(ruler)
     }
 
-    /// The same for rigid contacts, with Moreau's rule at a short step and at twice that.
+    /// Solves the task with rigid contacts by Moreau's rule, at a short step and at twice that step.
     pub fn rigid(task: &Task) -> Result<Self> {
         let mut ruler = Self::bare(task);
         ruler.reference = ruler.solve(task, Method::Moreau, RIGID_STEP)?;
@@ -76,7 +77,7 @@ impl Ruler {
         Self { scene: task.scenario.file.scene.clone(), times, reference: vec![], own_error: 0.0 }
     }
 
-    /// The measured quantities of a run of ours; `tolerance` is the step [s] of Moreau's rule.
+    /// The measured quantities of a run of our methods. For Moreau's rule `tolerance` is the step [s].
     pub fn solve(&self, task: &Task, method: Method, tolerance: f64) -> Result<Paths> {
         let mut simulation = self.start(task, method, tolerance)?;
         self.times.iter().map(|&time| self.at(&mut simulation, time)).collect()
@@ -93,7 +94,7 @@ impl Ruler {
         Ok(self.measure(&simulation.outputs()))
     }
 
-    /// The measured quantities of a competitor's run.
+    /// The measured quantities of another program's run.
     pub fn paths(&self, system: &System, found: &Found) -> Paths {
         let positions = match found {
             Found::Measured(all) => {
@@ -113,7 +114,7 @@ impl Ruler {
             .collect()
     }
 
-    /// What is measured of outputs.
+    /// The measured quantities of outputs.
     pub fn measure(&self, outputs: &Outputs) -> Vec<f64> {
         let Outputs { joint_a, joint_b, joint_c, slider, crank, rod, .. } = outputs;
         let joint = &self.scene.joint;
@@ -137,7 +138,7 @@ impl Ruler {
         Self::distance(paths, &self.reference)
     }
 
-    /// Largest difference between two runs; infinite if one is shorter or not a number.
+    /// Largest difference between two runs; infinite if one of them is shorter or contains NaN.
     pub fn distance(one: &Paths, other: &Paths) -> f64 {
         if one.len() != other.len() {
             return f64::INFINITY;

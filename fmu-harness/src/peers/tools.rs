@@ -1,4 +1,4 @@
-//! What the competitors need on this machine: found, or built, once.
+//! Finds or builds the tools that the other programs need.
 
 use super::Task;
 use super::programs::{Kind, Program};
@@ -9,7 +9,7 @@ use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Installs all that is not a Python package.
+/// Command that installs all tools that are not Python packages.
 pub const INSTALL: &str = "apt-get install gcc g++ libsundials-dev libsiconos-kernel-dev python3-venv";
 
 const SUNDIALS: [&str; 6] = [
@@ -21,9 +21,9 @@ const SUNDIALS: [&str; 6] = [
     "sundials_sunnonlinsolfixedpoint",
 ];
 
-/// The tools, or why they are missing.
+/// The tools, or the reasons why they are missing.
 pub struct Tools {
-    /// Where programs are built and jobs written.
+    /// Folder of the built programs and of their inputs.
     pub directory: PathBuf,
     equations: Result<PathBuf, String>,
     sundials: Result<PathBuf, String>,
@@ -32,7 +32,7 @@ pub struct Tools {
 }
 
 impl Tools {
-    /// Builds what can be built here.
+    /// Builds everything that can be built on this machine.
     pub fn new(progress: &impl Fn(&str)) -> Self {
         let directory = workspace().join("target").join("drivers");
         progress("our equations behind a C interface");
@@ -46,12 +46,12 @@ impl Tools {
         Self { directory, equations, sundials, siconos, python }
     }
 
-    /// The library of our equations, for a job.
+    /// The library of our equations.
     pub fn library_path(&self) -> String {
         self.equations.as_deref().map(|path| path.display().to_string()).unwrap_or_default()
     }
 
-    /// How a competitor is started on the task, or what it lacks.
+    /// Command that runs a program on the task, or the reason why the program is missing.
     pub fn command(&self, task: &Task, program: &Program, job: &Path) -> Result<Command, String> {
         match program.kind {
             Kind::Sundials | Kind::Siconos => {
@@ -64,7 +64,7 @@ impl Tools {
             Kind::Python(script) => {
                 let mut command = Command::new(self.python.as_ref()?);
                 command.args(["-B", "-W", "ignore"]).arg(sources().join(script)).arg(job).arg(program.word);
-                // One thread each: CPU time is what is compared.
+                // One thread for each program, since CPU times are compared.
                 command.env("NUMBA_CACHE_DIR", self.directory.join("numba")).env("OMP_NUM_THREADS", "1");
                 command.env_remove("PYTHONPATH").env("OPENBLAS_NUM_THREADS", "1");
                 Ok(command)
@@ -73,12 +73,12 @@ impl Tools {
     }
 }
 
-/// Where the competitors' programs are.
+/// The folder of the other programs' sources.
 fn sources() -> PathBuf {
     workspace().join("fmu-harness").join("peers")
 }
 
-/// An error in one line: its cause is what matters here.
+/// The root cause of an error, in one line.
 fn told<T>(result: Result<T>) -> Result<T, String> {
     result.map_err(|error| format!("{error:#}").lines().next().unwrap_or_default().to_owned())
 }
@@ -116,7 +116,7 @@ fn siconos(directory: &Path, library: &Path) -> Result<PathBuf> {
     Ok(program)
 }
 
-/// Links with our equations, wherever they are.
+/// Links with the library of our equations.
 fn link(command: &mut Command, library: &Path) {
     let place = library.parent().unwrap_or(library).display();
     command.arg(format!("-L{place}")).arg("-lslidercrank_equations").arg(format!("-Wl,-rpath,{place}"));

@@ -1,4 +1,5 @@
-//! Method × rung → points of a work-precision diagram, failures included.
+//! Runs every method at every tolerance or step size of its series: the points of a work-precision diagram, with
+//! failures.
 
 use super::Subject;
 use super::ladder::{self, Rung};
@@ -9,31 +10,31 @@ use anyhow::Result;
 use slidercrank::scene::Method;
 use std::time::{Duration, Instant};
 
-/// A run whose largest error is above this has lost the motion.
+/// A run with a larger error has lost the motion.
 pub const LOST: f64 = 1.0;
 
-/// How much time a diagram may take.
+/// Time limits of a diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
-    /// Of one run.
+    /// Limit of one run.
     pub run: Duration,
-    /// Of one of the two runs of the reference.
+    /// Limit of each of the two runs of the reference.
     pub reference: Duration,
-    /// Of the whole diagram; what is not begun by then is stopped.
+    /// Limit of the whole diagram. Runs that have not started by then are stopped.
     pub scene: Duration,
-    /// Whether every other rung does.
+    /// Whether every second tolerance is left out.
     pub quick: bool,
 }
 
 impl Budget {
-    /// Six diagrams in less than ten minutes.
+    /// Limits with which six diagrams take less than ten minutes.
     pub const FULL: Self = Self {
         run: Duration::from_millis(2500),
         reference: Duration::from_secs(8),
         scene: Duration::from_secs(65),
         quick: false,
     };
-    /// For a first look.
+    /// Limits for a quick overview.
     pub const QUICK: Self = Self {
         run: Duration::from_millis(400),
         reference: Duration::from_secs(3),
@@ -42,33 +43,33 @@ impl Budget {
     };
 }
 
-/// What became of a run.
+/// The ending of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It has an error and a cost.
     Reached,
-    /// It gave up or lost the motion.
+    /// It ended with an error or lost the motion.
     Failed(String),
-    /// It was too dear.
+    /// It took too long.
     Stopped(String),
 }
 
-/// One method at one rung.
+/// One method at one tolerance or step size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Which method.
+    /// The method.
     pub method: Method,
-    /// How accurate it was asked to be.
+    /// The tolerance or step size.
     pub rung: Rung,
     /// The largest error in the window, as [`Ruler`] measures it.
     pub error: Option<f64>,
-    /// [s/s] The processor's time per simulated second; of a run that did not end, up to there.
+    /// [s/s] CPU time per simulated second. For a run that ended early: up to its end.
     pub cost: Option<f64>,
     /// Evaluations of the right-hand side per simulated second.
     pub evaluations: Option<f64>,
-    /// [s] Simulated time that the cost was taken over.
+    /// [s] Simulated time over which the cost was measured.
     pub over: f64,
-    /// What became of it.
+    /// Its ending.
     pub verdict: Verdict,
 }
 
@@ -77,20 +78,20 @@ pub struct Point {
 pub struct Diagram {
     /// The scene.
     pub scene: String,
-    /// [s] In which errors are taken.
+    /// [s] Time in which errors count.
     pub window: f64,
-    /// [s] Over which costs are taken; the first part of it where a run is too dear.
+    /// [s] Time over which costs are measured, or only its first part if a run takes too long.
     pub span: f64,
     /// Error of the reference.
     pub floor: f64,
     /// All points, by method, from coarse to fine.
     pub points: Vec<Point>,
-    /// Methods that solve another model.
+    /// Methods that solve a different model.
     pub others: Vec<Method>,
 }
 
 impl Diagram {
-    /// Runs everything; `tick` hears of every point before it is made.
+    /// Runs everything. `tick` is called before every point.
     pub fn of(
         subject: &Subject,
         ruler: &Ruler,
@@ -105,15 +106,17 @@ impl Diagram {
         let ladders: Vec<Vec<Rung>> = methods.iter().map(|method| ladder::rungs(*method, budget.quick)).collect();
         let longest = ladders.iter().map(Vec::len).max().unwrap_or_default();
         let mut columns: Vec<Vec<Point>> = methods.iter().map(|_| Vec::new()).collect();
-        // Across the methods first: a diagram that runs out of time lacks its dear end, not a method.
+        // All methods at one tolerance first: a diagram that runs out of time has no fine tolerances, but all methods.
         for place in 0..longest {
             for ((method, rungs), column) in methods.iter().zip(&ladders).zip(&mut columns) {
                 let Some(rung) = rungs.get(place) else { continue };
                 tick(*method, *rung);
                 let hopeless = matches!(column.last(), Some(Point { verdict: Verdict::Stopped(_), .. }));
                 column.push(match () {
-                    () if hopeless => Point::stopped(*method, *rung, "a coarser one was stopped"),
-                    () if Instant::now() > deadline => Point::stopped(*method, *rung, "the scene's time is over"),
+                    () if hopeless => Point::stopped(*method, *rung, "a coarser run was stopped"),
+                    () if Instant::now() > deadline => {
+                        Point::stopped(*method, *rung, "the time limit of the scene is reached")
+                    }
                     () => bench.point(*method, *rung)?,
                 });
             }
@@ -143,8 +146,8 @@ impl Diagram {
 }
 
 impl Point {
-    /// Runs a method over the reference's window for at most about `budget`: its error, where it reaches the end, and
-    /// what it cost on the reference's grid.
+    /// Runs a method over the reference's window for at most about `budget`. The point has its error, if it reaches the
+    /// end, and its cost on the reference's grid.
     ///
     /// # Errors
     /// If the run cannot be compared with the reference.
@@ -161,7 +164,7 @@ impl Point {
         let experiment = subject.experiment(method, rung, *window, *grid);
         let run = match march(subject.fmu, &experiment, Look::Everywhere, budget) {
             Ok(run) => run,
-            // A method may refuse a scene.
+            // A method may not support a scene.
             Err(error) => return Ok(Self { verdict: Verdict::Failed(format!("{error:#}")), ..point }),
         };
         point.account(&run);
@@ -169,21 +172,21 @@ impl Point {
             Ending::Reached => point.error = Some(ruler.error(&run.trajectory, trajectory, *window)?),
             Ending::Stopped => {
                 let seconds = budget.as_secs_f64();
-                point.verdict = Verdict::Stopped(format!("{seconds} s did not take it to {window} s"));
+                point.verdict = Verdict::Stopped(format!("it did not reach {window} s within {seconds} s"));
             }
             Ending::Failed(why) => point.verdict = Verdict::Failed(why),
         }
         Ok(point)
     }
 
-    /// One that was not run.
+    /// A point that was not run.
     pub fn stopped(method: Method, rung: Rung, why: &str) -> Self {
         let verdict = Verdict::Stopped(why.into());
         Self { method, rung, error: None, cost: None, evaluations: None, over: 0.0, verdict }
     }
 }
 
-/// What one diagram's points have in common.
+/// The common data of a diagram's points.
 struct Bench<'a> {
     subject: &'a Subject<'a>,
     ruler: &'a Ruler,
@@ -193,7 +196,7 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// First the error, then the cost.
+    /// Measures first the error, then the cost.
     fn point(&self, method: Method, rung: Rung) -> Result<Point> {
         let mut point = Point::in_window(self.subject, self.ruler, self.reference, method, rung, self.budget.run)?;
         let Some(error) = point.error else { return Ok(point) };

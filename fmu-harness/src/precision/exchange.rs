@@ -1,6 +1,6 @@
-//! What an importer's own integrator makes of model exchange: error and cost of CVode under FMPy.
+//! Error and cost of an importer's own integrator with model exchange: CVode in FMPy.
 //!
-//! What is timed is a host in Python, which calls the FMU for every evaluation: of its cost, the calls are the greater part.
+//! The host is written in Python and calls the FMU for every evaluation. Most of the cost is that of the calls.
 
 use super::Subject;
 use super::hosts::outcomes;
@@ -28,11 +28,11 @@ pub struct ExchangePoint {
     pub scene: String,
     /// The host's relative tolerance.
     pub tolerance: f64,
-    /// What was found, or why nothing was.
+    /// The results, or why there are none.
     pub outcome: Result<Found, String>,
 }
 
-/// What CVode found.
+/// The results of CVode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// The largest error in the window.
@@ -41,7 +41,7 @@ pub struct Found {
     pub cost: f64,
 }
 
-/// Runs the scene in `file` under the FMPy of the interpreter `python`.
+/// Runs the packaged scene `file` in FMPy, with the interpreter `python`.
 pub fn measure(
     python: &Result<std::path::PathBuf>,
     subject: &Subject,
@@ -64,11 +64,13 @@ fn found(
 ) -> Result<Vec<Result<Found, String>>> {
     let mut constant = Map::new();
     for input in inputs::of_scene(&subject.file.inputs) {
-        let Profile::Constant(value) = input.profile else { bail!("its inputs change, and the host has none that do") };
+        let Profile::Constant(value) = input.profile else {
+            bail!("its inputs change over time, which this host does not support")
+        };
         constant.insert(input.name, value.into());
     }
     if subject.file.scene.solver.method == Method::Moreau {
-        bail!("rigid contacts have no equations for another integrator");
+        bail!("scenes with rigid contacts have no model exchange");
     }
     let folder = tempfile::tempdir()?;
     let job = json!({
@@ -84,12 +86,12 @@ fn found(
     let order = folder.path().join("job.json");
     fs::write(&order, job.to_string())?;
     let answer: Value = serde_json::from_str(&output(script(python, "exchange.py").arg(&order))?)?;
-    let list = answer.as_array().context("the host's answer is no list")?;
+    let list = answer.as_array().context("the host did not return a list")?;
     let entry = |(place, entry): (usize, &Value)| -> Result<Result<Found, String>> {
         if let Some(why) = entry["failed"].as_str() {
             return Ok(Err(why.to_owned()));
         }
-        let cost = entry["cost"].as_f64().context("the host does not tell `cost`")?;
+        let cost = entry["cost"].as_f64().context("the host did not return `cost`")?;
         let run = Trajectory::read_csv(&folder.path().join(format!("{place}.csv")))?;
         Ok(Ok(Found { error: ruler.error(&run, &reference.trajectory, reference.window)?, cost }))
     };

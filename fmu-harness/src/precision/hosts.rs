@@ -1,4 +1,4 @@
-//! What a host pays: error and cost of the same FMU under FMPy, at several communication steps.
+//! Error and cost of the same FMU in FMPy, at several communication steps.
 
 use super::Subject;
 use super::reference::Reference;
@@ -15,11 +15,11 @@ use std::path::Path;
 
 /// [s] Communication steps.
 pub const STEPS: [f64; 3] = [1e-5, 1e-4, 1e-3];
-/// How the FMU is asked to solve.
+/// Method that the FMU uses.
 pub const METHOD: Method = Method::Automatic;
-/// How accurately.
+/// Its tolerance.
 pub const TOLERANCE: f64 = 1e-6;
-/// Runs, of which the cheapest counts.
+/// Number of runs. The cheapest one counts.
 const REPEATS: usize = 5;
 /// Outputs that a host reads at each communication point.
 const READ: [&str; 4] = ["slider.x", "slider.v", "joint.C.force.x", "joint.C.force.y"];
@@ -31,28 +31,28 @@ pub struct HostPoint {
     pub scene: String,
     /// [s] The communication step.
     pub step: f64,
-    /// What was found, or why nothing was.
+    /// The results, or why there are none.
     pub outcome: Result<Found, String>,
 }
 
-/// What FMPy found.
+/// The results of FMPy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// The largest error at the communication points of the window, if there is one after the start.
     pub error: Option<f64>,
-    /// [s/s] CPU time of the host's process per simulated second, four outputs read at each point.
+    /// [s/s] CPU time of the host's process per simulated second, with four outputs read at each point.
     pub total: f64,
-    /// [s/s] The same less that of an FMU that does nothing.
+    /// [s/s] The same, minus the CPU time with an FMU that does nothing.
     pub unit: f64,
     /// Evaluations of the right-hand side per simulated second.
     pub evaluations: f64,
-    /// [s] Simulated time that costs were taken over.
+    /// [s] Simulated time over which costs were measured.
     pub over: f64,
-    /// [s] The window.
+    /// [s] Time in which errors count.
     pub window: f64,
 }
 
-/// What a host's runs came to, each by its place, or why nothing came of it.
+/// Results of a host's runs, by the number of the run, or why there are none.
 pub fn outcomes<T: Clone>(
     python: &Result<std::path::PathBuf>,
     run: impl FnOnce(&Path) -> Result<Vec<Result<T, String>>>,
@@ -62,13 +62,13 @@ pub fn outcomes<T: Clone>(
         Err(error) => Err(format!("{error:#}")),
     };
     move |place| match &found {
-        // One line of it is enough.
+        // The first line of the error is enough.
         Err(why) => Err(why.lines().last().unwrap_or_default().to_owned()),
-        Ok(found) => found.get(place).cloned().unwrap_or_else(|| Err("the host left it out".to_owned())),
+        Ok(found) => found.get(place).cloned().unwrap_or_else(|| Err("the host returned no result".to_owned())),
     }
 }
 
-/// Runs the scene in `file` under the FMPy of the interpreter `python`, over `span` [s] for its cost.
+/// Runs the packaged scene `file` in FMPy, with the interpreter `python`; over `span` [s] for its cost.
 pub fn measure(
     python: &Result<std::path::PathBuf>,
     subject: &Subject,
@@ -110,9 +110,9 @@ fn found(
     let order = folder.path().join("job.json");
     fs::write(&order, job.to_string())?;
     let answer: Value = serde_json::from_str(&output(script(python, "cost.py").arg(&order))?)?;
-    let list = answer.as_array().context("the host's answer is no list")?;
+    let list = answer.as_array().context("the host did not return a list")?;
     let entry = |(place, entry): (usize, &Value)| -> Result<Found> {
-        let number = |name: &str| entry[name].as_f64().with_context(|| format!("the host does not tell `{name}`"));
+        let number = |name: &str| entry[name].as_f64().with_context(|| format!("the host did not return `{name}`"));
         let run = Trajectory::read_csv(&folder.path().join(format!("{place}.csv")))?;
         let (total, host) = (number("total")?, number("host")?);
         Ok(Found {
@@ -127,7 +127,7 @@ fn found(
     list.iter().enumerate().map(entry).collect()
 }
 
-/// As the script reads it.
+/// The inputs as JSON for the script.
 fn input(input: &Input) -> Value {
     match &input.profile {
         Profile::Constant(value) => json!({ "name": input.name, "value": value }),

@@ -1,22 +1,22 @@
-//! Methods and the settings that they are tried at.
+//! Methods, with the series of tolerances or step sizes for each.
 
 use crate::host::Setting;
 use slidercrank::scene::Method;
 
-/// Property of a method that takes `solver.step` in place of `solver.tolerance`.
+/// Property of a method that uses `solver.step` instead of `solver.tolerance`.
 pub const FIXED_STEP: &str = "fixed step";
-/// Property of a method whose contacts are rigid: its motion is another one, and no error of it can be told.
+/// Property of a method with rigid contacts: it computes a different motion, so it has no error.
 pub const RIGID_CONTACTS: &str = "rigid contacts";
 
-/// Two a decade.
+/// Tolerances, two per decade.
 const TOLERANCES: [f64; 15] =
     [1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9, 3e-10, 1e-10];
-/// [s] Three a decade.
+/// [s] Step sizes, three per decade.
 const STEPS: [f64; 9] = [5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7];
-/// Rungs of which a quick look takes one; of the tolerances, 1e-4 first.
+/// A quick overview uses one of so many tolerances or step sizes; of the tolerances, 1e-4 is the first.
 const QUICK: [usize; 2] = [4, 2];
 
-/// How accurate a run is asked to be.
+/// Tolerance or step size of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rung {
     /// `solver.tolerance`.
@@ -26,14 +26,14 @@ pub enum Rung {
 }
 
 impl Rung {
-    /// The number alone.
+    /// Its value.
     pub fn number(self) -> f64 {
         match self {
             Self::Tolerance(number) | Self::Step(number) => number,
         }
     }
 
-    /// What the FMU calls it.
+    /// Name of the FMU's parameter.
     pub fn parameter(self) -> &'static str {
         match self {
             Self::Tolerance(_) => "solver.tolerance",
@@ -50,18 +50,18 @@ pub fn told(method: Method, rung: Rung) -> String {
     }
 }
 
-/// How the FMU is told.
+/// Settings of the FMU.
 pub fn settings(method: Method, rung: Rung) -> Vec<Setting> {
     let set = |name: &str, value: String| Setting { name: name.into(), value };
     vec![set("solver.method", method.name().into()), set(rung.parameter(), format!("{:e}", rung.number()))]
 }
 
-/// The methods that solve the scene's equations, and those that solve others.
+/// The methods that solve the scene's equations, and the methods that solve different ones.
 pub fn methods() -> (Vec<Method>, Vec<Method>) {
     Method::ALL.iter().partition(|method| !method.has(RIGID_CONTACTS))
 }
 
-/// What a method is tried at, from coarse to fine; a few rungs for a `quick` look.
+/// Tolerances or step sizes of a method, from coarse to fine; only some of them if `quick`.
 pub fn rungs(method: Method, quick: bool) -> Vec<Rung> {
     let [tolerances, steps] = if quick { QUICK } else { [1, 1] };
     if method.has(FIXED_STEP) {

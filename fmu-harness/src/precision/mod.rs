@@ -1,9 +1,9 @@
-//! What accuracy costs: every method at a ladder of tolerances, the error that it reaches and the time that it takes.
+//! The cost of accuracy: error and time of every method at a series of tolerances.
 //!
-//! All runs go through the packaged FMU, by its C interface, in this process: what is timed is the machine code that is
-//! shipped. Errors are taken on a grid of communication points; costs at long communication steps, so that they are
-//! those of the integration alone. [`hosts`] tells what a host's communication steps add,
-//! [`exchange`] what a host's own integrator makes of the same equations.
+//! All runs use the packaged FMU through its C interface, in this process, so that the shipped machine code is timed.
+//! Errors are measured on a grid of communication points. Costs are measured at long communication steps, so that they
+//! are those of the integration alone. [`hosts`] measures what a host's communication steps add, [`exchange`] a host's
+//! own integrator with the same equations.
 
 pub mod choice;
 pub mod diagram;
@@ -21,38 +21,38 @@ use slidercrank::scene::Method;
 use slidercrank::scene::read::SceneFile;
 use std::f64::consts::TAU;
 
-/// Scenes whose diagrams are drawn unless one is asked for.
+/// Scenes whose diagrams are drawn by default.
 pub const SCENES: [&str; 6] = ["wornpin", "press", "allplay", "guideplay", "flexrod", "seed"];
 
-/// [s] Communication step that leaves a method alone.
+/// [s] Communication step that does not shorten the method's steps.
 const LONG_STEP: f64 = 1e-3;
 
 /// A scene as a packaged FMU.
 pub struct Subject<'a> {
-    /// What was asked for.
+    /// The scene.
     pub file: &'a SceneFile,
-    /// The same, packaged.
+    /// Its package.
     pub fmu: &'a Fmu,
-    /// How long it is looked at.
+    /// Lengths of its runs.
     pub lengths: Lengths,
 }
 
-/// How long a scene is looked at, where that is not left to it.
+/// Lengths of runs; without a value the scene decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lengths {
-    /// [s] No error is taken after this.
+    /// [s] Time in which errors count.
     pub window: Option<f64>,
-    /// [s] What costs are taken over; the window in any case.
+    /// [s] Time over which costs are measured; not shorter than the window.
     pub span: Option<f64>,
 }
 
 impl Lengths {
-    /// Two turns of the crank for errors, one for costs.
+    /// The default: two crank turns for errors, one for costs.
     pub const OF_SCENE: Self = Self { window: None, span: None };
 }
 
 impl Subject<'_> {
-    /// [s] One turn of the crank at its start speed; `None` of a crank at rest.
+    /// [s] Time of one crank turn at the start speed; `None` if the crank is at rest.
     pub fn turn(&self) -> Option<f64> {
         let speed = self.file.scene.crank.speed_start.abs();
         (speed > 0.0).then_some(TAU / speed)
@@ -63,12 +63,12 @@ impl Subject<'_> {
         self.file.run.stop(&self.file.scene)
     }
 
-    /// [s] What costs are taken over, if nothing else is asked for: the first turn; the whole window in any case.
+    /// [s] Time over which costs are measured by default: the first turn, but not less than the window.
     pub fn span(&self, window: f64) -> f64 {
         self.lengths.span.or_else(|| self.turn().map(|turn| turn.min(self.stop()))).unwrap_or(window).max(window)
     }
 
-    /// A run to `end` [s] in communication steps of `step` [s].
+    /// An experiment up to `end` [s] in communication steps of `step` [s].
     pub fn experiment(&self, method: Method, rung: Rung, end: f64, step: f64) -> Experiment {
         Experiment {
             settings: settings(method, rung),
@@ -80,8 +80,8 @@ impl Subject<'_> {
         }
     }
 
-    /// [s] The communication step at which costs are taken: the scene's own where inputs change, since every change
-    /// begins a new integration, and a long one otherwise.
+    /// [s] Communication step for measuring costs: the scene's own if inputs change, since every change restarts the
+    /// integration; otherwise a long one.
     pub fn cost_step(&self) -> f64 {
         let constant = inputs::of_scene(&self.file.inputs).iter().all(Input::is_constant);
         if constant { LONG_STEP } else { self.file.run.step }

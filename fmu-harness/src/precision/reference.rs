@@ -1,5 +1,5 @@
-//! A solution to measure others against, and how far to trust it: two methods of different orders, both as tight as they
-//! go. What they differ by is the reference's own error, and where they part the motion has decorrelated.
+//! Reference solutions. Two methods of different orders run at the tightest useful tolerance. Their difference is the
+//! reference's own error; when they diverge, the motion has decorrelated.
 
 use super::Subject;
 use super::ladder::Rung;
@@ -10,35 +10,35 @@ use anyhow::{Result, bail, ensure};
 use slidercrank::scene::Method;
 use std::time::{Duration, Instant};
 
-/// The reference, and what it is checked by.
+/// The methods of the reference and of its check.
 const METHODS: [Method; 2] = [Method::Dop853, Method::Verner7];
-/// Below this, rounding takes the place of what a shorter step gains.
+/// Tightest useful tolerance. With a smaller one rounding errors dominate.
 const TOLERANCE: f64 = 1e-12;
-/// The two agree to this within the window: a twentieth of the finest error that the tables ask for.
+/// Largest difference of the two solutions within the window: a twentieth of the smallest error in the tables.
 pub const AGREEMENT: f64 = 5e-8;
-/// [s] Between grid points, for windows up to [`MOST_POINTS`] of them.
+/// [s] Distance of grid points, for windows of up to [`MOST_POINTS`] points.
 const GRID: f64 = 1e-5;
 const MOST_POINTS: f64 = 40_000.0;
-/// Turns of the crank that are looked at, after so many looks at half as long a time.
+/// Number of crank turns of the longest window, and the number of shorter windows, each half as long as the next.
 const TURNS: f64 = 2.0;
 const HALVINGS: i32 = 5;
-/// Grid points that make a window.
+/// Minimum number of grid points of a window.
 const LEAST_POINTS: usize = 20;
 
-/// What a scene's runs are measured against.
+/// The reference solution of a scene.
 pub struct Reference {
     /// Its outputs on the grid, over the window and beyond.
     pub trajectory: Trajectory,
-    /// [s] Up to here the motion is known.
+    /// [s] Time up to which the motion is known.
     pub window: f64,
-    /// [s] Between grid points.
+    /// [s] Distance of grid points.
     pub grid: f64,
-    /// Of the reference in the window, by the same measure as of any other run.
+    /// Error of the reference in the window, measured like the error of any run.
     pub error: f64,
 }
 
 impl Reference {
-    /// Runs the scene twice and looks how long the two agree. Takes about `budget` at most.
+    /// Runs the scene twice and determines how long the solutions agree. Takes at most about `budget`.
     pub fn of(subject: &Subject, ruler: &Ruler, budget: Duration) -> Result<Self> {
         let usual = subject.turn().map_or(subject.stop(), |turn| (TURNS * turn).min(subject.stop()));
         let longest = subject.lengths.window.unwrap_or(usual);
@@ -51,7 +51,7 @@ impl Reference {
                 let experiment = subject.experiment(method, Rung::Tolerance(TOLERANCE), end, grid);
                 let run = march(subject.fmu, &experiment, Look::Everywhere, budget)?;
                 if let Ending::Failed(why) = run.ending {
-                    bail!("no reference: {} at {TOLERANCE:e}: {why}", method.name());
+                    bail!("there is no reference: {} at {TOLERANCE:e}: {why}", method.name());
                 }
                 runs.push(run.trajectory);
             }
@@ -59,9 +59,9 @@ impl Reference {
             let agreed = errors.iter().take_while(|(_, error)| *error <= AGREEMENT).count();
             let known = errors[agreed.max(1) - 1].0;
             let parted = known < end - grid;
-            // The next look takes twice as long as this one.
+            // The next window takes twice as long.
             if parted || halving == 0 || 3 * clock.elapsed() > budget {
-                ensure!(agreed > LEAST_POINTS, "no reference: two that should agree part at {known} s");
+                ensure!(agreed > LEAST_POINTS, "there is no reference: two solutions differ already at {known} s");
                 let window = round_down(known, grid);
                 let within = errors.iter().filter(|(time, _)| *time <= window + 0.5 * grid);
                 let error = within.map(|(_, error)| *error).fold(0.0, f64::max);
@@ -72,10 +72,10 @@ impl Reference {
     }
 }
 
-/// A time of two digits, so that it can be told, on the grid.
+/// A grid time rounded to two digits, for printing.
 fn round_down(time: f64, grid: f64) -> f64 {
     let unit = 10f64.powf(time.log10().floor() - 1.0).max(grid);
-    // A millionth of a unit is what remains of a quotient that was meant to be whole.
+    // A remainder of a millionth is the rounding error of an integer quotient.
     let rounded = (time / unit + 1e-6).floor() * unit;
     (rounded / grid).round() / (1.0 / grid).round()
 }

@@ -1,27 +1,27 @@
-//! The error of a run: E = max over the grid of |Δposition|/c.
+//! Measures the error of a run: E = max over the grid of |Δposition|/c.
 //!
-//! Positions are the slider's pin centre, the eccentricity of every joint with clearance (both as vectors), the angles
-//! of crank, rod and slider times the length of the body that turns, and the rod's deflection and stretch. c is the
-//! smallest clearance of the scene; of a scene without any, the crank's length.
+//! Positions are the centre of the slider's pin and the eccentricity of every joint with clearance (both as vectors),
+//! the angles of crank, rod and slider times the length of the body, and the rod's deflection and stretch. c is the
+//! smallest clearance of the scene or, if there is none, the crank's length.
 
 use crate::trajectory::Trajectory;
 use anyhow::{Result, ensure};
 use slidercrank::scene::{JointModel, Scene};
 
-/// A time is that of a grid point if it is so close, as a share of the grid's step.
+/// A time counts as that of a grid point if it differs by less than this share of the grid's step.
 const SAME: f64 = 1e-3;
 
 /// Measures runs of one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ruler {
-    /// [m] What errors are shares of.
+    /// [m] Length c.
     pub clearance: f64,
-    /// Names of outputs that make one position together, and their lever: 1, or [m] of an angle.
+    /// Names of the outputs of each position, with a factor: 1, or a length [m] for an angle.
     positions: Vec<(Vec<String>, f64)>,
 }
 
 impl Ruler {
-    /// For runs of this scene.
+    /// A ruler for runs of this scene.
     pub fn of(scene: &Scene) -> Self {
         let Scene { crank, rod, slider, joint, .. } = scene;
         let mut clearance = f64::INFINITY;
@@ -46,15 +46,16 @@ impl Ruler {
         Self { clearance, positions }
     }
 
-    /// Names of the outputs that it looks at.
+    /// Names of the outputs that it compares.
     pub fn outputs(&self) -> Vec<&str> {
         self.positions.iter().flat_map(|(names, _)| names.iter().map(String::as_str)).collect()
     }
 
-    /// E at every point of `run` that is on `reference`'s grid, with its time [s]; infinite where `run` is no number.
+    /// Time [s] and E at every point of `run` that is on the grid of `reference`; E is infinite if a number of `run` is
+    /// NaN.
     pub fn errors(&self, run: &Trajectory, reference: &Trajectory) -> Result<Vec<(f64, f64)>> {
         let pairs = common(run.times(), reference.times());
-        ensure!(!pairs.is_empty(), "the run has no point on the reference's grid");
+        ensure!(!pairs.is_empty(), "no communication point of the run is on the reference's grid");
         let mut errors: Vec<(f64, f64)> = pairs.iter().map(|(row, _)| (run.times()[*row], 0.0)).collect();
         for (names, lever) in &self.positions {
             let columns = |own: &'_ Trajectory| -> Result<Vec<Vec<f64>>> {
@@ -70,7 +71,7 @@ impl Ruler {
         Ok(errors)
     }
 
-    /// The largest E up to `window` [s].
+    /// Largest E up to `window` [s].
     pub fn error(&self, run: &Trajectory, reference: &Trajectory, window: f64) -> Result<f64> {
         let errors = self.errors(run, reference)?;
         let within = errors.iter().filter(|(time, _)| *time <= window * (1.0 + SAME));
@@ -78,7 +79,7 @@ impl Ruler {
     }
 }
 
-/// Rows of both at the same times.
+/// Numbers of the rows of both trajectories at the same times.
 fn common(times: &[f64], grid: &[f64]) -> Vec<(usize, usize)> {
     let step = match grid {
         [first, second, ..] => second - first,
@@ -142,7 +143,7 @@ mod tests {
             ("rod.angle", 1e-6, 0.2e-3),
             ("rod.stretch", -1e-6, 1e-3),
             ("joint.C.eccentricity.y", 1e-6, 1e-3),
-            ("joint.A.eccentricity.x", 1e-6, 0.0), // ideal: not looked at
+            ("joint.A.eccentricity.x", 1e-6, 0.0), // ideal: not compared
         ] {
             let found = error_of(name, error);
             assert!((found - wanted).abs() <= 1e-9 * wanted.max(1e-6), "{name}: {found}");

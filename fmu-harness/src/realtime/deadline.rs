@@ -1,8 +1,8 @@
-//! Settings for a loop that waits for every step: what each takes at worst, and the error that it makes.
+//! Settings for a loop that waits for every step: the longest time of a step, and the error.
 //!
-//! A method with error control spends its evaluations where the motion asks for them, and so most of them in few
-//! communication steps. One with a fixed step spends the same in each, whatever happens, and a few for every contact that
-//! opens or closes.
+//! A method with error control makes its evaluations where the motion requires them, so that few communication steps
+//! contain most evaluations. A method with a fixed step makes the same number in each step, and a few more for every
+//! contact that opens or closes.
 
 use super::{STEP, Timing};
 use crate::precision::Subject;
@@ -14,7 +14,7 @@ use anyhow::Result;
 use slidercrank::scene::Method;
 use std::time::Duration;
 
-/// What is tried.
+/// The settings that are compared.
 pub const TRIED: [(Method, Rung); 6] = [
     (Method::Automatic, Rung::Tolerance(1e-6)),
     (Method::Automatic, Rung::Tolerance(1e-4)),
@@ -23,24 +23,24 @@ pub const TRIED: [(Method, Rung); 6] = [
     (Method::Rk4, Rung::Step(2e-6)),
     (Method::Rk4, Rung::Step(5e-6)),
 ];
-/// Share of a step that a loop can spare for the mechanism.
+/// Share of a step that the mechanism may take in a loop.
 pub const SHARE: f64 = 0.5;
-/// A setting with a larger error has lost the motion within the window.
+/// A setting with a larger error has lost the motion.
 const LOST: f64 = 0.1;
-/// Of the reference's two runs, and of a run over its window.
+/// Time limits of the reference's two runs, and of a run over its window.
 const BUDGET: Duration = Duration::from_secs(8);
 
 /// One setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Its error in the window, and what became of that run.
+    /// Its error in the window, and the ending of that run.
     pub point: Point,
-    /// Its communication steps, or why they ended before their time.
+    /// Its communication steps, or why they ended early.
     pub timing: Result<Timing, String>,
 }
 
 impl Trial {
-    /// Why it fails, in the window or in a later step.
+    /// Why it failed, in the window or in a later step.
     pub fn failure(&self) -> Option<&str> {
         match &self.point.verdict {
             Verdict::Failed(why) => Some(why),
@@ -48,7 +48,7 @@ impl Trial {
         }
     }
 
-    /// What a step may take at most, as a share of it.
+    /// Longest time of a step, as a share of the step.
     pub fn share(&self) -> Option<f64> {
         Some(self.timing.as_ref().ok()?.bound() / STEP)
     }
@@ -59,14 +59,14 @@ impl Trial {
 pub struct Trials {
     /// The scene.
     pub scene: String,
-    /// [s] The window in which errors are taken, or why there is no reference.
+    /// [s] Time in which errors count, or why there is no reference.
     pub window: Result<f64, String>,
-    /// In the order of [`TRIED`].
+    /// The settings in the order of [`TRIED`].
     pub trials: Vec<Trial>,
 }
 
 impl Trials {
-    /// Takes `count` steps with every setting, or as many as `budget` allows; `tick` hears of every setting.
+    /// Takes `count` steps with every setting, or as many as `budget` allows. `tick` is called for every setting.
     ///
     /// # Errors
     /// If a run cannot be compared with the reference.
@@ -87,7 +87,7 @@ impl Trials {
         Ok(Self { scene: subject.file.name.clone(), window, trials })
     }
 
-    /// The most accurate setting of those that leave a loop its part of every step and do not lose the motion.
+    /// The most accurate setting that leaves a loop its share of every step and does not lose the motion.
     pub fn choice(&self) -> Option<&Trial> {
         let in_time = |trial: &&Trial| trial.failure().is_none() && trial.share().is_some_and(|share| share <= SHARE);
         let known = self.trials.iter().filter(in_time).filter_map(|trial| Some((trial, trial.point.error?)));

@@ -1,7 +1,7 @@
-//! How long one communication step takes, again and again: what a controller that waits for it asks.
+//! Times of single communication steps, for controllers that wait for each step.
 //!
-//! A step is timed by the clock on the wall, which other programs on the machine lengthen, and by this thread's use of
-//! the processor, which they hardly do: a step that is long by the first and not by the second was interrupted.
+//! Every step has a wall time, which other programs on the machine lengthen, and a CPU time of this thread, which they
+//! hardly change. If only the wall time is long, the step was interrupted.
 
 pub mod deadline;
 
@@ -17,26 +17,26 @@ use std::time::{Duration, Instant};
 
 /// [s] The communication step.
 pub const STEP: f64 = 1e-3;
-/// A crank that makes less than this share of a turn in a turn's time at its start speed begins anew: a mechanism at
-/// rest is no test.
+/// The run is restarted if the crank makes less than this share of a turn in the time of a turn at its start speed,
+/// since a mechanism at rest is not a useful measurement.
 const SLOW: f64 = 0.5;
-/// What the FMU is asked after every step: its counters, and how far the crank has turned.
+/// Outputs that are read after every step: counters, and the crank's angle.
 const ASKED: [&str; 4] = ["solver.steps", "solver.evaluations", "solver.events", ANGLE];
 
 /// One communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {
-    /// [s] The time that it led to.
+    /// [s] Time at its end.
     pub end: f64,
-    /// [s] In fmi2DoStep, by the clock on the wall.
+    /// [s] Wall time in fmi2DoStep.
     pub wall: f64,
-    /// [s] The same, by this thread's use of the processor.
+    /// [s] CPU time of this thread in fmi2DoStep.
     pub cpu: f64,
-    /// Steps of the integrator in it.
+    /// Number of steps of the integrator.
     pub steps: f64,
-    /// Evaluations of the right-hand side in it.
+    /// Number of evaluations of the right-hand side.
     pub evaluations: f64,
-    /// Contacts that opened or closed in it.
+    /// Number of contacts that opened or closed.
     pub events: f64,
 }
 
@@ -45,20 +45,20 @@ pub struct Step {
 pub struct Timing {
     /// The scene.
     pub scene: String,
-    /// In their order.
+    /// The steps in their order.
     pub steps: Vec<Step>,
-    /// How often the scene began anew.
+    /// Number of restarts.
     pub restarts: usize,
-    /// How many steps were asked for.
+    /// Number of steps that were requested.
     pub asked: usize,
 }
 
 impl Timing {
-    /// Takes `count` steps of the packaged scene with these settings, or as many as `budget` allows; `tick` hears of
-    /// every one, how many there are.
+    /// Takes `count` steps of the packaged scene with these settings, or as many as `budget` allows. `tick` is called
+    /// with the number of steps so far.
     ///
     /// # Errors
-    /// If the FMU refuses a setting or a step.
+    /// If a setting or a step fails.
     pub fn of(
         file: &SceneFile,
         fmu: &Fmu,
@@ -100,31 +100,31 @@ impl Timing {
         Ok(timing)
     }
 
-    /// The step that took longest by this measure.
+    /// The longest step by this measure.
     pub fn longest(&self, measure: fn(&Step) -> f64) -> Step {
         self.steps.iter().copied().max_by(|a, b| measure(a).total_cmp(&measure(b))).unwrap_or_default()
     }
 
-    /// The measure of all steps, in ascending order.
+    /// The measured times of all steps in ascending order.
     pub fn sorted(&self, measure: fn(&Step) -> f64) -> Vec<f64> {
         let mut numbers: Vec<f64> = self.steps.iter().map(measure).collect();
         numbers.sort_by(f64::total_cmp);
         numbers
     }
 
-    /// [s] CPU time per evaluation, events, outputs and interface shared out.
+    /// [s] CPU time per evaluation, including events, outputs and interface.
     pub fn per_evaluation(&self) -> f64 {
         let sum = |measure: fn(&Step) -> f64| self.steps.iter().map(measure).sum::<f64>();
         sum(|step| step.cpu) / sum(|step| step.evaluations)
     }
 
-    /// [s] What the step with the most evaluations takes on a processor that nobody else uses.
+    /// [s] Time of the step with the most evaluations on an otherwise idle processor.
     pub fn bound(&self) -> f64 {
         self.longest(|step| step.evaluations).evaluations * self.per_evaluation()
     }
 }
 
-/// The number that `share` of the ascending `numbers` do not exceed.
+/// Quantile `share` of numbers in ascending order.
 pub fn quantile(numbers: &[f64], share: f64) -> f64 {
     let place = (share * numbers.len() as f64).ceil() as usize;
     numbers.get(place.clamp(1, numbers.len().max(1)) - 1).copied().unwrap_or_default()
@@ -150,14 +150,14 @@ impl<'a> Bench<'a> {
         Ok(Self { experiment, runner, asked, counts, point: 0 })
     }
 
-    /// [rad] Of the crank.
+    /// [rad] Angle of the crank.
     fn angle(&self) -> f64 {
         self.asked.values()[3]
     }
 
     fn step(&mut self) -> Result<Step> {
         self.point += 1;
-        let (from, to) = self.experiment.interval(self.point).context("time is over")?;
+        let (from, to) = self.experiment.interval(self.point).context("the run has reached its end")?;
         self.runner.apply_inputs(from)?;
         let (cpu, wall) = (ThreadTime::now(), Instant::now());
         self.runner.step(from, to)?;

@@ -6,10 +6,10 @@ use crate::accuracy::{Accuracy, Case};
 use crate::frame::{Column, Frame};
 use anyhow::Result;
 
-/// A quantity of an accuracy: name, factor to what is shown, and where it is.
+/// A quantity: name, factor for display, and function that reads it.
 type Entry = (&'static str, f64, fn(&Accuracy) -> f64);
 
-/// A quantity of an accuracy: name and where it is.
+/// A quantity: name, and function that reads it.
 type Field = (&'static str, fn(&Accuracy) -> f64);
 
 const ENTRIES: [Entry; 15] = [
@@ -30,7 +30,7 @@ const ENTRIES: [Entry; 15] = [
     ("peak force [kN]", 1e-3, |a| a.peak_force),
 ];
 
-/// A line a case.
+/// A table with one row for each case.
 pub fn table(heading: &str, cases: &[Case], found: &[Result<Accuracy>]) -> Table {
     let mut table = Table::default();
     table.line([heading].into_iter().chain(ENTRIES.map(|(name, ..)| name)).map(String::from).collect());
@@ -44,7 +44,7 @@ pub fn table(heading: &str, cases: &[Case], found: &[Result<Accuracy>]) -> Table
     table
 }
 
-/// The same in SI units, and more of it.
+/// All quantities in SI units.
 pub fn frame(cases: &[Case], found: &[Result<Accuracy>]) -> Frame {
     let kept: Vec<(&Case, &Accuracy)> =
         cases.iter().zip(found).filter_map(|(case, found)| Some((case, found.as_ref().ok()?))).collect();

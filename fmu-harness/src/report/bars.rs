@@ -5,25 +5,25 @@ use super::units::grouped;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Room for the rows' names and for the labels behind the bars [pixel].
+/// [pixel] Space for the rows' names and for the labels behind the bars.
 const NAMES: f64 = 128.0;
 const BEHIND: f64 = 84.0;
-/// Room for the scale's numbers and its name [pixel].
+/// [pixel] Space for the scale's numbers and its name.
 const SCALE: f64 = 56.0;
-/// Room above [pixel].
+/// [pixel] Space above.
 const ABOVE: f64 = 10.0;
-/// Decades that the shortest bar is long, at least.
+/// Minimum length of a bar, in decades.
 const CLEAR: f64 = 0.3;
-/// Share of a row that its bars fill.
+/// Share of a row's height that its bars take.
 const FILLED: f64 = 0.74;
 
 /// One bar.
 pub struct Bar {
-    /// In the unit of the scale, above 0.
+    /// Length in the unit of the scale, above 0.
     pub value: f64,
-    /// Decides its colour.
+    /// Role, which determines the colour.
     pub role: Role,
-    /// Stands behind it.
+    /// Label behind the bar.
     pub label: String,
 }
 
@@ -31,12 +31,12 @@ pub struct Bar {
 pub struct Bars {
     /// Name and unit of the scale.
     pub label: String,
-    /// Names, and bars from top to bottom.
+    /// Names and bars of the rows, from top to bottom.
     pub rows: Vec<(String, Vec<Bar>)>,
 }
 
 impl Bars {
-    /// The decades, as powers of ten, from a clear bit below the shortest bar to the longest.
+    /// Range of the scale in powers of ten, from well below the shortest bar to the longest bar.
     fn decades(&self) -> (i32, i32) {
         let values = || self.rows.iter().flat_map(|(_, bars)| bars).map(|bar| bar.value.log10());
         let low = (values().fold(f64::INFINITY, f64::min) - CLEAR).floor();

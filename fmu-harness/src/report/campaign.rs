@@ -1,4 +1,4 @@
-//! What came of a campaign, as tables.
+//! Tables of a campaign's results.
 
 use super::table::Table;
 use super::units::{grouped, significant};
@@ -7,7 +7,7 @@ use crate::campaign::trial::Verdict;
 use crate::campaign::{Outcome, Slow};
 use std::collections::BTreeMap;
 
-/// How many scenes were drawn, run and finished, by which errors the others ended, and how many failed.
+/// Numbers of scenes that were drawn, run and finished, errors that ended the others, and number of failures.
 pub fn table(outcomes: &[Outcome]) -> Table {
     let refused: u64 = outcomes.iter().map(|outcome| outcome.refused).sum();
     let count = |of: fn(&Verdict) -> bool| outcomes.iter().filter(|outcome| of(&outcome.verdict)).count();
@@ -31,7 +31,7 @@ pub fn table(outcomes: &[Outcome]) -> Table {
     table
 }
 
-/// The scenes that took the most evaluations a turn, and what is stiff in them.
+/// The scenes with the most evaluations per turn, with their stiff parts.
 pub fn slowest(scenes: &[Slow]) -> Table {
     let mut table = Table::default();
     table.row([
@@ -63,7 +63,7 @@ pub fn slowest(scenes: &[Slow]) -> Table {
     table
 }
 
-/// The parts of a scene that may be stiff whatever its contacts do.
+/// The parts of a scene that may be stiff independently of its contacts.
 fn stiff_parts(scene: &slidercrank::scene::Scene) -> String {
     let joint = &scene.joint;
     let all = [

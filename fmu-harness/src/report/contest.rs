@@ -1,4 +1,4 @@
-//! What others need for the same scene: cost at equal error, and ratio to ours.
+//! Costs of other programs for the same scene at equal error, and their ratio to ours.
 
 use super::loglog::{Bound, LogLog, Series as Curve};
 use super::named::Named;
@@ -12,21 +12,21 @@ use std::path::Path;
 /// Errors at which costs are compared.
 pub const ERRORS: [f64; 3] = [1e-2, 1e-4, 1e-6];
 
-/// What an error costs.
+/// The cost of an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reached {
-    /// [s/s] Between two runs.
+    /// [s/s] Interpolated between two runs.
     Cost(f64),
-    /// [s/s] No run was as inaccurate: the cheapest.
+    /// [s/s] Cost of the cheapest run, since all runs are more accurate.
     AtMost(f64),
-    /// No run was as accurate: the least error.
+    /// Smallest error of the runs, since no run is as accurate.
     Not(f64),
-    /// There is no run.
+    /// There are no runs.
     Missing,
 }
 
 impl Reached {
-    /// [s/s] What the error costs, if it was reached.
+    /// [s/s] The cost, if the error was reached.
     pub fn cost(self) -> Option<f64> {
         match self {
             Self::Cost(cost) | Self::AtMost(cost) => Some(cost),
@@ -44,8 +44,8 @@ impl Reached {
     }
 }
 
-/// What `error` costs in a series: between the runs that no other run beats in both error and cost, on logarithmic
-/// scales.
+/// Cost of `error` in a series, interpolated in logarithmic scales between the runs that no other run beats in both
+/// error and cost.
 pub fn cost_at(points: &[Point], error: f64) -> Reached {
     let beaten = |own: &Point| {
         let better = |other: &Point| other.error <= own.error && other.cost <= own.cost && other != own;
@@ -67,7 +67,7 @@ pub fn cost_at(points: &[Point], error: f64) -> Reached {
     if error == last.error { Reached::Cost(last.cost) } else { Reached::Not(last.error) }
 }
 
-/// The table: a row for each method of each competitor.
+/// The table: a row for each method of each program.
 pub fn table(contest: &Contest) -> Table {
     let mut table = Table::default();
     let mut head = vec![contest.scene.clone()];
@@ -91,7 +91,7 @@ pub fn table(contest: &Contest) -> Table {
     table
 }
 
-/// A row for each contest: what an error costs us, and the cheapest of the others with the same contacts.
+/// A row for each scene: our cost of an error, and the cheapest other program with the same kind of contacts.
 pub fn summary(contests: &[Contest]) -> Table {
     let mut table = Table::default();
     let mut head = vec!["scene".into(), "window [ms]".into()];
@@ -120,7 +120,7 @@ pub fn summary(contests: &[Contest]) -> Table {
     table
 }
 
-/// The cheapest of those that are not ours and have the contacts that the first of ours has, with its cost.
+/// The cheapest series of the other programs with the same kind of contacts as our first series, with its cost.
 fn best_other(contest: &Contest, error: f64) -> Option<(f64, &Series)> {
     let ours = contest.series.first()?;
     let others = contest.series.iter().filter(|series| series.peer != ours.peer && series.rigid == ours.rigid);
@@ -128,12 +128,12 @@ fn best_other(contest: &Contest, error: f64) -> Option<(f64, &Series)> {
     costs.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// What a series is compared with: the first one of the same contacts.
+/// The series with which a series is compared: the first one with the same kind of contacts.
 fn rival<'a>(contest: &'a Contest, series: &Series) -> Option<&'a Series> {
     contest.series.iter().find(|ours| ours.rigid == series.rigid)
 }
 
-/// All runs, in full.
+/// All runs with all numbers.
 pub fn write_csv(contests: &[Contest], file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
     csv.write_record([
@@ -196,7 +196,7 @@ fn panel(contest: &Contest) -> Named {
     Named { heading: contest.scene.clone(), panel, names: names.collect() }
 }
 
-/// An error of 0 stands far below any reference's.
+/// Error 0 is drawn as this number, far below any reference's error.
 fn place(point: &Point) -> (f64, f64) {
     (point.error.max(f64::EPSILON), point.cost)
 }
@@ -205,13 +205,13 @@ fn name(series: &Series) -> String {
     format!("{} {}", series.peer, series.method)
 }
 
-/// `1e-4`, or `3.2e-4` where that is not a power of ten.
+/// `1e-4`, or `3.2e-4` if the number is not a power of ten.
 fn power(number: f64) -> String {
     let text = format!("{number:.1e}");
     text.replace(".0e", "e")
 }
 
-/// One sentence on the contest: how far the best of the others is from ours.
+/// One sentence that compares the best of the other programs with ours.
 pub fn sentence(contest: &Contest) -> String {
     let Some(ours) = contest.series.first() else { return String::new() };
     let mut parts = vec![];

@@ -1,4 +1,4 @@
-//! Which setting of the solver keeps a loop's time, and how accurate it is.
+//! Settings of the solver that keep a loop's deadline, and their accuracy.
 
 use super::loglog::{Bound, LogLog, Mark, Series};
 use super::plot::{Role, Sheet};
@@ -12,7 +12,7 @@ use anyhow::Result;
 use slidercrank::scene::Method;
 use std::path::Path;
 
-/// What a step of 1 ms takes at most, and the error, with every setting; and the setting to choose.
+/// Longest time of a step of 1 ms and error with every setting, and the best setting.
 pub fn table(scenes: &[Trials]) -> Table {
     let mut table = Table::default();
     let mut head = vec!["1 ms step at most, error".to_owned()];
@@ -40,7 +40,7 @@ fn error(trial: &Trial) -> String {
     trial.point.error.map_or("–".into(), |error| format!("{error:.0e}"))
 }
 
-/// The bound and the error.
+/// Longest time and error.
 fn cell(trial: &Trial) -> String {
     match (trial.failure(), &trial.timing) {
         (None, Ok(timing)) => format!("{}, {}", percent(timing.bound()), error(trial)),
@@ -48,7 +48,7 @@ fn cell(trial: &Trial) -> String {
     }
 }
 
-/// What the table says of one scene.
+/// Sentences about one scene of the table.
 pub fn sentence(scene: &Trials) -> String {
     let window = match &scene.window {
         Ok(window) => format!("errors within the first {} ms", three_digits(window * 1e3)),
@@ -79,12 +79,12 @@ pub fn sentence(scene: &Trials) -> String {
     text
 }
 
-/// What a step takes at most against the error.
+/// Figure of the longest time of a step against the error.
 pub fn sheet(scenes: &[Trials]) -> Sheet<LogLog> {
-    // An exact run has no place on a logarithmic scale.
+    // The error 0 cannot be drawn on a logarithmic scale.
     let place = |trial: &&Trial| Some((trial.point.error.filter(|error| *error > 0.0)?, trial.share()?));
     let fails = |trial: &&Trial| trial.failure().is_some();
-    // Methods with error control and with fixed steps are curves of their own.
+    // Methods with error control and methods with fixed steps are separate curves.
     let curve = |number: usize, scene: &Trials, method: Method| {
         let (odd, even): (Vec<&Trial>, Vec<&Trial>) =
             scene.trials.iter().filter(|trial| trial.point.method == method).partition(fails);
@@ -122,7 +122,7 @@ pub fn sheet(scenes: &[Trials]) -> Sheet<LogLog> {
     }
 }
 
-/// Everything in SI units.
+/// All numbers in SI units.
 pub fn write_csv(scenes: &[Trials], file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
     csv.write_record([
@@ -171,7 +171,7 @@ mod tests {
     use crate::precision::ladder::Rung;
     use crate::realtime::Step;
 
-    /// Steps of 1 µs an evaluation, the second with `most` of them.
+    /// Two steps in which an evaluation takes 1 µs, the second with `most` evaluations.
     fn trial(method: Method, rung: Rung, error: f64, most: f64) -> Trial {
         let step = |evaluations: f64| Step { cpu: evaluations * 1e-6, evaluations, ..Step::default() };
         let steps = vec![step(10.0), step(most)];
@@ -196,7 +196,7 @@ mod tests {
         let mut scene = trials();
         let choice = |scene: &Trials| scene.choice().map(|trial| trial.point.method);
         assert_eq!(choice(&scene), Some(Method::Rk4));
-        // The other one that is in time.
+        // The other setting that keeps the deadline.
         scene.trials[2].point.verdict = Verdict::Failed("jumps".into());
         assert_eq!(choice(&scene), Some(Method::Automatic));
         for lost in [None, Some(0.2)] {

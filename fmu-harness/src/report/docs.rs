@@ -1,4 +1,4 @@
-//! The page `fmu-harness/docs/benchmarks.md`: each section stands between two markers and is written by its command.
+//! The page `fmu-harness/docs/benchmarks.md`. Each section is between two markers and is written by its command.
 
 use crate::package::build::workspace;
 use anyhow::{Context, Result, ensure};
@@ -8,13 +8,13 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The page, from the top of the source tree.
+/// Path of the page in the source tree.
 const PAGE: &str = "fmu-harness/docs/benchmarks.md";
 
-/// The flag of the commands that have a section.
+/// The flag `--docs` of the commands that have a section.
 #[derive(Args)]
 pub struct Docs {
-    /// Write the tables to fmu-harness/docs/benchmarks.md, too, in place of those of an earlier run
+    /// Write the tables to fmu-harness/docs/benchmarks.md, too, and replace those of an earlier run
     #[arg(long)]
     docs: bool,
 }
@@ -28,10 +28,11 @@ pub struct Section {
 impl Docs {
     /// With `--docs`, the section `command`; if only `one` scene or kind is run, the section `command-one`.
     ///
-    /// A command calls this before it measures: a run of ten minutes must not end with an error that was known at its start.
+    /// A command calls this before it measures, so that a run of ten minutes does not end with an error that could have
+    /// been known at its start.
     ///
     /// # Errors
-    /// The page cannot be read, a marker is missing, or git does not name the commit.
+    /// If the page cannot be read, a marker is missing, or git cannot be run.
     pub fn section(&self, command: &str, one: Option<&str>) -> Result<Option<Section>> {
         if !self.docs {
             return Ok(None);
@@ -50,10 +51,10 @@ impl Docs {
 }
 
 impl Section {
-    /// Replaces the section by `text`, under one line that says how it was measured.
+    /// Replaces the section by one line about the measurement and by `text`.
     ///
     /// # Errors
-    /// The page cannot be read or written, or a marker is missing.
+    /// If the page cannot be read or written, or a marker is missing.
     pub fn write(&self, text: &str) -> Result<()> {
         let page = replaced(&page()?, &self.name, &format!("{}\n\n{}", self.origin, text.trim()))?;
         fs::write(workspace().join(PAGE), page).with_context(|| format!("cannot write {PAGE}"))?;
@@ -69,13 +70,13 @@ fn page() -> Result<String> {
 /// The page with `text` between the markers of `section`.
 fn replaced(page: &str, section: &str, text: &str) -> Result<String> {
     let [begin, end] = ["begin", "end"].map(|side| format!("<!-- {section}: {side} -->"));
-    let place = |marker: &str| page.find(marker).with_context(|| format!("{PAGE} lacks the marker `{marker}`"));
+    let place = |marker: &str| page.find(marker).with_context(|| format!("{PAGE} has no marker `{marker}`"));
     let (from, to) = (place(&begin)? + begin.len(), place(&end)?);
     ensure!(from <= to, "{PAGE} has the marker `{end}` before `{begin}`");
     Ok(format!("{}\n\n{}\n\n{}", &page[..from], text.trim(), &page[to..]))
 }
 
-/// The command as it is typed, without the directory of the results, which changes no number.
+/// The command line, without the directory of the results, which does not change the numbers.
 fn command_line(arguments: impl Iterator<Item = String>) -> String {
     let mut line = format!("cargo run{} --", if cfg!(debug_assertions) { "" } else { " --release" });
     let mut arguments = arguments.skip(1);
@@ -102,7 +103,7 @@ fn commit() -> Result<String> {
     Ok(if changes.is_empty() { hash } else { format!("{hash} with uncommitted changes") })
 }
 
-/// The processor's name where the system gives one, its architecture otherwise.
+/// Name of the processor, or its architecture if the system does not provide the name.
 fn processor() -> String {
     let system = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let named = system.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
@@ -128,7 +129,7 @@ mod tests {
     #[test]
     fn a_missing_marker_is_named() {
         let error = |page: &str, section: &str| replaced(page, section, "").map_err(|error| error.to_string());
-        let lacks = |marker: &str| Err(format!("{PAGE} lacks the marker `{marker}`"));
+        let lacks = |marker: &str| Err(format!("{PAGE} has no marker `{marker}`"));
         assert_eq!(error(TWO, "two"), lacks("<!-- two: begin -->"));
         assert_eq!(error("<!-- one: begin -->", "one"), lacks("<!-- one: end -->"));
         let turned = error("<!-- one: end --><!-- one: begin -->", "one");

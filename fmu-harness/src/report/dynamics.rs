@@ -1,4 +1,4 @@
-//! What a motion is in the long run, in figures, tables and columns.
+//! Figures, tables and columns of a motion over many turns.
 
 use super::plot::{Curve, Mark, Panel, Role, Sheet};
 use super::table::Table;
@@ -14,7 +14,7 @@ use slidercrank::scene::Scene;
 use slidercrank::scene::parameter::{Kind, Parameter};
 use std::f64::consts::TAU;
 
-/// Decades below its peak down to which a spectrum is drawn.
+/// Number of decades below its peak down to which a spectrum is drawn.
 const DECADES: f64 = 12.0;
 
 /// The journal of a joint.
@@ -26,7 +26,7 @@ fn journal(joint: char, outputs: &Outputs) -> RevoluteOutputs {
     }
 }
 
-/// One scene's sheet.
+/// The figure of one scene.
 pub fn sheet(title: &str, scene: &Scene, portrait: &Portrait) -> Sheet {
     let journals: Vec<(char, f64)> = clearances(scene).into_iter().filter(|(joint, _)| *joint != 'T').collect();
     let mut panels = vec![phase_portrait(&portrait.path)];
@@ -55,7 +55,7 @@ struct Quantity {
     of: fn(&Outputs) -> f64,
 }
 
-/// Two quantities of visits in the units that suit them.
+/// Two quantities of the section's points, in suitable units.
 fn plane(visits: &[Visit], [x, y]: [Quantity; 2], mark: Mark) -> Panel {
     let shown = |quantity: &Quantity| {
         let peak = visits.iter().map(|visit| (quantity.of)(&visit.outputs).abs()).fold(0.0, f64::max);
@@ -154,7 +154,7 @@ pub fn sentence(portrait: &Portrait) -> String {
     )
 }
 
-/// The same as a table.
+/// The verdict with its evidence as a table.
 pub fn table(portrait: &Portrait) -> Table {
     let (evidence, exponent) = (&portrait.evidence, &portrait.exponent);
     let mut table = Table::default();
@@ -171,7 +171,7 @@ pub fn table(portrait: &Portrait) -> Table {
     table
 }
 
-/// Visits as columns.
+/// Points of the section as columns.
 pub fn visits(visits: &[Visit]) -> Frame {
     let column = |of: fn(&Outputs) -> f64| visits.iter().map(move |visit| of(&visit.outputs));
     let mut frame = Frame::default()
@@ -212,7 +212,8 @@ pub fn spectrum_frame(portrait: &Portrait) -> Frame {
     Frame::default().reals("frequency", frequency.collect::<Vec<_>>()).reals("density", density.collect::<Vec<_>>())
 }
 
-/// A bifurcation diagram: the slider's velocity and a journal at every visit, and the exponent, over the parameter.
+/// A bifurcation diagram over the parameter: slider velocity and a journal's position at every point of the section,
+/// and the exponent.
 pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch]) -> Sheet {
     let unit = match Parameter::named(&range.name).map(|parameter| &parameter.kind) {
         Some(Kind::Real { unit, .. }) => *unit,
@@ -256,7 +257,7 @@ pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch
     Sheet { title: format!("{title}: bifurcation"), legend, panels, columns: 1, panel_size: (1100, 300) }
 }
 
-/// Every visit of every value as columns.
+/// All points of the section for all values as columns.
 pub fn bifurcation_frame(range: &Range, branches: &[Branch]) -> Frame {
     let mut rows: Vec<(f64, Visit)> = Vec::new();
     let mut verdicts = Vec::new();
@@ -275,7 +276,7 @@ pub fn bifurcation_frame(range: &Range, branches: &[Branch]) -> Frame {
     frame.with("verdict", Column::Texts(verdicts))
 }
 
-/// Intervals of the parameter with one verdict each.
+/// Intervals of the parameter with the same verdict.
 pub fn verdicts(range: &Range, branches: &[Branch]) -> Table {
     let name = |branch: &Branch| match &branch.outcome {
         Ok((_, evidence)) => match evidence.verdict {

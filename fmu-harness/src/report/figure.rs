@@ -1,4 +1,4 @@
-//! The figures of a run of the slider-crank beside the same run with ideal joints, one function a figure.
+//! Figures of a run of the slider-crank and of the same run with ideal joints, one function for each figure.
 
 use super::plot::{Curve, Mark, Panel, Role, Sheet, square_panel};
 use super::units::Shown;
@@ -6,11 +6,11 @@ use crate::run::{ANGLE, Recording};
 use anyhow::Result;
 use std::f64::consts::TAU;
 
-/// Turns shown: the last ones, when what the start was like is forgotten.
+/// Number of turns shown: the last ones, after the transient.
 const TURNS_SHOWN: f64 = 2.0;
-/// The abscissa of what is over time.
+/// Abscissa of curves over time.
 pub const TURNS: &str = "crank turns";
-/// Turns of journal path shown.
+/// Number of turns of the journal paths.
 const PATH_TURNS: f64 = 3.0;
 
 /// Value of `joint.J.model` of a joint with clearance.
@@ -20,9 +20,9 @@ const CLEARANCE: f64 = 2.0;
 pub struct Pair<'a> {
     /// Name of the scene.
     pub title: &'a str,
-    /// The mechanism as it is.
+    /// The mechanism with its own joints.
     pub actual: &'a Recording,
-    /// The same FMU with every joint ideal.
+    /// The same FMU with ideal joints.
     pub ideal: &'a Recording,
 }
 
@@ -42,7 +42,7 @@ pub fn slider_error(pair: &Pair) -> Result<Sheet> {
     pair.sheet("slider's position error", vec![panel], 1, (960, 240))
 }
 
-/// Size of the force in every joint.
+/// Magnitude of the force in every joint.
 pub fn joint_forces(pair: &Pair) -> Result<Sheet> {
     let panels = ["A", "B", "C", "T"].map(|joint| {
         let name = format!("force in {joint}");
@@ -51,7 +51,7 @@ pub fn joint_forces(pair: &Pair) -> Result<Sheet> {
     pair.sheet("joint forces", panels.into_iter().collect::<Result<_>>()?, 2, (600, 270))
 }
 
-/// Path of every journal that has clearance, inside its clearance circle; `None` without such a joint.
+/// Path of every journal with clearance, inside its clearance circle; `None` if no pin has clearance.
 pub fn journal_paths(pair: &Pair) -> Result<Option<Sheet>> {
     let joints = ["A", "B", "C"];
     let has_clearance = |joint: &&str| pair.actual.parameter(&format!("joint.{joint}.model")) == Some(CLEARANCE);
@@ -66,7 +66,7 @@ pub fn journal_paths(pair: &Pair) -> Result<Option<Sheet>> {
     Ok(Some(Sheet { title, legend, columns, panels, panel_size: square_panel(540) }))
 }
 
-/// Height and tilt of the slider in a guide that has clearance; `None` in an ideal one.
+/// Height and tilt of the slider in a guide with clearance; `None` if the guide is ideal.
 pub fn guide_play(pair: &Pair) -> Result<Option<Sheet>> {
     if pair.actual.parameter("joint.T.model") != Some(CLEARANCE) {
         return Ok(None);
@@ -78,7 +78,7 @@ pub fn guide_play(pair: &Pair) -> Result<Option<Sheet>> {
     Ok(Some(pair.sheet("slider in its guide", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))?))
 }
 
-/// Deflection and stretch of a flexible rod; `None` of a rigid one.
+/// Deflection and stretch of a flexible rod; `None` if the rod is rigid.
 pub fn rod_shape(pair: &Pair) -> Result<Option<Sheet>> {
     let modes = ["bending_modes", "axial_modes"].map(|kind| pair.actual.parameter(&format!("rod.flexible.{kind}")));
     if modes.into_iter().flatten().sum::<f64>() == 0.0 {
@@ -111,7 +111,7 @@ fn path(pair: &Pair, joint: &str) -> Result<Panel> {
 }
 
 impl Pair<'_> {
-    /// Both runs against turns of the crank. `what` names the quantity in errors.
+    /// Curves of both runs over crank turns. `what` is the name of the quantity in errors.
     fn panel(
         &self,
         what: &str,
@@ -132,7 +132,7 @@ impl Pair<'_> {
         Ok(Panel { x_label: TURNS.into(), y_label: shown.axis(name), curves, square: false })
     }
 
-    /// Panels above one another share the lowest one's abscissa.
+    /// Panels above one another share the abscissa of the lowest panel.
     fn sheet(&self, what: &str, mut panels: Vec<Panel>, columns: usize, panel_size: (u32, u32)) -> Result<Sheet> {
         let upper = panels.len().saturating_sub(columns);
         panels[..upper].iter_mut().for_each(|panel| panel.x_label.clear());
@@ -147,14 +147,14 @@ pub fn force(recording: &Recording, joint: &str) -> Result<Vec<f64>> {
     Ok(x?.iter().zip(y?).map(|(x, y)| x.hypot(*y)).collect())
 }
 
-/// Turns of the crank since the start, forwards.
+/// Crank turns since the start, positive in the direction of rotation.
 pub(super) fn turns(recording: &Recording) -> Result<Vec<f64>> {
     let angle = recording.column(ANGLE)?;
     let first = angle.first().copied().unwrap_or_default();
     Ok(angle.iter().map(|angle| (angle - first).abs() / TAU).collect())
 }
 
-/// Number of the first row that curves over time show.
+/// Number of the first row of curves over time.
 pub(super) fn first_shown(recording: &Recording) -> Result<usize> {
     first_of_last(recording, TURNS_SHOWN)
 }
@@ -163,6 +163,6 @@ pub(super) fn first_shown(recording: &Recording) -> Result<usize> {
 fn first_of_last(recording: &Recording, shown: f64) -> Result<usize> {
     let turns = turns(recording)?;
     let last = turns.last().copied().unwrap_or_default();
-    // A thousandth of a turn more, so that rounding does not cut off the first row.
+    // A thousandth of a turn more, so that rounding errors do not remove the first row.
     Ok(turns.partition_point(|turn| *turn < last - shown - 1e-3))
 }

@@ -1,4 +1,4 @@
-//! Panels as figures that can be zoomed and asked for numbers. The only file that knows the interactive plotting library.
+//! Panels as figures that can be zoomed and that show numbers. Only this file uses the interactive plotting library.
 
 use super::figure::TURNS;
 use super::loglog::{self, LogLog};
@@ -8,36 +8,36 @@ use plotly::common::{DashType, ExponentFormat, Line, Marker, MarkerSymbol, Mode}
 use plotly::layout::{Axis, AxisType, HoverMode, Margin};
 use plotly::{Layout, Plot, Scatter};
 
-/// Curves have at most so many points.
+/// Maximum number of points of a curve.
 const MOST_POINTS: usize = 12_000;
-/// Runs without an error stand so many times farther out than the largest error.
+/// Runs without an error are drawn at this multiple of the largest error.
 const BEYOND: f64 = 8.0;
-/// Ends of a line across a scale, beyond all points of it.
+/// Ends of a line across a scale, beyond all points.
 const ACROSS: f64 = 2.0;
 
-/// The library itself, as one script element.
+/// The library as one script element.
 pub fn library() -> String {
     let sources = Plot::offline_js_sources();
-    // The element after it typesets formulas, of which we have none.
+    // The next element typesets formulas, which these figures do not have.
     sources.split_inclusive("</script>").next().unwrap_or_default().to_owned()
 }
 
 /// An interactive figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Traces and layout, as the library reads them.
+    /// Traces and layout as JSON for the library.
     pub json: String,
-    /// Whether both axes have one scale.
+    /// Whether both axes have the same scale.
     pub square: bool,
-    /// Whether its abscissa is turns of the crank since the start.
+    /// Whether its abscissa is crank turns since the start.
     pub over_turns: bool,
 }
 
-/// What can be drawn so.
+/// A panel that can be drawn by this library.
 pub trait Interactive {
-    /// Name and unit of its abscissa; empty where it shares that of a panel below.
+    /// Name and unit of its abscissa; empty if it shares the abscissa of a panel below.
     fn abscissa(&self) -> &str;
-    /// As a figure over this abscissa; curves are named as the legend names their roles.
+    /// The figure over this abscissa. Curves have the names of their roles in the legend.
     fn figure(&self, abscissa: &str, legend: &[(Role, String)]) -> Figure;
 }
 
@@ -119,13 +119,13 @@ impl Interactive for LogLog {
     }
 }
 
-/// A line that means a bound.
+/// A line for a bound.
 fn bound(points: &[(f64, f64)], label: &str) -> Box<Scatter<f32, f32>> {
     let line = Line::new().color(colour(Role::Limit)).width(1.2).dash(DashType::Dash);
     trace(points, Mode::Lines, Role::Limit).line(line).name(label)
 }
 
-/// The points that are drawn: a line that runs on has its peaks, a path all its bends up to a bound.
+/// The points that are drawn: a line over time keeps its peaks, a path keeps its bends up to a maximum number.
 fn drawn(curve: &Curve) -> Vec<(f64, f64)> {
     match curve.mark {
         Mark::Line => thinned(&curve.points, MOST_POINTS),
@@ -140,7 +140,7 @@ fn mode(mark: Mark) -> Mode {
     if mark == Mark::Dots { Mode::Markers } else { Mode::Lines }
 }
 
-/// Numbers to the seven digits that a screen is good for.
+/// Numbers rounded to seven digits, enough for a screen.
 fn trace(points: &[(f64, f64)], mode: Mode, role: Role) -> Box<Scatter<f32, f32>> {
     let (x, y) = points.iter().map(|(x, y)| (*x as f32, *y as f32)).unzip();
     let line = Line::new().color(colour(role)).width(role.width());

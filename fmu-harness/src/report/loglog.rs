@@ -1,26 +1,26 @@
-//! Curves over two logarithmic scales, a strip for runs without a place on them, and a text below.
+//! Curves over two logarithmic scales, with a strip for runs that have no coordinates, and a text below.
 
 use super::plot::{Area, Drawn, FINE, GRID, INK, Paint, Role, font};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::RangeInclusive;
 
-/// Room left, above and for the scale below [pixel].
+/// [pixel] Space left, above, and for the scale below.
 const LEFT: f64 = 78.0;
 const ABOVE: f64 = 14.0;
 const SCALE: f64 = 58.0;
-/// Room right, and width of the strip [pixel].
+/// [pixel] Space right, and width of the strip.
 const RIGHT: f64 = 24.0;
 const STRIP: f64 = 112.0;
-/// Of it, left free beside the scales [pixel].
+/// [pixel] Part of this space that stays free beside the scales.
 const GAP: f64 = 20.0;
-/// Height of a line of text, width of a letter, size of a mark [pixel].
+/// [pixel] Height of a line of text, width of a letter, size of a mark.
 const LINE: f64 = 19.0;
 const LETTER: f64 = 6.4;
 const MARK: f64 = 4.5;
 const SHADE: RGBColor = RGBColor(235, 232, 224);
 
-/// What a run without a place on the scales is drawn as.
+/// Mark of a run without coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// A cross.
@@ -31,21 +31,21 @@ pub enum Mark {
 
 /// One curve.
 pub struct Series {
-    /// Its colour.
+    /// Role, which determines the colour.
     pub role: Role,
     /// Its points, all above 0.
     pub points: Vec<(f64, f64)>,
     /// Whether each point has a dot.
     pub dots: bool,
-    /// Runs without an abscissa; one without an ordinate either stands at the top.
+    /// Runs without an abscissa. A run that has no ordinate either is drawn at the top.
     pub odd: Vec<(Mark, Option<f64>)>,
 }
 
-/// A line across the panel, or the edge of its shaded part.
+/// A line across the panel, or the edge of its shaded area.
 pub struct Bound {
-    /// Where.
+    /// Its coordinate.
     pub at: f64,
-    /// What it means.
+    /// Its label.
     pub label: String,
 }
 
@@ -55,9 +55,9 @@ pub struct LogLog {
     pub x_label: String,
     /// Name and unit of the ordinate.
     pub y_label: String,
-    /// What is drawn.
+    /// The curves.
     pub series: Vec<Series>,
-    /// Shaded to the left of it.
+    /// The area to the left of this bound is shaded.
     pub floor: Option<Bound>,
     /// A line at an ordinate.
     pub level: Option<Bound>,
@@ -65,7 +65,7 @@ pub struct LogLog {
     pub deadline: Option<Bound>,
     /// Name of the strip at the right, if there is one.
     pub strip: Option<String>,
-    /// Stands below.
+    /// Text below the panel.
     pub text: String,
 }
 
@@ -124,7 +124,7 @@ impl LogLog {
     }
 }
 
-/// The decades, as powers of ten, that hold all these numbers.
+/// Range of decades that contains all these numbers, in powers of ten.
 fn decades(numbers: Vec<f64>) -> RangeInclusive<i32> {
     let exponents = || numbers.iter().filter(|number| **number > 0.0).map(|number| number.log10());
     let low = exponents().fold(f64::INFINITY, f64::min).floor();
@@ -138,7 +138,7 @@ fn decades(numbers: Vec<f64>) -> RangeInclusive<i32> {
     }
 }
 
-/// Where the coordinate system lies, in pixels, and which decades it shows.
+/// Position of the coordinate system in pixels, and the decades that it shows.
 struct Frame {
     x: RangeInclusive<i32>,
     y: RangeInclusive<i32>,
@@ -149,7 +149,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// In drawing units.
+    /// Coordinates in drawing units.
     fn point(&self, x: f64, y: f64) -> (i32, i32) {
         ((x * f64::from(FINE)) as i32, (y * f64::from(FINE)) as i32)
     }
@@ -191,7 +191,7 @@ impl Frame {
         Ok(())
     }
 
-    /// A level and a deadline, where they are in sight.
+    /// Draws the lines at an ordinate and at an abscissa, if they are inside the panel.
     fn lines(&self, area: &Area, level: Option<&Bound>, deadline: Option<&Bound>) -> Drawn {
         let line = |ends: [(f64, f64); 2]| PathElement::new(ends.map(|(x, y)| self.point(x, y)), Role::Limit.style());
         let style = font(11.5).pos(Pos::new(HPos::Right, VPos::Bottom));
@@ -220,7 +220,7 @@ impl Frame {
         Ok(())
     }
 
-    /// Marks in the strip, this series' at `x`.
+    /// Draws the marks of a series in the strip, at `x`.
     fn odd(&self, area: &Area, series: &Series, x: f64) -> Drawn {
         let style = series.role.style();
         for (mark, ordinate) in &series.odd {
@@ -243,7 +243,7 @@ fn is_inside(value: f64, decades: &RangeInclusive<i32>) -> bool {
     (10f64.powi(*decades.start())..=10f64.powi(*decades.end())).contains(&value)
 }
 
-/// 0 at the first decade, 1 at the last one; a number outside stands at the edge.
+/// Position of a number on the scale: 0 at the first decade, 1 at the last one. Numbers outside are put at the edge.
 fn share(value: f64, decades: &RangeInclusive<i32>) -> f64 {
     let (low, high) = (f64::from(*decades.start()), f64::from(*decades.end()));
     ((value.log10() - low) / (high - low)).clamp(0.0, 1.0)
@@ -264,7 +264,7 @@ fn decade(exponent: i32) -> String {
     format!("10{}", exponent.to_string().chars().map(raised).collect::<String>())
 }
 
-/// Lines of at most so many letters, broken between words.
+/// Wraps a text to lines of at most `width` letters.
 fn wrapped(text: &str, letters: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

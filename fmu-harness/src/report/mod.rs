@@ -1,4 +1,4 @@
-//! What a run says, in figures and in numbers.
+//! Results as figures, tables and pages.
 
 pub mod accuracy;
 pub mod bars;

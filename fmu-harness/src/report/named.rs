@@ -1,24 +1,24 @@
-//! A panel with the names of its curves at its side: for more curves than a line of legend holds.
+//! A panel with the names of its curves at its side, for more curves than fit into one line of a legend.
 
 use super::loglog::LogLog;
 use super::plot::{Area, Drawn, FINE, INK, Paint, Role, font};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Room for the names [pixel].
+/// [pixel] Space for the names.
 const NAMES: u32 = 260;
-/// Height of a line, first line, sample's length [pixel].
+/// [pixel] Height of a line, position of the first line, length of a sample.
 const LINE: f64 = 20.0;
 const FIRST: f64 = 34.0;
 const SAMPLE: f64 = 26.0;
 
 /// A panel, its heading and its names.
 pub struct Named {
-    /// Above the names.
+    /// Heading above the names.
     pub heading: String,
     /// The curves.
     pub panel: LogLog,
-    /// Their names.
+    /// Names of the curves.
     pub names: Vec<(Role, String)>,
 }
 

@@ -1,5 +1,4 @@
-//! Panels on one sheet, as SVG, and panels of curves. With `bars` and `loglog`, the only file that knows the drawing
-//! library.
+//! Sheets of panels as SVG, and panels of curves. Only this file, `bars` and `loglog` use the drawing library.
 
 use super::thinning::thinned;
 use anyhow::{Result, anyhow};
@@ -7,40 +6,40 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// Drawing units a pixel: the library rounds to whole units, so that a fine grid keeps curves smooth.
+/// Drawing units per pixel. The library rounds to whole units; a fine grid keeps curves smooth.
 pub(super) const FINE: u32 = 8;
-/// Curves are thinned to so many points.
+/// Maximum number of points of a curve; longer curves are thinned.
 const MOST_POINTS: usize = 4000;
-/// Radius of a dot [drawing unit].
+/// [drawing units] Radius of a dot.
 const DOT: u32 = 9;
-/// Room for numbers and names of the axes [pixel].
+/// [pixel] Space for numbers and names of the axes.
 const LABELS: (u32, u32) = (40, 74);
-/// Height of the sheet's title with its legend [pixel].
+/// [pixel] Height of the sheet's title with its legend.
 const HEAD: u32 = 60;
-/// Room around a panel [pixel]: left, right, top, bottom.
+/// [pixel] Space around a panel: left, right, top, bottom.
 const MARGINS: [u32; 4] = [12, 18, 8, 4];
 
 pub(super) const INK: RGBColor = RGBColor(38, 44, 54);
 pub(super) const GRID: RGBColor = RGBColor(226, 229, 234);
 
-/// What a curve stands for, which decides its looks.
+/// The role of a curve, which determines its appearance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// The mechanism as it is.
+    /// The mechanism with its own joints.
     Actual,
-    /// The same with ideal joints.
+    /// The mechanism with ideal joints.
     Ideal,
     /// A bound, such as a clearance circle.
     Limit,
     /// A bar.
     Whole,
-    /// A bar for what is in another.
+    /// A bar for a part of another bar.
     Part,
     /// One of many curves, by number.
     Member(usize),
 }
 
-/// Colours that people tell apart, whatever they see: Okabe and Ito, Color Universal Design, 2008, and grey.
+/// Colours that people with any colour vision can distinguish: Okabe and Ito, Color Universal Design, 2008, and grey.
 const MEMBERS: [RGBColor; 9] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -65,7 +64,7 @@ impl Role {
         [red, green, blue]
     }
 
-    /// [pixel] Of a line.
+    /// [pixel] Width of a line.
     pub(super) fn width(self) -> f64 {
         match self {
             Self::Actual => 1.1,
@@ -82,7 +81,7 @@ impl Role {
         ShapeStyle { color, filled: false, stroke_width: (self.width() * f64::from(FINE)) as u32 }
     }
 
-    /// Of a point: hollow where the colours come round again.
+    /// Style of a point: hollow if the colour is used for the second time.
     pub(super) fn dot(self) -> ShapeStyle {
         match self {
             Self::Member(number) if number >= MEMBERS.len() => self.style(),
@@ -93,55 +92,55 @@ impl Role {
 
 /// One curve.
 pub struct Curve {
-    /// What it stands for.
+    /// Its role.
     pub role: Role,
     /// Its points, in the units of the axes.
     pub points: Vec<(f64, f64)>,
-    /// What is drawn of them.
+    /// The way in which they are drawn.
     pub mark: Mark,
 }
 
-/// What is drawn of a curve's points.
+/// The way in which a curve's points are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
-    /// A line through them, from left to right: peaks are kept if there are too many.
+    /// A line from left to right. If there are too many points, peaks are kept.
     #[default]
     Line,
-    /// A line through them, wherever they lie.
+    /// A line in any direction.
     Path,
-    /// A dot at each.
+    /// A dot at each point.
     Dots,
 }
 
-/// One coordinate system. Curves are drawn in their order, the last on top.
+/// One coordinate system. Curves are drawn in their order, the last one on top.
 pub struct Panel {
     /// Name and unit of the abscissa.
     pub x_label: String,
     /// Name and unit of the ordinate.
     pub y_label: String,
-    /// What is drawn.
+    /// The curves.
     pub curves: Vec<Curve>,
-    /// Whether both axes have one scale and one range.
+    /// Whether both axes have the same scale and range.
     pub square: bool,
 }
 
-/// What a sheet is made of.
+/// A panel that can be drawn on a sheet.
 pub trait Paint {
-    /// Draws itself to fill the area.
+    /// Draws the panel into the area.
     fn draw(&self, area: &Area) -> Drawn;
 }
 
 /// A titled grid of panels.
 pub struct Sheet<P = Panel> {
-    /// One line.
+    /// Title, one line.
     pub title: String,
     /// Names of the curves.
     pub legend: Vec<(Role, String)>,
     /// The panels, row by row.
     pub panels: Vec<P>,
-    /// Panels side by side.
+    /// Number of panels side by side.
     pub columns: usize,
-    /// [pixel] Of one panel: width, height.
+    /// [pixel] Width and height of one panel.
     pub panel_size: (u32, u32),
 }
 
@@ -169,7 +168,7 @@ impl<P: Paint> Sheet<P> {
         Ok(())
     }
 
-    /// Title, and below it the legend, clear of all data.
+    /// Draws the title and, below it, the legend, outside all panels.
     fn head(&self, area: &Area) -> Drawn {
         let fine = |pixels: f64| (pixels * f64::from(FINE)) as i32;
         let mut left = 18.0;
@@ -187,14 +186,14 @@ impl<P: Paint> Sheet<P> {
     }
 }
 
-/// Size of a panel whose coordinate system is a square of this side [pixel].
+/// [pixel] Size of a panel whose coordinate system is a square of this side.
 pub fn square_panel(side: u32) -> (u32, u32) {
     (side + LABELS.1 + MARGINS[0] + MARGINS[1], side + LABELS.0 + MARGINS[2] + MARGINS[3])
 }
 
 /// A part of a sheet.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// Whether it could be drawn.
+/// Result of drawing.
 pub type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
 
 pub(super) fn font(pixels: f64) -> TextStyle<'static> {
@@ -252,7 +251,7 @@ impl Paint for Panel {
     }
 }
 
-/// From the least to the greatest number; something to draw on where there is none.
+/// Range of the numbers; an arbitrary range if there are none.
 fn range(numbers: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     if low < high {
@@ -264,19 +263,19 @@ fn range(numbers: impl Iterator<Item = f64>) -> Range<f64> {
     }
 }
 
-/// Keeps curves off the frame.
+/// Widens a range, so that curves do not touch the frame.
 fn margin(range: Range<f64>) -> Range<f64> {
     let margin = 0.06 * (range.end - range.start);
     range.start - margin..range.end + margin
 }
 
-/// Decimals that tell the ticks of this range apart.
+/// Number of decimals that distinguish the ticks of this range.
 fn decimals(range: &Range<f64>) -> usize {
     let tick = (range.end - range.start) / 10.0;
     (-tick.log10().floor()).clamp(0.0, 9.0) as usize
 }
 
-/// A tick's number, with a real minus sign and no needless zeros.
+/// Label of a tick, with a typographic minus sign and without unnecessary zeros.
 fn tick(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

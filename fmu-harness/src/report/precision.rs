@@ -1,4 +1,4 @@
-//! Work-precision diagrams: figures, the sentences under them, tables and one CSV.
+//! Work-precision diagrams: figures with sentences, tables, and a CSV file.
 
 use super::loglog::{Bound, LogLog, Mark, Series};
 use super::plot::{Role, Sheet};
@@ -13,14 +13,14 @@ use anyhow::Result;
 use slidercrank::scene::Method;
 use std::path::Path;
 
-/// Model exchange under a host.
+/// Name of the series of model exchange in a host.
 const CVODE: &str = "CVode under FMPy";
-/// Errors that somebody may want.
+/// Errors for which costs are given.
 pub const ERRORS: [f64; 3] = [1e-2, 1e-4, 1e-6];
-/// Tolerances whose errors are told.
+/// Tolerances whose errors are given.
 const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 
-/// Error and cost of every run, with the sentence below.
+/// Figure of error and cost of every run, with sentences below.
 pub fn sheet(diagram: &Diagram) -> Sheet<LogLog> {
     let methods = diagram.methods();
     let series = methods.iter().enumerate().map(|(number, method)| Series {
@@ -48,7 +48,7 @@ pub fn sheet(diagram: &Diagram) -> Sheet<LogLog> {
     }
 }
 
-/// The same with what a host's own integrator made of the scene in model exchange.
+/// The same figure with the results of a host's own integrator in model exchange.
 pub fn sheet_with(diagram: &Diagram, exchange: &[ExchangePoint]) -> Sheet<LogLog> {
     let mut sheet = sheet(diagram);
     let of_scene = exchange.iter().filter(|point| point.scene == diagram.scene);
@@ -66,13 +66,13 @@ pub fn sheet_with(diagram: &Diagram, exchange: &[ExchangePoint]) -> Sheet<LogLog
     sheet
 }
 
-/// Where a run that reached its end is drawn; an error of 0 stands far below any reference's.
+/// Coordinates of a run that reached its end. An error of 0 is drawn far below any reference's error.
 fn place(point: &Point) -> Option<(f64, f64)> {
     let reached = point.verdict == Verdict::Reached;
     Some((point.error?.max(f64::EPSILON), point.cost?)).filter(|_| reached)
 }
 
-/// How any other run is drawn.
+/// Mark of a run that did not reach its end.
 fn oddity(point: &Point) -> Option<(Mark, Option<f64>)> {
     match point.verdict {
         Verdict::Reached => None,
@@ -81,7 +81,7 @@ fn oddity(point: &Point) -> Option<(Mark, Option<f64>)> {
     }
 }
 
-/// What the figure says, from its numbers.
+/// Sentences about a diagram.
 pub fn sentence(diagram: &Diagram) -> String {
     let Diagram { scene, window, span, floor, others, .. } = diagram;
     let mut text = format!(
@@ -112,7 +112,7 @@ pub fn sentence(diagram: &Diagram) -> String {
     text
 }
 
-/// The cheapest way to every error.
+/// Table of the cheapest method and tolerance for every error.
 pub fn cheapest(diagrams: &[Diagram]) -> Table {
     let mut table = Table::default();
     let mut head = vec!["scene".to_owned(), "window [ms]".into(), "reference".into()];
@@ -141,7 +141,7 @@ pub fn cheapest(diagrams: &[Diagram]) -> Table {
     table
 }
 
-/// The cheapest at every error, between the rungs of the ladders, and the default method there.
+/// Table of the cheapest method at every error, interpolated between the tolerances, and of the default method's cost.
 pub fn between(diagrams: &[Diagram]) -> Table {
     let mut table = Table::default();
     let own = Method::default();
@@ -166,7 +166,7 @@ pub fn between(diagrams: &[Diagram]) -> Table {
     table
 }
 
-/// What the default method's tolerances mean.
+/// Table of the default method's errors at its tolerances.
 pub fn tolerances(diagrams: &[Diagram]) -> Table {
     let mut table = Table::default();
     let mut head = vec![format!("{}, tolerance", Method::default().name())];
@@ -185,7 +185,7 @@ pub fn tolerances(diagrams: &[Diagram]) -> Table {
     table
 }
 
-/// What a host's communication steps add.
+/// Table of the cost in a host, by communication step.
 pub fn hosts(points: &[HostPoint]) -> Table {
     let mut table = Table::default();
     table.row(["FMPy", "communication step", "error", "CPU s/s", "of it in the FMU", "× real time"]);
@@ -206,7 +206,7 @@ pub fn hosts(points: &[HostPoint]) -> Table {
     table
 }
 
-/// What a host's own integrator makes of model exchange.
+/// Table of a host's own integrator with model exchange.
 pub fn exchange(points: &[ExchangePoint]) -> Table {
     let mut table = Table::default();
     table.row([CVODE, "tolerance", "error", "CPU s/s", "× real time"]);
@@ -226,7 +226,7 @@ pub fn exchange(points: &[ExchangePoint]) -> Table {
     table
 }
 
-/// Every run in SI units, in full.
+/// All runs in SI units, with all numbers.
 pub fn write_csv(diagrams: &[Diagram], hosts: &[HostPoint], file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
     csv.write_record([

@@ -1,4 +1,4 @@
-//! The price list of effects: what each scene of a ladder costs, and what its effect adds to the one before.
+//! Tables of the cost of effects: the cost of each scene of a series, and what its effect adds to the scene before.
 
 use super::bars::{Bar, Bars};
 use super::plot::{Role, Sheet};
@@ -8,7 +8,7 @@ use crate::effects::Price;
 use anyhow::Result;
 use std::path::Path;
 
-/// One column: its head, its number, and how that is printed.
+/// One column: head, function that reads the number, and format.
 type Column = (&'static str, fn(&Price) -> f64, fn(f64) -> String);
 
 const COLUMNS: [Column; 8] = [
@@ -22,7 +22,7 @@ const COLUMNS: [Column; 8] = [
     ("CPU ms/s", |price| price.time * 1e3, three_digits),
 ];
 
-/// What every scene costs, per simulated second.
+/// Cost of every scene per simulated second.
 pub fn prices(prices: &[Price]) -> Table {
     let mut table = Table::default();
     let mut head = vec!["scene".to_owned()];
@@ -38,7 +38,7 @@ pub fn prices(prices: &[Price]) -> Table {
     table
 }
 
-/// What every scene costs more than the one before.
+/// Difference in cost between every scene and the scene before.
 pub fn increments(prices: &[Price]) -> Table {
     let mut table = Table::default();
     let mut head = vec!["scene adds".to_owned()];
@@ -55,7 +55,7 @@ pub fn increments(prices: &[Price]) -> Table {
     table
 }
 
-/// The same in SI units, in full.
+/// All numbers in SI units.
 pub fn write_csv(prices: &[Price], file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
     csv.write_record([
@@ -79,7 +79,7 @@ pub fn write_csv(prices: &[Price], file: &Path) -> Result<()> {
     Ok(csv.flush()?)
 }
 
-/// Time of every scene, and of an evaluation in it.
+/// Figure of the time of every scene and of its evaluations.
 pub fn sheet(prices: &[Price]) -> Sheet<Bars> {
     let bar = |value: f64, role: Role, label: String| Bar { value, role, label };
     let time = prices.iter().map(|price| {

@@ -1,4 +1,4 @@
-//! Times of communication steps: how many take longer than how long, and what the longest ones hold.
+//! Times of communication steps: their distribution, and the contents of the longest steps.
 
 use super::loglog::{Bound, LogLog, Series};
 use super::plot::{Role, Sheet};
@@ -8,16 +8,16 @@ use crate::realtime::{STEP, Step, Timing, quantile};
 use anyhow::Result;
 use std::path::Path;
 
-/// Shares of the steps whose times are told, beside the longest.
+/// Quantiles of the times that are given, in addition to the longest time.
 const SHARES: [f64; 5] = [0.5, 0.9, 0.99, 0.999, 0.9999];
-/// Points of a curve in each decade.
+/// Number of points of a curve per decade.
 const DENSITY: f64 = 25.0;
-/// A step's time, its name on a scale and in a column.
+/// A step's time: function that reads it, name on a scale, name of a column.
 type Measure = (fn(&Step) -> f64, &'static str, &'static str);
-/// Both times of a step.
+/// The two times of a step.
 const MEASURES: [Measure; 2] = [(|step| step.wall, "by the clock", "wall"), (|step| step.cpu, "CPU time", "cpu")];
 
-/// Shares of the step in percent.
+/// Table of times as shares of the communication step in percent.
 pub fn table(timings: &[Timing]) -> Table {
     let mut table = Table::default();
     let head = ["1 ms step", "steps", "median", "99.9 %", "worst", "CPU of it", "worst CPU", "of it: contacts changed"];
@@ -42,7 +42,7 @@ pub(super) fn percent(seconds: f64) -> String {
     format!("{} %", three_digits(seconds / STEP * 1e2))
 }
 
-/// What the table says of one scene.
+/// Sentences about one scene of the table.
 pub fn sentence(timing: &Timing) -> String {
     let wall = timing.sorted(|step| step.wall);
     let (worst, dearest) = (timing.longest(|step| step.wall), timing.longest(|step| step.cpu));
@@ -75,7 +75,7 @@ pub fn sentence(timing: &Timing) -> String {
     text
 }
 
-/// Which share of the steps takes longer than which share of a step.
+/// Figure of the distribution: share of the steps that take at least as long as a share of a step.
 pub fn sheet(timings: &[Timing]) -> Sheet<LogLog> {
     let panel = |(measure, name, _): Measure| LogLog {
         x_label: format!("time of a step over the step, {name}"),
@@ -96,7 +96,7 @@ pub fn sheet(timings: &[Timing]) -> Sheet<LogLog> {
     }
 }
 
-/// The longest steps one by one, the others at equal distances on the scale.
+/// Points of the curve: every one of the longest steps, the others at equal distances on the scale.
 fn curve(number: usize, ascending: &[f64]) -> Series {
     let count = ascending.len() as f64;
     let decades = (0..).map(|place| 10f64.powf(f64::from(place) / DENSITY).round());
@@ -108,7 +108,7 @@ fn curve(number: usize, ascending: &[f64]) -> Series {
     Series { role: Role::Member(number), points: points.collect(), dots: false, odd: vec![] }
 }
 
-/// Everything in SI units.
+/// All numbers in SI units.
 pub fn write_csv(timings: &[Timing], file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
     let mut head = ["scene", "step_s", "steps", "restarts"].map(String::from).to_vec();

@@ -1,4 +1,4 @@
-//! The coupled press in numbers: its strokes, bottom dead centre over clearance, error over communication step.
+//! Tables of the coupled press: strokes, bottom dead centre against clearance, error against communication step.
 
 mod figure;
 
@@ -15,14 +15,15 @@ use std::path::Path;
 
 /// The masters, in the order of tables and legends.
 pub const METHODS: [&str; 3] = ["held", "extrapolated", "iterated"];
-/// [s] Steps between which an order is told: longer ones pass over what the sheet does, shorter ones meet the reference.
+/// [s] Range of steps for fitting an order. Longer steps do not resolve the sheet, shorter ones reach the reference's
+/// error.
 const ORDER_BETWEEN: [f64; 2] = [5e-5, 5e-4];
-/// Where power flows into the press.
+/// Ports through which power flows into the press.
 const PORTS: [&str; 2] = ["load", "torque"];
-/// Main bearing, crank pin, slider pin.
+/// Joints: main bearing, crank pin, slider pin.
 const PINS: [&str; 3] = ["A", "B", "C"];
 
-/// What the drive does in a stroke, and what the pins bear.
+/// Table of the drive and of the pin forces over a stroke.
 pub fn strokes(study: &Study) -> Result<Table> {
     let strokes = &study.strokes;
     let per_minute = |speed: f64| format!("{} /min", three_digits(speed * 60.0 / TAU));
@@ -57,14 +58,14 @@ fn pin_force(run: &Trajectory, joint: &str) -> Result<Vec<f64>> {
     Ok(x?.iter().zip(y?).map(|(x, y)| x.hypot(*y)).collect())
 }
 
-/// Least, mean and greatest of some numbers.
+/// Minimum, mean and maximum of numbers.
 pub fn range(numbers: &[f64]) -> [f64; 3] {
     let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
     let by = |pick: fn(f64, f64) -> f64, from: f64| numbers.iter().copied().fold(from, pick);
     [by(f64::min, f64::INFINITY), mean, by(f64::max, f64::NEG_INFINITY)]
 }
 
-/// In micrometres.
+/// A length in micrometres.
 pub fn clearances(points: &[DeadCentre]) -> Table {
     let micro = |metres: f64| format!("{:.1}", metres * 1e6);
     let mut table = Table::default();
@@ -111,7 +112,7 @@ pub fn steps(study: &Study) -> Table {
     table
 }
 
-/// [J] What the coupling made at a port.
+/// [J] Energy that the coupling generated at a port.
 fn residual(point: &Point, port: &str) -> f64 {
     point.ports.get(port).map_or(f64::NAN, Port::residual)
 }
@@ -121,7 +122,7 @@ fn small(number: f64) -> String {
     format!("{number:.1e}")
 }
 
-/// The power of the step that errors of the crank's speed fall with, by least squares.
+/// Order of the coupling: exponent of the step in the error of the crank's speed, by least squares.
 pub fn order(convergence: &Convergence, method: &str) -> Option<f64> {
     let [least, most] = ORDER_BETWEEN;
     let inside = |point: &&Point| point.method == method && (0.99 * least..=1.01 * most).contains(&point.step);
@@ -134,7 +135,7 @@ pub fn order(convergence: &Convergence, method: &str) -> Option<f64> {
     (along > 0.0).then_some(across / along)
 }
 
-/// What the tables say, in a few sentences.
+/// Sentences about the tables.
 pub fn sentence(study: &Study) -> String {
     let told = |method: &&str| Some(format!("{:.1} {method}", order(&study.ideal, method)?));
     let orders: Vec<String> = METHODS.iter().filter_map(told).collect();
@@ -155,7 +156,7 @@ pub fn sentence(study: &Study) -> String {
     )
 }
 
-/// Every run, in SI units.
+/// All runs in SI units.
 pub fn write_csv(study: &Study, file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
     let head = ["joints", "master", "step_s", "speed_error_rad_per_s", "slider_error_m", "passes", "cpu_s_per_s"];

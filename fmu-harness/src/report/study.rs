@@ -1,4 +1,4 @@
-//! What came of a study.
+//! Results of a study.
 
 use super::table::Table;
 use super::units::significant;
@@ -17,7 +17,7 @@ pub fn plan(plan: &Plan) -> Frame {
     plan.names().iter().enumerate().fold(runs, |frame, (place, name)| frame.reals(name.clone(), column(place)))
 }
 
-/// Each quantity over all runs that did not fail.
+/// Statistics of each quantity over all runs that did not fail.
 pub fn summary(study: &Study, frame: &Frame) -> Table {
     let mut table = Table::default();
     table.row(["quantity", "runs", "mean", "95 % of it", "deviation", "least", "5 %", "median", "95 %", "greatest"]);
@@ -40,7 +40,7 @@ pub fn summary(study: &Study, frame: &Frame) -> Table {
     table
 }
 
-/// How many runs failed, and the first of them.
+/// A sentence with the number of runs that failed, and the first failure.
 pub fn failures(frame: &Frame) -> String {
     let Some((_, Column::Texts(status))) = frame.columns().iter().find(|(name, _)| name == "status") else {
         return String::new();

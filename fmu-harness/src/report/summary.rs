@@ -1,4 +1,4 @@
-//! A run in numbers.
+//! Tables of one run.
 
 use super::figure::{Pair, force};
 use super::table::Table;
@@ -8,7 +8,7 @@ use crate::run::{ANGLE, Cost, Recording};
 use anyhow::Result;
 use std::f64::consts::TAU;
 
-/// The slider-crank: peaks beside the ideal ones', errors, work and time.
+/// Tables of a slider-crank: peaks with its own and with ideal joints, errors, work and time.
 pub fn mechanism(pair: &Pair) -> Result<[Table; 3]> {
     let actual = pair.actual;
     let mut peaks = Table::default();
@@ -51,7 +51,7 @@ fn peak(table: &mut Table, name: &str, unit: &str, columns: [Result<Vec<f64>>; 2
     Ok(())
 }
 
-/// Any FMU: the range and the last value of every output, and time.
+/// Tables of any FMU: range and last value of every output, and time.
 pub fn outputs(description: &Description, recording: &Recording) -> Result<String> {
     let mut table = Table::default();
     table.row(["output", "least", "greatest", "last", "unit"]);

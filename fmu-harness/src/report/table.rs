@@ -1,9 +1,9 @@
-//! Text in columns for the terminal.
+//! Tables for the terminal and for Markdown.
 
 use anyhow::{Result, ensure};
 
-/// Lines of cells: the first column flush left, the others flush right. Under them, a sentence for each line that ought to
-/// have numbers and has none.
+/// Rows of cells: the first column is left-aligned, the others are right-aligned. Below the table is a sentence for
+/// each row whose numbers are missing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
     lines: Vec<Vec<String>>,
@@ -11,39 +11,39 @@ pub struct Table {
 }
 
 impl Table {
-    /// Adds a line.
+    /// Adds a row.
     pub fn row<const N: usize>(&mut self, cells: [impl Into<String>; N]) {
         self.lines.push(cells.map(Into::into).into());
     }
 
-    /// Adds a line of as many cells as there are.
+    /// Adds a row with any number of cells.
     pub fn line(&mut self, cells: Vec<String>) {
         self.lines.push(cells);
     }
 
-    /// Adds a line that ought to have numbers and has none, and why: the reason stands under the table.
+    /// Adds a row whose numbers are missing. The reason is given below the table.
     pub fn gap(&mut self, cells: Vec<String>, why: &str) {
         let name = cells.first().cloned().unwrap_or_default();
         self.gaps.push(format!("{name} has no numbers: {why}"));
         self.line(cells);
     }
 
-    /// Refuses tables in which a line has no numbers.
+    /// Returns an error if rows of these tables have no numbers.
     ///
     /// # Errors
-    /// How many such lines there are.
+    /// With the number of such rows.
     pub fn complete<'a>(tables: impl IntoIterator<Item = &'a Self>) -> Result<()> {
         let gaps: usize = tables.into_iter().map(|table| table.gaps.len()).sum();
         ensure!(gaps == 0, "{gaps} of the rows above {} no numbers", if gaps == 1 { "has" } else { "have" });
         Ok(())
     }
 
-    /// Its lines, cell by cell.
+    /// The cells of all rows.
     pub fn lines(&self) -> &[Vec<String>] {
         &self.lines
     }
 
-    /// The lines, aligned.
+    /// The rows as aligned text.
     pub fn print(&self) -> String {
         let columns = self.lines.iter().map(Vec::len).max().unwrap_or_default();
         let width = |column: usize| self.lines.iter().filter_map(|row| Some(row.get(column)?.chars().count())).max();
@@ -61,7 +61,7 @@ impl Table {
         text + &self.told_gaps()
     }
 
-    /// The same for a Markdown page; the first line is the head.
+    /// The table in Markdown. The first row is the head.
     pub fn markdown(&self) -> String {
         let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
         let Some((head, rows)) = self.lines.split_first() else { return String::new() };
@@ -69,7 +69,7 @@ impl Table {
         line(head) + &alignment + &rows.iter().map(|row| line(row)).collect::<String>() + &self.told_gaps()
     }
 
-    /// The sentences under the table.
+    /// The sentences below the table.
     fn told_gaps(&self) -> String {
         self.gaps.iter().map(|gap| format!("\n{gap}.\n")).collect()
     }

@@ -1,6 +1,6 @@
-//! Curves with fewer points that look the same.
+//! Thinning of curves.
 
-/// About `most` points in order, peaks kept: of every bucket the first, the lowest, the highest and the last.
+/// Selects about `most` points and keeps peaks: of every bucket the first, the lowest, the highest and the last point.
 pub fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     if points.len() <= most {
         return points.to_vec();

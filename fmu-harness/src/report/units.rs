@@ -1,16 +1,16 @@
-//! SI numbers in the multiple of their unit that people read.
+//! Display of SI numbers with prefixes of units.
 
-/// A unit with its prefix: shown number = factor · SI number.
+/// A unit with a prefix: displayed number = factor · SI number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
-    /// Shown number for 1 in SI.
+    /// The factor.
     pub factor: f64,
-    /// As printed.
+    /// The unit's symbol with its prefix.
     pub unit: String,
 }
 
 impl Shown {
-    /// The multiple of `unit`, as modelDescription.xml spells it, that suits numbers as large as `peak`.
+    /// The multiple of `unit`, given as in modelDescription.xml, that suits numbers up to `peak`.
     pub fn of(unit: &str, peak: f64) -> Self {
         let (shown, large, small) = match unit {
             "N" => ("N", true, true),
@@ -48,7 +48,7 @@ impl Shown {
     }
 }
 
-/// Four significant digits, never with an exponent between 0.001 and a million.
+/// A number with four significant digits; without exponent between 0.001 and a million.
 pub fn significant(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
@@ -60,7 +60,7 @@ pub fn significant(value: f64) -> String {
     }
 }
 
-/// A whole number in groups of three digits.
+/// An integer in groups of three digits.
 pub fn grouped(number: f64) -> String {
     let digits = format!("{:.0}", number.abs());
     let mut text = String::new();
@@ -73,9 +73,9 @@ pub fn grouped(number: f64) -> String {
     if number < 0.0 { format!("-{text}") } else { text }
 }
 
-/// Three significant digits, or all that stand before the decimal point.
+/// A number with three significant digits, or more if it has more digits before the decimal point.
 pub fn three_digits(number: f64) -> String {
-    // The size of what the number is rounded to.
+    // Unit of the last digit.
     let rounded = format!("{number:.2e}").parse().unwrap_or(number);
     let size = f64::abs(rounded);
     if size >= 100.0 || size == 0.0 {

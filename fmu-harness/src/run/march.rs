@@ -1,4 +1,4 @@
-//! A run without a word on the way: what it gave, what it cost, why it ended.
+//! Runs that end early without an error: results, cost, and the reason of the end.
 
 use super::{Experiment, MOST_POINTS, Runner, Until};
 use crate::host::{Fmu, Log};
@@ -8,46 +8,45 @@ use cpu_time::ThreadTime;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Which communication points of a march are recorded.
+/// The communication points of a run that are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
-    /// The first and the last one.
+    /// The first and the last point.
     AtEnds,
-    /// All.
+    /// All points.
     Everywhere,
 }
 
-/// Why a march is over.
+/// The reason why a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// Its time came.
+    /// It reached its end time.
     Reached,
-    /// It took longer than it was given.
+    /// It took longer than its budget.
     Stopped,
-    /// The FMU refused to go on; in its own words.
+    /// The FMU could not go on; with its message.
     Failed(String),
 }
 
-/// What came of a march.
+/// The results of a run.
 pub struct March {
-    /// What was recorded; up to the last communication point reached.
+    /// The recorded outputs, up to the last communication point that was reached.
     pub trajectory: Trajectory,
-    /// [s] Time simulated.
+    /// [s] Simulated time.
     pub simulated: f64,
-    /// This thread's use of the processor in steps and inputs, and in looks if it looks everywhere.
+    /// CPU time of this thread in steps and inputs, and in reading outputs if all points are recorded.
     pub spent: Duration,
-    /// Why it is over.
+    /// Why it ended.
     pub ending: Ending,
 }
 
-/// Steps between two looks at the clock.
+/// Number of steps between two checks of the budget.
 const UNWATCHED: usize = 8;
 
-/// Runs the experiment without a word on the way and for at most about `budget`. Turns are counted where it looks
-/// everywhere.
+/// Runs the experiment for at most about `budget`. Turns are counted only if all points are recorded.
 ///
 /// # Errors
-/// If it cannot begin; whatever happens later is its ending.
+/// If the run cannot start. What happens later is reported as its ending.
 pub fn march(fmu: &Fmu, experiment: &Experiment, look: Look, budget: Duration) -> Result<March> {
     let mut runner = Runner::start(fmu, experiment, Arc::new(Log::new(|_| {})), true)?;
     let mut reached = experiment.start;
@@ -79,19 +78,19 @@ pub fn march(fmu: &Fmu, experiment: &Experiment, look: Look, budget: Duration) -
     Ok(March { trajectory: runner.into_trajectory(), simulated: reached - experiment.start, spent, ending })
 }
 
-/// How often a run is repeated, of which the fastest counts: what other programs do to a run only makes it slower.
+/// Number of repetitions of a run. The fastest one counts, since other programs can only slow a run down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Repeats {
-    /// So often.
+    /// Minimum number of repetitions.
     pub least: usize,
-    /// More often, until they have taken so long together.
+    /// Repetitions continue until they have taken this long together.
     pub enough: Duration,
-    /// But no more often.
+    /// Maximum number of repetitions.
     pub most: usize,
 }
 
 impl Repeats {
-    /// The fastest run of the experiment; one that does not reach its end within `budget` is not repeated.
+    /// The fastest run of the experiment. A run that does not reach its end within `budget` is not repeated.
     pub fn fastest(&self, fmu: &Fmu, experiment: &Experiment, budget: Duration) -> Result<March> {
         let mut fastest = march(fmu, experiment, Look::AtEnds, budget)?;
         let mut total = fastest.spent;

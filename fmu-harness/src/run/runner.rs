@@ -1,4 +1,4 @@
-//! One instance with what is asked of it at every communication point.
+//! One instance, with the variables to set and read at every communication point.
 
 use super::{ANGLE, Experiment, Until};
 use crate::host::{Fmu, HostError, Kind, Log, Selection, Setting, Slave, Stepping, Value, Variable};
@@ -7,23 +7,23 @@ use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
 use std::sync::Arc;
 
-/// A slave with what is asked of it at every communication point.
+/// A slave, with the variables to set and read at every communication point.
 pub struct Runner<'a> {
     experiment: &'a Experiment,
     slave: Slave<'a, Stepping>,
-    /// References of the inputs, in the order of the experiment's.
+    /// Value references of the inputs, in the order of the experiment's inputs.
     inputs: Vec<u32>,
     values: Vec<f64>,
     outputs: Selection,
     trajectory: Trajectory,
-    /// Column of the crank's angle, and the angle at the start.
+    /// Column of the crank's angle, and its value at the start.
     angle: Option<(usize, f64)>,
-    /// The crank's angle alone, if an input depends on it.
+    /// Selection of the crank's angle, if an input depends on it.
     angle_now: Option<Selection>,
 }
 
 impl<'a> Runner<'a> {
-    /// Instantiates, sets, initialises, and records the first row. With `logging` the FMU says why it refuses something.
+    /// Instantiates, sets, initializes and records the first row. With `logging` the FMU logs why it refuses a call.
     pub fn start(fmu: &'a Fmu, experiment: &'a Experiment, log: Arc<Log>, logging: bool) -> Result<Self> {
         let description = fmu.description();
         let reference = |input: &Input| input_reference(description.variable(&input.name)?);
@@ -31,7 +31,7 @@ impl<'a> Runner<'a> {
         let outputs: Vec<&Variable> = description.variables.iter().filter(is_recorded).collect();
         let angle = outputs.iter().position(|variable| variable.name == ANGLE);
         let wants_angle = experiment.inputs.iter().any(Input::wants_angle);
-        ensure!(angle.is_some() || !wants_angle, "an input depends on `{ANGLE}`, which this FMU does not give");
+        ensure!(angle.is_some() || !wants_angle, "an input depends on `{ANGLE}`, which is not an output of this FMU");
 
         let mut slave = fmu.instantiate(description.name(), log, logging)?;
         for Setting { name, value } in &experiment.settings {
@@ -58,14 +58,14 @@ impl<'a> Runner<'a> {
         Ok(runner)
     }
 
-    /// Adds the row of the communication point at `time`.
+    /// Records the communication point at `time`.
     pub fn record(&mut self, time: f64) -> Result<(), HostError> {
         self.slave.read(&mut self.outputs)?;
         self.trajectory.push(time, self.outputs.values());
         Ok(())
     }
 
-    /// Reads variables of the caller's choice.
+    /// Reads the variables of a selection.
     pub fn ask(&mut self, selection: &mut Selection) -> Result<(), HostError> {
         self.slave.read(selection)
     }
@@ -75,7 +75,7 @@ impl<'a> Runner<'a> {
         self.slave.do_step(from, to - from)
     }
 
-    /// Sets the inputs of the interval that begins at `time`, unless they stay what they are.
+    /// Sets the inputs of the interval that begins at `time`. Inputs that have not changed are not set again.
     pub fn apply_inputs(&mut self, time: f64) -> Result<(), HostError> {
         if self.inputs.is_empty() {
             return Ok(());
@@ -93,17 +93,19 @@ impl<'a> Runner<'a> {
         if changed { self.slave.set_reals(&self.inputs, &self.values) } else { Ok(()) }
     }
 
-    /// 1 at the end of the experiment.
+    /// Finished share of the experiment: 1 at its end.
     pub fn share_done(&self, time: f64) -> Result<f64> {
         match self.experiment.until {
             Until::Time(end) => Ok((time - self.experiment.start) / (end - self.experiment.start)),
             Until::Turns { turns, latest } => {
-                let (column, first) = self.angle.with_context(|| format!("this FMU gives no `{ANGLE}` to count"))?;
+                let (column, first) = self
+                    .angle
+                    .with_context(|| format!("turns cannot be counted: `{ANGLE}` is not an output of this FMU"))?;
                 let turned = (self.outputs.values()[column] - first).abs() / std::f64::consts::TAU;
                 if time >= latest && turned < turns {
                     bail!("the crank has made {turned:.3} of {turns} turns by t = {time} s; give a stop time instead");
                 }
-                // A billionth of a turn is what rounding leaves of a whole number of them.
+                // A remainder of a billionth of a turn is a rounding error.
                 Ok(turned / (turns - 1e-9))
             }
         }
@@ -119,19 +121,19 @@ impl<'a> Runner<'a> {
         Ok(names.zip(selection.values().iter().copied()).collect())
     }
 
-    /// What was recorded.
+    /// The recorded outputs.
     pub fn into_trajectory(self) -> Trajectory {
         self.trajectory
     }
 
-    /// Ends the run in order.
+    /// Terminates and frees the instance.
     pub fn finish(self) -> Result<Trajectory> {
         self.slave.terminate()?;
         Ok(self.trajectory)
     }
 }
 
-/// The reference of a real input.
+/// Value reference of a real input.
 fn input_reference(variable: &Variable) -> Result<u32> {
     let legal = variable.causality() == "input" && variable.kind == Kind::Real;
     ensure!(

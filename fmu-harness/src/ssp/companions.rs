@@ -1,4 +1,5 @@
-//! The controller and the sheet as FMUs: made by PythonFMU, packed by this program, so that the bytes stay the same.
+//! Controller and sheet as FMUs. PythonFMU makes them, and this program packages them, so that their bytes are
+//! reproducible.
 
 use crate::package::archive::{self, Part};
 use crate::python::{output, script};
@@ -6,18 +7,18 @@ use anyhow::{Context, Result};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// An FMU beside the press.
+/// An FMU of the SSP package, in addition to the press.
 pub struct Companion {
-    /// Name of its file.
+    /// Name of the file.
     pub file: String,
-    /// The file.
+    /// Bytes of the file.
     pub bytes: Vec<u8>,
 }
 
-/// All of them, by name. `python` has PythonFMU.
+/// Controller and sheet, sorted by name. The interpreter `python` has PythonFMU.
 pub fn companions(python: &Path) -> Result<Vec<Companion>> {
     let folder = tempfile::tempdir()?;
-    output(script(python, "press/companions.py").arg(folder.path())).context("the companions cannot be made")?;
+    output(script(python, "press/companions.py").arg(folder.path())).context("controller and sheet cannot be made")?;
     let unpacked = entries(folder.path())?;
     unpacked
         .into_iter()
@@ -25,7 +26,7 @@ pub fn companions(python: &Path) -> Result<Vec<Companion>> {
         .collect()
 }
 
-/// An FMU from its unpacked files, in the order of their names.
+/// Packages the files of an FMU, sorted by name.
 fn pack(place: &Path) -> Result<Vec<u8>> {
     let (mut open, mut parts) = (vec![place.to_path_buf()], vec![]);
     while let Some(path) = open.pop() {
@@ -41,7 +42,7 @@ fn pack(place: &Path) -> Result<Vec<u8>> {
     archive::write(&parts)
 }
 
-/// What is in a folder, sorted.
+/// The entries of a folder, sorted.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     let read = || fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>();
     let mut paths = read().with_context(|| format!("cannot read {}", folder.display()))?;

@@ -1,4 +1,4 @@
-//! The press with a servo drive and the sheet that it cuts, as an SSP 1.0 package: the same bytes from the same inputs.
+//! The press with a servo drive and the sheet that it cuts, as an SSP 1.0 package. The same inputs give the same bytes.
 
 mod companions;
 mod structure;
@@ -17,16 +17,16 @@ use structure::{Component, Structure, Value};
 
 /// Name of the scene, of the package and of its first component.
 pub const PRESS: &str = "press";
-/// Name of the parameter values: some masters want to be told which ones to take.
+/// Name of the set of parameter values, which some masters need.
 pub const VALUES: &str = "servo";
 const CONTROLLER: &str = "controller";
 const SHEET: &str = "sheet";
-/// [kg·m²] Crankshaft and motor, about their axis: a servo press has no flywheel.
+/// [kg·m²] Inertia of crankshaft and motor about their axis. A servo press has no flywheel.
 const INERTIA: f64 = 3.0;
-/// [s] Three strokes.
+/// [s] Time of three strokes.
 const STOP: f64 = 0.8;
 
-/// An output and the input that it goes to, each with its component.
+/// A connection from an output to an input, each with its component.
 type Wire = [(&'static str, &'static str); 2];
 
 const WIRES: [Wire; 6] = [
@@ -38,7 +38,7 @@ const WIRES: [Wire; 6] = [
     [(SHEET, "force"), (PRESS, "slider.load")],
 ];
 
-/// Outputs that masters record beside those on wires.
+/// Outputs that masters record in addition to connected outputs.
 const WATCHED: [(&str, &str); 12] = [
     (PRESS, "slider.x"),
     (PRESS, "accuracy.position"),
@@ -54,7 +54,7 @@ const WATCHED: [(&str, &str); 12] = [
     (SHEET, "work"),
 ];
 
-/// A component's FMU, what it declares, and the values that the package gives it.
+/// A component's FMU, its description, and the parameter values in the package.
 struct Unit {
     name: &'static str,
     file: String,
@@ -73,7 +73,7 @@ pub fn package(stock: &Stock, python: &Path) -> Result<Vec<u8>> {
         let (name, values) = match companion.file.as_str() {
             "ServoController.fmu" => (CONTROLLER, vec![("fast_speed".into(), fast), ("inertia".into(), INERTIA)]),
             "Sheet.fmu" => (SHEET, profile(&scenario.file.inputs.slider_load)?),
-            other => bail!("no place in the package for {other}"),
+            other => bail!("unexpected FMU {other}"),
         };
         units.push(unit(name, companion.file, companion.bytes, values)?);
     }
@@ -101,13 +101,13 @@ fn unit(name: &'static str, file: String, bytes: Vec<u8>, values: Vec<(String, f
 /// The scene's load as the sheet's parameters.
 fn profile(load: &Profile) -> Result<Vec<(String, f64)>> {
     let Profile::Points { against: ProfileArgument::CrankAngle, points } = load else {
-        bail!("the scene `{PRESS}` has no load over the crank's angle");
+        bail!("the scene `{PRESS}` has no load as a function of the crank's angle");
     };
     let rows = points.iter().zip(1..);
     Ok(rows.flat_map(|(point, row)| [(format!("at[{row}]"), point[0]), (format!("load[{row}]"), point[1])]).collect())
 }
 
-/// Connectors of a unit, each once, and its values, all as the unit declares them.
+/// Connectors and parameter values of a unit, with the units of measurement that it declares.
 fn component(unit: &Unit) -> Result<Component> {
     let ends = WIRES.iter().flatten().chain(&WATCHED);
     let mut names: Vec<&str> = ends.filter(|(owner, _)| *owner == unit.name).map(|(_, name)| *name).collect();
@@ -116,7 +116,12 @@ fn component(unit: &Unit) -> Result<Component> {
     let declared = |name: &str, wanted: &[&str]| -> Result<(String, Option<String>)> {
         let variable = unit.description.variable(name).with_context(|| unit.file.clone())?;
         let causality = variable.causality();
-        ensure!(wanted.contains(&causality), "{}: `{name}` is no {}, but {causality}", unit.file, wanted.join(" or "));
+        ensure!(
+            wanted.contains(&causality),
+            "{}: `{name}` is not an {}, but has the causality {causality}",
+            unit.file,
+            wanted.join(" or ")
+        );
         Ok((causality.into(), unit.description.unit(variable).map(str::to_owned)))
     };
     let connectors = names.into_iter().map(|name| {

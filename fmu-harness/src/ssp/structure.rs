@@ -1,4 +1,4 @@
-//! Components, wires and values → SystemStructure.ssd of SSP 1.0.
+//! Writes components, connections and parameter values as SystemStructure.ssd of SSP 1.0.
 
 use super::Wire;
 use crate::host::Attributes;
@@ -23,13 +23,13 @@ type Units<'a> = BTreeMap<&'a str, &'a Attributes>;
 pub struct Structure<'a> {
     /// Its name.
     pub name: &'a str,
-    /// What it is, in a line.
+    /// One-line description.
     pub description: &'a str,
-    /// Name of the parameter values.
+    /// Name of the set of parameter values.
     pub values: &'a str,
-    /// What it is made of.
+    /// Its components.
     pub components: Vec<Component>,
-    /// What goes where.
+    /// Connections between components.
     pub wires: &'a [Wire],
     /// [s] End of the default experiment, which starts at 0.
     pub stop: f64,
@@ -39,17 +39,17 @@ pub struct Structure<'a> {
 pub struct Component {
     /// Unique in the system.
     pub name: &'static str,
-    /// Its path in the package.
+    /// Path in the package.
     pub source: String,
     /// Its inputs and outputs.
     pub connectors: Vec<Connector>,
     /// Its parameter values.
     pub values: Vec<Value>,
-    /// BaseUnit of every unit that it declares.
+    /// Attributes of BaseUnit of every unit that it declares.
     pub bases: HashMap<String, Attributes>,
 }
 
-/// An input or output, a Real.
+/// A real input or output.
 pub struct Connector {
     /// The variable's name.
     pub name: String,
@@ -59,11 +59,11 @@ pub struct Connector {
     pub unit: Option<String>,
 }
 
-/// The value of a parameter, a Real.
+/// The value of a real parameter.
 pub struct Value {
     /// The variable's name.
     pub name: String,
-    /// In SI.
+    /// Value in SI units.
     pub value: f64,
     /// Its unit.
     pub unit: Option<String>,
@@ -98,10 +98,10 @@ impl Structure<'_> {
         names.flatten().map(|name| Ok((name.as_str(), self.base(name)?))).collect()
     }
 
-    /// What a unit is made of: the components that know it agree.
+    /// BaseUnit of a unit, as the components declare it.
     fn base(&self, unit: &str) -> Result<&Attributes> {
         let found = self.components.iter().find_map(|component| component.bases.get(unit));
-        found.with_context(|| format!("no component tells what the unit `{unit}` is"))
+        found.with_context(|| format!("no component declares the unit `{unit}`"))
     }
 
     fn system(&self, xml: &mut Xml) -> io::Result<()> {
@@ -164,7 +164,7 @@ fn parameter(xml: &mut Xml, Value { name, value, unit }: &Value) -> io::Result<(
     Ok(())
 }
 
-/// A Real with its value and unit, where there are such.
+/// A real with its value and its unit, if there are any.
 fn real(xml: &mut Xml, name: &str, value: Option<f64>, unit: Option<&str>) -> io::Result<()> {
     let value = value.map(|value| value.to_string());
     let attributes = [("value", value.as_deref()), ("unit", unit)];

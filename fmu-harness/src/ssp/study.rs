@@ -1,4 +1,4 @@
-//! What coupling does to the press: the study that Python runs on the package, and what it found.
+//! The error of the coupled press: a study that Python runs on the package, and its results.
 
 use crate::python::{output, script};
 use crate::trajectory::Trajectory;
@@ -8,26 +8,26 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What to run: see `python/press/study.py`.
+/// The plan of the study; see `python/press/study.py`.
 #[derive(Clone, Debug, Serialize)]
 pub struct Plan {
     /// [s] Communication step of the strokes.
     pub stroke_step: f64,
-    /// [s] How long they are run.
+    /// [s] Length of the run of strokes.
     pub stroke_stop: f64,
-    /// Factors of every clearance; 0 stands for ideal joints.
+    /// Factors of all clearances; 0 means ideal joints.
     pub factors: Vec<f64>,
-    /// [s] Communication step of these runs.
+    /// [s] Communication step of the runs with different clearances.
     pub clearance_step: f64,
-    /// [s] How long they are run.
+    /// [s] Length of these runs.
     pub clearance_stop: f64,
-    /// [s] Communication steps to compare.
+    /// [s] Communication steps that are compared.
     pub steps: Vec<f64>,
-    /// [s] Communication steps of the reference and of a run that tells how good it is.
+    /// [s] Communication steps of the reference and of a second run that measures the reference's error.
     pub references: [f64; 2],
-    /// [s] How long runs are compared.
+    /// [s] Time for which runs are compared.
     pub step_stop: f64,
-    /// [s] They are compared at multiples of this, which all steps divide.
+    /// [s] Runs are compared at multiples of this time, which is a multiple of all steps.
     pub grid: f64,
 }
 
@@ -47,118 +47,119 @@ impl Default for Plan {
     }
 }
 
-/// What was found.
+/// The results of the study.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Study {
-    /// The run that hosts see.
+    /// The run of the strokes.
     pub strokes: Strokes,
-    /// Bottom dead centre, by clearance.
+    /// Bottom dead centre for each clearance.
     pub clearances: Vec<DeadCentre>,
-    /// By master and communication step, with ideal joints.
+    /// Runs with ideal joints, by master and communication step.
     pub ideal: Convergence,
-    /// The same with play.
+    /// Runs with clearances, by master and communication step.
     pub worn: Convergence,
-    /// Every output over the strokes.
+    /// All outputs over the strokes.
     #[serde(skip)]
     pub trajectory: Trajectory,
 }
 
-/// An account of some whole strokes.
+/// Statistics of some complete strokes.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Strokes {
-    /// How many.
+    /// Number of strokes.
     pub strokes: f64,
-    /// [s] How long one lasts.
+    /// [s] Time of one stroke.
     pub lasts: f64,
     /// [N·m] Largest torque.
     pub torque: f64,
-    /// [N·m] Its root mean square.
+    /// [N·m] Root mean square of the torque.
     pub rms_torque: f64,
-    /// Share of the time at the limit.
+    /// Share of the time at the torque limit.
     pub limited: f64,
-    /// [N·m] The limit.
+    /// [N·m] Torque limit.
     pub limit: f64,
-    /// [rad/s] Least speed of the crank.
+    /// [rad/s] Minimum speed of the crank.
     pub slowest: f64,
-    /// [rad/s] Greatest.
+    /// [rad/s] Maximum speed of the crank.
     pub fastest: f64,
-    /// [J] Work that a stroke does on the sheet.
+    /// [J] Work on the sheet in one stroke.
     pub cut: f64,
     /// Energy through each port.
     pub ports: Ports,
 }
 
-/// One factor of the clearances.
+/// Results for one factor of the clearances.
 #[derive(Clone, Debug, Deserialize)]
 pub struct DeadCentre {
-    /// [m] Of main bearing and crank pin.
+    /// [m] Clearance of main bearing and crank pin.
     pub clearance: f64,
-    /// [m] How far beyond its place with ideal joints the slider turns back, for each stroke.
+    /// [m] Distance of the slider's turning point beyond that with ideal joints, for each stroke.
     pub dead_centre: Vec<f64>,
-    /// [m] Its error where the sheet holds it back most, for each stroke.
+    /// [m] Error of the slider's position at the largest load, for each stroke.
     pub loaded: Vec<f64>,
 }
 
-/// Runs by master and step against a reference.
+/// Errors of runs by master and step against a reference.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Convergence {
     /// The runs.
     pub points: Vec<Point>,
-    /// What two references differ by.
+    /// Difference between two references.
     pub floor: Floor,
 }
 
-/// Root mean squares of what two references differ by.
+/// Root mean squares of the difference between two references.
 #[derive(Clone, Copy, Debug, Deserialize)]
 pub struct Floor {
-    /// [rad/s] Of the crank's speed.
+    /// [rad/s] Difference in the crank's speed.
     pub speed: f64,
-    /// [m] Of the slider's place.
+    /// [m] Difference in the slider's position.
     pub position: f64,
 }
 
 /// One run.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Point {
-    /// How inputs go on between communication points.
+    /// Master: the way in which inputs continue between communication points.
     pub method: String,
     /// [s] Communication step.
     pub step: f64,
-    /// [rad/s] Root mean square error of the crank's speed.
+    /// [rad/s] Root mean square of the error of the crank's speed.
     pub speed: f64,
-    /// [m] Of the slider's place.
+    /// [m] Root mean square of the error of the slider's position.
     pub position: f64,
-    /// How often a step was taken.
+    /// Mean number of passes for one step.
     pub passes: f64,
-    /// [s/s] CPU time per simulated second, of the whole master.
+    /// [s/s] CPU time of the whole master per simulated second.
     pub cost: f64,
     /// Energy through each port.
     pub ports: Ports,
 }
 
-/// By name: `torque` and `load`.
+/// Energies by the name of the port, `torque` and `load`.
 pub type Ports = BTreeMap<String, Port>;
 
-/// Energy that went into the press, [J].
+/// [J] Energy that went into the press through a port.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 pub struct Port {
-    /// By its own books.
+    /// Computed from the press's outputs.
     pub inside: f64,
-    /// By the other side's.
+    /// Computed from the outputs of the other component.
     pub outside: f64,
-    /// Without signs.
+    /// Sum of the absolute values.
     pub exchanged: f64,
 }
 
 impl Port {
-    /// [J] What the coupling made, or lost.
+    /// [J] Energy that the coupling generated or, if negative, lost.
     pub fn residual(&self) -> f64 {
         self.inside - self.outside
     }
 }
 
 impl Study {
-    /// Runs the plan on a package under the interpreter `python`. The strokes go to the file `strokes` as a table.
+    /// Runs the plan on a package with the interpreter `python`. The strokes are written to the file `strokes` as a
+    /// table.
     pub fn run(python: &Path, package: &Path, strokes: &Path, plan: &Plan) -> Result<Self> {
         #[derive(Serialize)]
         struct Job<'a> {
@@ -171,7 +172,7 @@ impl Study {
         let order: PathBuf = folder.path().join("job.json");
         fs::write(&order, serde_json::to_string(&Job { package, strokes, plan })?)?;
         let answer = output(script(python, "press/study.py").arg(&order))?;
-        let study: Self = serde_json::from_str(&answer).context("the study's answer is not what was asked for")?;
+        let study: Self = serde_json::from_str(&answer).context("the results of the study cannot be read")?;
         Ok(Self { trajectory: Trajectory::read_csv(strokes)?, ..study })
     }
 }

@@ -1,4 +1,4 @@
-//! Finished runs, a line each, so that a study that was killed goes on where it was.
+//! A file of finished runs, one line for each, from which a study that was killed continues.
 
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
@@ -13,18 +13,18 @@ use std::sync::{Mutex, PoisonError};
 pub struct Line {
     /// Its number.
     pub run: usize,
-    /// What came of it.
+    /// Its outcome.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// What came of a run.
+/// The outcome of a run.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// Its quantities.
+    /// Values of its quantities.
     Values(Vec<f64>),
-    /// Why it has none.
+    /// The error that ended it.
     Failed(String),
 }
 
@@ -34,17 +34,17 @@ struct Head {
     digest: String,
 }
 
-/// The runs of one study that are finished.
+/// The finished runs of one study.
 pub struct Journal {
     file: Mutex<File>,
     lines: Mutex<BTreeMap<usize, Line>>,
 }
 
 impl Journal {
-    /// Opens the journal of a study with this digest, or begins one. A line that was cut off is dropped.
+    /// Opens the journal of the study with this digest, or starts one. An incomplete last line is dropped.
     ///
     /// # Errors
-    /// If there is one of another study, or the file cannot be read or written.
+    /// If the journal belongs to another study, or the file cannot be read or written.
     pub fn open(path: &Path, digest: &str) -> Result<Self> {
         let context = || format!("cannot use {}", path.display());
         let text = match fs::read_to_string(path) {
@@ -58,7 +58,7 @@ impl Journal {
         if let Some(head) = rows.next() {
             match serde_json::from_str::<Head>(head) {
                 Ok(head) if head.digest == digest => {}
-                _ => bail!("{} belongs to another study; give another directory, or remove it", path.display()),
+                _ => bail!("{} belongs to another study: choose another directory, or remove the file", path.display()),
             }
             for (number, row) in rows.enumerate() {
                 let line: Line = serde_json::from_str(row)
@@ -86,7 +86,7 @@ impl Journal {
         self.locked().len()
     }
 
-    /// None is finished.
+    /// Whether no run is finished.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -114,7 +114,7 @@ impl Journal {
     }
 }
 
-/// Where the journal of a study is.
+/// File of a study's journal.
 pub fn path(directory: &Path, study: &str) -> PathBuf {
     directory.join(format!("sweep-{study}.jsonl"))
 }

@@ -1,8 +1,8 @@
-//! Studies: many runs of one scene with other parameters, on all cores, resumable, with the same results for any number
-//! of workers.
+//! Studies: many runs of one scene with different parameters, on all cores. A study can be resumed, and its results are
+//! the same for any number of workers.
 //!
-//! A [`Study`] is read from a file and expanded into a [`Plan`], a table of all runs. Each finished run is one line of a
-//! [`Journal`]; whatever is in it is not run again. The results are put together from the journal.
+//! A [`Study`] is read from a file and expanded into a [`Plan`], a table of all runs. Each finished run is one line of
+//! a [`Journal`] and is not run again. The results are compiled from the journal.
 
 pub mod journal;
 pub mod plan;
@@ -27,14 +27,14 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;
 
-/// How long a crank may take for its turns, over what it would at the speed of its start.
+/// Longest time for a crank's turns, relative to the time at its start speed.
 const SLOW: f64 = 10.0;
 
-/// A study on its way.
+/// A study that is being run.
 pub struct Sweep<'a> {
-    /// What is asked for.
+    /// The study.
     pub study: &'a Study,
-    /// The scene that it is of.
+    /// Its scene.
     pub scenario: &'a Scenario,
     /// All its runs.
     pub plan: &'a Plan,
@@ -45,10 +45,10 @@ pub struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// Runs what the journal does not have, and adds it.
+    /// Runs all runs that the journal does not contain, and adds them to it.
     ///
     /// # Errors
-    /// If the FMU cannot be opened or the journal not be written; a run that fails is a line of the journal.
+    /// If the FMU cannot be opened or the journal cannot be written. A run that fails is a line of the journal.
     pub fn run(&self, journal: &Journal, tick: impl Fn() + Sync) -> Result<()> {
         let open: Vec<usize> = (0..self.plan.len()).filter(|run| !journal.has(*run)).collect();
         open.into_par_iter().try_for_each_init(
@@ -74,7 +74,7 @@ impl Sweep<'_> {
         let scene = &self.scenario.file.scene;
         let speed = own("crank.speed_start").unwrap_or(scene.crank.speed_start).abs();
         let turns = self.study.run.turns;
-        ensure!(speed > 0.0, "crank.speed_start = 0 rad/s: a crank that stands has no turns");
+        ensure!(speed > 0.0, "crank.speed_start = 0 rad/s: turns cannot be counted if the crank does not turn");
         let experiment = Experiment {
             settings,
             inputs: inputs::of_scene(&self.scenario.file.inputs),
@@ -97,8 +97,8 @@ impl Sweep<'_> {
             .collect()
     }
 
-    /// All that another engine needs to run the plan as this one does: communication points, inputs over time or crank
-    /// angle, what is kept, and the digest of the journal.
+    /// Everything that another program needs to run the plan in the same way: communication points, inputs over time or
+    /// crank angle, quantities to keep, and the digest of the journal.
     pub fn recipe(study: &Study, scenario: &Scenario, plan: &Plan) -> serde_json::Value {
         let input = |input: &inputs::Input| match &input.profile {
             Profile::Constant(value) => json!({ "name": input.name, "constant": value }),
@@ -120,18 +120,18 @@ impl Sweep<'_> {
         })
     }
 
-    /// Which study a journal belongs to.
+    /// Digest that identifies the study of a journal.
     pub fn digest(study: &Study, scenario: &Scenario, plan: &Plan) -> String {
         plan.digest(&[&study.text, &scenario.text, env!("CARGO_PKG_VERSION")])
     }
 
-    /// All runs, in their order, with what came of them.
+    /// All runs in their order, with their outcomes.
     ///
     /// # Errors
-    /// If the journal lacks a run.
+    /// If a run is not in the journal.
     pub fn frame(&self, journal: &Journal) -> Result<Frame> {
         let lines = journal.lines();
-        ensure!(lines.len() == self.plan.len(), "{} of {} runs are there", lines.len(), self.plan.len());
+        ensure!(lines.len() == self.plan.len(), "only {} of {} runs are finished", lines.len(), self.plan.len());
         let mut frame = Frame::default().with("run", Column::Integers((0..self.plan.len() as i64).collect()));
         for (place, name) in self.plan.names().iter().enumerate() {
             frame = frame.reals(name.clone(), (0..self.plan.len()).map(|run| self.plan.value(run, place)));
@@ -153,7 +153,7 @@ impl Sweep<'_> {
     }
 }
 
-/// What results were made from.
+/// Origin of the results.
 fn origin(study: &Study, scenario: &Scenario) -> Vec<(String, String)> {
     vec![
         ("study".into(), study.text.clone()),

@@ -1,4 +1,5 @@
-//! All runs of a study as a table: every row of its table with every point of its grid and every draw.
+//! The table of all runs of a study: every row of the study's table, with every point of its grid and every random
+//! draw.
 
 use super::study::{Distribution, Number, Study, parameter};
 use anyhow::{Context, Result, ensure};
@@ -9,12 +10,12 @@ use sha2::{Digest, Sha256};
 use slidercrank::scene::parameter::{Kind, Parameter};
 use std::path::Path;
 
-/// More runs than this are taken for a mistake.
+/// A study with more runs than this counts as a mistake.
 const MOST_RUNS: usize = 10_000_000;
-/// Draws after which a truncation counts as empty.
+/// Number of draws outside a truncated range after which the range counts as empty.
 const TRIES: usize = 10_000;
 
-/// A table of runs: parameters in columns.
+/// A table of runs. Each column is a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     names: Vec<String>,
@@ -44,13 +45,13 @@ impl Plan {
         let runs = runs.with_context(|| format!("the study has more than {MOST_RUNS} runs"))?;
         let names: Vec<String> = blocks.iter().flat_map(|(names, _)| names.clone()).collect();
         for (place, name) in names.iter().enumerate() {
-            ensure!(!names[..place].contains(name), "`{name}` gets its values twice");
+            ensure!(!names[..place].contains(name), "`{name}` is listed twice");
         }
         let mut values = Vec::with_capacity(runs * names.len());
         for run in 0..runs {
             let mut rest = run;
             let mut row: Vec<&[f64]> = Vec::new();
-            // The last block changes fastest.
+            // The last block varies fastest.
             for (_, rows) in blocks.iter().rev() {
                 row.push(&rows[rest % rows.len()]);
                 rest /= rows.len();
@@ -65,7 +66,7 @@ impl Plan {
         self.runs
     }
 
-    /// There are none.
+    /// Whether there are no runs.
     pub fn is_empty(&self) -> bool {
         self.runs == 0
     }
@@ -85,7 +86,7 @@ impl Plan {
         self.names.iter().enumerate().map(move |(place, name)| (name.as_str(), self.value(run, place)))
     }
 
-    /// Of names, values and all else that `parts` tell: what a journal belongs to.
+    /// Digest of all names and values and of `parts`. It identifies the study of a journal.
     pub fn digest(&self, parts: &[&str]) -> String {
         let mut digest = Sha256::new();
         for text in self.names.iter().map(String::as_str).chain(parts.iter().copied()) {
@@ -97,7 +98,7 @@ impl Plan {
     }
 }
 
-/// Parameters and rows of their values.
+/// Names of parameters, and rows of their values.
 type Block = (Vec<String>, Vec<Vec<f64>>);
 
 /// Rows of a CSV file.
@@ -120,7 +121,7 @@ fn table(file: &Path) -> Result<Block> {
     Ok((names, rows))
 }
 
-/// Random rows. Each draw has a stream of its own: it does not depend on how many there are.
+/// Random rows. Each draw has its own stream of random numbers, so it does not depend on the number of draws.
 fn draws(study: &Study) -> Result<Block> {
     let names: Vec<String> = study.random.keys().cloned().collect();
     let row = |draw: usize| {
@@ -133,7 +134,11 @@ fn draws(study: &Study) -> Result<Block> {
 }
 
 fn sample(parameter: &Parameter, distribution: &Distribution, generator: &mut ChaCha8Rng) -> Result<f64> {
-    ensure!(matches!(parameter.kind, Kind::Real { .. }), "`{}` is no real number to be drawn", parameter.name);
+    ensure!(
+        matches!(parameter.kind, Kind::Real { .. }),
+        "`{}` is not a real number and cannot be drawn",
+        parameter.name
+    );
     let value = |number: &Number| number.value(parameter);
     let between = |min: f64, max: f64| {
         Uniform::new_inclusive(min, max).with_context(|| format!("`{}`: {min} is not below {max}", parameter.name))

@@ -1,4 +1,4 @@
-//! One number of a run: an output, reduced over time or over its passages of a crank angle.
+//! One number of a run: an output, reduced over time, or over its values at a crank angle.
 
 use crate::run::ANGLE;
 use crate::trajectory::Trajectory;
@@ -6,37 +6,37 @@ use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// What is kept.
+/// A quantity that is kept.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantity {
-    /// An output, or the length of a vector of two: `joint.C.force` stands for its x and y.
+    /// Name of an output, or of a vector with the components x and y, whose length is taken: `joint.C.force`.
     pub of: String,
-    /// How many values become one.
+    /// The reduction of many values to one.
     pub reduce: Reduction,
-    /// [rad] If there, only the passages of this crank angle count, each interpolated between two communication points.
+    /// [rad] If set, only the values at this crank angle count, interpolated between communication points.
     pub at: Option<f64>,
 }
 
-/// How many values become one; sums run from the first to the last value.
+/// The reduction of many values to one. Sums run from the first to the last value.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reduction {
-    /// The least.
+    /// Minimum.
     Min,
-    /// The greatest.
+    /// Maximum.
     Max,
-    /// The largest size.
+    /// Largest absolute value.
     Peak,
-    /// From the least to the greatest.
+    /// Maximum minus minimum.
     Range,
-    /// The mean.
+    /// Mean.
     Mean,
-    /// The root mean square.
+    /// Root mean square.
     Rms,
-    /// The standard deviation, of a sample.
+    /// Standard deviation of a sample.
     Deviation,
-    /// The last one.
+    /// Last value.
     Last,
 }
 
@@ -44,7 +44,7 @@ impl Quantity {
     /// Its value in a run, without the first `transient` turns.
     ///
     /// # Errors
-    /// If there is no such output, nothing to reduce, or the value is no finite number.
+    /// If there is no such output, if there are no values to reduce, or if the result is not finite.
     pub fn of(&self, trajectory: &Trajectory, transient: f64) -> Result<f64> {
         let values = match trajectory.column(&self.of) {
             Ok(column) => column.to_vec(),
@@ -66,7 +66,7 @@ impl Quantity {
     }
 }
 
-/// Values where the angle passes `at`, whichever way.
+/// Values at the angle `at`, in either direction of rotation.
 fn passages(angles: &[f64], values: &[f64], at: f64) -> Vec<f64> {
     let turns = |angle: f64| (angle - at) / TAU;
     let mut found = Vec::new();
@@ -82,7 +82,7 @@ fn passages(angles: &[f64], values: &[f64], at: f64) -> Vec<f64> {
 }
 
 impl Reduction {
-    /// Of a list; not a number of an empty one.
+    /// Reduces a list. The result of an empty list is NaN.
     pub fn of(self, values: &[f64]) -> f64 {
         let count = values.len() as f64;
         let mean = || values.iter().sum::<f64>() / count;

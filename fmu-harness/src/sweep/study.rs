@@ -1,4 +1,4 @@
-//! A study file: which scene, which parameters take which values, what is kept of each run.
+//! Study files: a scene, values of parameters, and the quantities to keep of each run.
 
 use super::quantity::Quantity;
 use anyhow::{Context, Result, bail, ensure};
@@ -9,64 +9,64 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A study as its file tells it.
+/// Contents of a study file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Study {
     /// Short name.
     pub name: String,
-    /// What it asks.
+    /// Purpose of the study.
     #[serde(default)]
     pub description: String,
     /// Name of a shipped scene, or a file beside the study.
     pub scene: String,
-    /// Of the random draws.
+    /// Seed of the random draws.
     #[serde(default)]
     pub seed: u64,
-    /// Number of random draws, each with every point of the grid.
+    /// Number of random draws. Each is combined with every point of the grid.
     #[serde(default)]
     pub draws: usize,
-    /// How long and how finely.
+    /// Length and communication step of the runs.
     pub run: Run,
-    /// Values of parameters of which every combination is run.
+    /// Values of parameters. Every combination is run.
     #[serde(default)]
     pub grid: BTreeMap<String, Values>,
-    /// Distributions that parameters are drawn from.
+    /// Distributions of randomly drawn parameters.
     #[serde(default)]
     pub random: BTreeMap<String, Distribution>,
-    /// A CSV file beside the study with a parameter a column and a point a row, such as a design for a sensitivity
-    /// analysis.
+    /// A CSV file beside the study with one column for each parameter and one row for each point, such as a design for
+    /// a sensitivity analysis.
     pub table: Option<PathBuf>,
-    /// What is kept of every run.
+    /// Quantities to keep of every run.
     pub keep: BTreeMap<String, Quantity>,
-    /// The file's text.
+    /// Text of the file.
     #[serde(skip)]
     pub text: String,
-    /// Where it is.
+    /// Path of the file.
     #[serde(skip)]
     pub directory: PathBuf,
 }
 
-/// How long and how finely.
+/// Length and communication step of a run.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
-    /// Turns of the crank.
+    /// Crank turns.
     pub turns: f64,
-    /// Turns that are forgotten, of these.
+    /// Number of these turns before the evaluation starts.
     #[serde(default)]
     pub transient: f64,
-    /// [s] Between communication points.
+    /// [s] Communication step.
     pub step: f64,
 }
 
-/// A number in SI units, or a text with its unit.
+/// A number in SI units, or a string with a unit.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Number {
-    /// In SI units.
+    /// A number in SI units.
     Plain(f64),
-    /// Such as `"20 um"`.
+    /// A number with a unit, such as `"20 um"`.
     Text(String),
 }
 
@@ -74,13 +74,13 @@ pub enum Number {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub enum Values {
-    /// These.
+    /// A list.
     List(Vec<Number>),
-    /// Evenly spaced ones.
+    /// Evenly spaced values.
     Range(Range),
 }
 
-/// Evenly spaced values, the ends among them.
+/// Evenly spaced values, with both ends.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Range {
@@ -91,33 +91,33 @@ pub struct Range {
     logarithmic: bool,
 }
 
-/// What a parameter is drawn from.
+/// The distribution of a parameter.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Distribution {
-    /// Evenly between two values.
+    /// Uniform between two values.
     Uniform {
-        /// The least.
+        /// Minimum.
         min: Number,
-        /// The greatest.
+        /// Maximum.
         max: Number,
     },
-    /// Evenly in the logarithm.
+    /// Logarithmically uniform between two values.
     LogUniform {
-        /// The least.
+        /// Minimum.
         min: Number,
-        /// The greatest.
+        /// Maximum.
         max: Number,
     },
-    /// Normal; drawn again where it falls outside `min` and `max`.
+    /// Normal; values outside `min` and `max` are drawn again.
     Normal {
         /// Mean before truncation.
         mean: Number,
         /// Standard deviation before truncation.
         deviation: Number,
-        /// The least, if it is truncated there.
+        /// Minimum, if it is truncated there.
         min: Option<Number>,
-        /// The greatest.
+        /// Maximum, if it is truncated there.
         max: Option<Number>,
     },
 }
@@ -126,7 +126,7 @@ impl Study {
     /// Reads a study file.
     ///
     /// # Errors
-    /// What is wrong in it, with file and line.
+    /// If the file has a fault; the text names file and line.
     pub fn read(file: &Path) -> Result<Self> {
         let text = fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))?;
         let mut study: Self = toml::from_str(&text).with_context(|| format!("{}", file.display()))?;
@@ -138,22 +138,25 @@ impl Study {
 
     fn check(&self) -> Result<()> {
         let Run { turns, transient, step } = self.run;
-        ensure!(turns > 0.0 && turns <= 1e6, "run.turns = {turns}: wanted more than 0, at most 1e6");
+        ensure!(turns > 0.0 && turns <= 1e6, "run.turns = {turns}: it must be above 0 and at most 1e6");
         ensure!(
             transient >= 0.0 && transient < turns,
-            "run.transient = {transient}: wanted at least 0, below run.turns"
+            "run.transient = {transient}: it must be at least 0 and below run.turns"
         );
-        ensure!(step > 0.0 && step <= 1.0, "run.step = {step} s: wanted more than 0, at most 1 s");
-        ensure!(!self.keep.is_empty(), "[keep] names nothing: a study keeps at least one quantity");
-        ensure!(self.random.is_empty() || self.draws > 0, "[random] without draws: wanted draws = 1 or more");
-        ensure!(self.draws == 0 || !self.random.is_empty(), "draws = {} without [random]", self.draws);
+        ensure!(step > 0.0 && step <= 1.0, "run.step = {step} s: it must be above 0 and at most 1 s");
+        ensure!(!self.keep.is_empty(), "[keep] is empty: a study must keep at least one quantity");
+        ensure!(
+            self.random.is_empty() || self.draws > 0,
+            "[random] needs `draws`, the number of draws, which must be at least 1"
+        );
+        ensure!(self.draws == 0 || !self.random.is_empty(), "draws = {} needs distributions in [random]", self.draws);
         for name in self.grid.keys() {
             ensure!(!self.random.contains_key(name), "`{name}` is both in [grid] and in [random]");
         }
         Ok(())
     }
 
-    /// The scene: a shipped one's name, or the path of the file.
+    /// Name of a shipped scene, or the path of a scene file.
     pub fn scene(&self) -> String {
         if self.scene.ends_with(".toml") {
             self.directory.join(&self.scene).display().to_string()
@@ -166,16 +169,16 @@ impl Study {
 /// The parameter of this name.
 ///
 /// # Errors
-/// If there is none.
+/// If there is no such parameter.
 pub fn parameter(name: &str) -> Result<&'static Parameter> {
     Parameter::named(name).with_context(|| format!("there is no parameter `{name}`"))
 }
 
 impl Number {
-    /// In SI units, for a parameter.
+    /// The value of a parameter in SI units.
     ///
     /// # Errors
-    /// If it has another unit, or the parameter cannot take it.
+    /// If the unit is wrong, or if the parameter cannot have this value.
     pub fn value(&self, parameter: &Parameter) -> Result<f64> {
         let value = match self {
             Self::Plain(value) => *value,
@@ -194,7 +197,7 @@ impl Number {
 }
 
 impl Values {
-    /// All of them, in SI units.
+    /// All values in SI units.
     ///
     /// # Errors
     /// As [`Number::value`].

@@ -180,7 +180,7 @@ def test_it_reads_well_on_a_phone(opened, scene):
 def test_what_cannot_be_shown_says_why(opened):
     page = opened("hold").page
     assert page.locator(".missing").all_text_contents() == [
-        "Not shown: crank.speed_start = 0 rad/s: a crank that stands has no turns."
+        "Not shown: crank.speed_start = 0 rad/s: turns cannot be counted if the crank does not turn."
     ]
 
 

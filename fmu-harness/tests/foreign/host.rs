@@ -66,21 +66,21 @@ fn what_is_wrong_with_a_file_is_said_in_one_sentence() {
     let good = workshop.good();
     let whole = fs::read(&good).expect("read");
     fs::write(&good, &whole[..whole.len() / 2]).expect("written");
-    assert!(complaint(Fmu::open(&good)).contains("decay.fmu: not a whole ZIP archive"));
+    assert!(complaint(Fmu::open(&good)).contains("decay.fmu: not a complete ZIP archive"));
     assert!(
-        complaint(Fmu::open(Path::new("/none.fmu"))).starts_with("/none.fmu: not a whole ZIP archive: No such file")
+        complaint(Fmu::open(Path::new("/none.fmu"))).starts_with("/none.fmu: not a complete ZIP archive: No such file")
     );
 
     let mut flipped = whole.clone();
     flipped[whole.len() / 2] ^= 0xff;
     fs::write(&good, flipped).expect("written");
-    assert!(complaint(Fmu::open(&good)).contains("decay.fmu: not a whole ZIP archive"));
+    assert!(complaint(Fmu::open(&good)).contains("decay.fmu: not a complete ZIP archive"));
 
     let nameless = workshop.archive(&[Part::new("model/modelDescription.xml", XML)]);
     assert!(complaint(Fmu::open(&nameless)).ends_with("no modelDescription.xml at the top of the archive"));
 
     let elsewhere = workshop.fmu(XML, "binaries/c-code/decay.so");
-    let wanted = format!("no `binaries/{PLATFORM}/decay.so` in the FMU; it has binaries for: c-code");
+    let wanted = format!("the FMU does not contain `binaries/{PLATFORM}/decay.so`; it has binaries for: c-code");
     assert_eq!(complaint(Fmu::open(&elsewhere)), wanted);
 
     let windows = workshop.archive(&[Part::new("modelDescription.xml", XML), Part::new("binaries\\x.dll", "")]);
@@ -90,9 +90,9 @@ fn what_is_wrong_with_a_file_is_said_in_one_sentence() {
 
     for (from, to, words) in [
         ("</ModelStructure>", "", "expected"),
-        ("fmiVersion=\"2.0\"", "fmiVersion=\"1.0\"", "FMI version 1.0, wanted 2.0 or 3.0"),
-        ("<CoSimulation", "<ModelExchange", "no co-simulation is offered"),
-        ("name=\"k\" valueReference=\"2\"", "name=\"k\"", "`k` lacks a valueReference"),
+        ("fmiVersion=\"2.0\"", "fmiVersion=\"1.0\"", "the FMI version is 1.0; this program reads 2.0 and 3.0"),
+        ("<CoSimulation", "<ModelExchange", "the FMU has no co-simulation interface"),
+        ("name=\"k\" valueReference=\"2\"", "name=\"k\"", "`k` has no valueReference"),
     ] {
         let words_said = complaint(Fmu::open(&workshop.fmu(&XML.replace(from, to), "binaries/linux64/decay.so")));
         assert!(words_said.contains("modelDescription.xml") && words_said.contains(words), "{words_said}");
@@ -109,22 +109,22 @@ fn what_the_fmu_refuses_is_said_in_its_own_words() {
     let stranger =
         Fmu::open(&workshop.fmu(&XML.replace("{decay}", "{other}"), "binaries/linux64/decay.so")).expect("opened");
     let refusal = complaint(run(&stranger, &experiment(Until::Time(1.0)), |_| {}, |_| {}));
-    assert_eq!(refusal, "the FMU refuses to be instantiated: the GUID is not {decay}");
+    assert_eq!(refusal, "the FMU could not be instantiated: the GUID is not {decay}");
 
     let fmu = Fmu::open(&workshop.good()).expect("a good FMU");
     let with = |setting: &str| {
         let settings: Vec<Setting> = vec![setting.parse().expect("a setting")];
         complaint(run(&fmu, &Experiment { settings, ..experiment(Until::Time(1.0)) }, |_| {}, |_| {}))
     };
-    assert_eq!(with("k=-1"), "fmi2ExitInitializationMode answers fmi2Error: k must be positive");
-    assert_eq!(with("label=rise"), "setting `label` answers fmi2Error: the name is decay");
+    assert_eq!(with("k=-1"), "fmi2ExitInitializationMode returned fmi2Error: k must be positive");
+    assert_eq!(with("label=rise"), "setting `label` returned fmi2Error: the name is decay");
     assert_eq!(with("crank.angel=1"), "the FMU has no variable `crank.angel`; did you mean `crank.angle`?");
     assert_eq!(with("law=none"), "`law`: `none` is not one of driven, free");
     assert_eq!(with("k=NaN"), "`k`: `NaN` is not a finite number");
     let late = Experiment { start: 2e3, ..experiment(Until::Time(2001.0)) };
     let words = complaint(run(&fmu, &late, |_| {}, |_| {}));
     assert!(
-        words.starts_with("fmi2DoStep from 2000 s by 0.0") && words.ends_with("answers fmi2Error: too late"),
+        words.starts_with("fmi2DoStep from 2000 s by 0.0") && words.ends_with("returned fmi2Error: too late"),
         "{words}"
     );
 }

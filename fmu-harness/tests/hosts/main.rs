@@ -1,4 +1,4 @@
-//! The packaged FMUs in hosts that others wrote: FMPy, fmutool, fmucontainer, ecos, fmuloader.
+//! The packaged FMUs in hosts that others wrote: FMPy, fmutool, fmucontainer, ecos, libcosim, fmuloader, fmi-rs.
 //!
 //! Each test here is a file of Python tests beside this one, run by pytest in an environment that
 //! `fmu_harness::python` makes under `target/` from the pinned list `python/hosts.txt`. README.md tells
@@ -9,6 +9,7 @@
 mod mechanisms;
 mod packages;
 mod price;
+mod rust_importer;
 #[macro_use]
 #[path = "../pytest/mod.rs"]
 mod pytest;
@@ -43,6 +44,7 @@ files! { HOSTS:
     instances_know_nothing_of_each_other            "test_instances.py"
     derivatives_are_what_they_are_called            "test_derivatives.py"
     the_odd_ways_of_hosts_lead_to_the_same_result   "test_odd_hosts.py"
+    libcosim_computes_what_fmpy_computes            "test_cosim.py"
     two_in_a_container_equal_two_alone              "test_container.py"
     the_package_of_fmi_3_tells_events               "test_fmi3.py"
     a_press_with_its_drive_is_a_valid_package       "test_ssp.py"

@@ -120,6 +120,11 @@ fn stay_up() -> Result<(), String> {
     Ok(())
 }
 
+/// Ends all programs under Wine, such as a server that FMPy has left behind.
+pub fn stop_wine() {
+    drop(wine_command(Path::new("wineboot")).arg("--kill").status());
+}
+
 const WINE: &str = "wine";
 
 /// Variables that Wine is told its own folder by, and to be quiet.

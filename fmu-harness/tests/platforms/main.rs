@@ -1,8 +1,8 @@
 //! The library on other platforms: the bits of Linux on x86-64, and states that go on from one to another.
 //!
 //! These tests build the library once more for each platform, which takes minutes. They run for the platforms that the
-//! environment variable `SLIDERCRANK_PLATFORMS` lists, and only where the tools are there: Wine and MinGW-w64 for win64, QEMU
-//! and zig for linux-aarch64, zig for linux64 and darwin64. A test that does not run says why in one line.
+//! environment variable `SLIDERCRANK_PLATFORMS` lists, and only where the tools are there: Wine and MinGW-w64 for
+//! win64, QEMU and zig for linux-aarch64, zig for linux64 and darwin64. A test that does not run says why in one line.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 mod machine;
@@ -11,9 +11,10 @@ mod scene;
 use clap::ValueEnum;
 use fmu_harness::host::{Archive, Description};
 use fmu_harness::package::Version;
-use fmu_harness::package::build::Levels;
+use fmu_harness::package::build::{Levels, Library};
+use fmu_harness::package::elf::{self, Glibc};
 use fmu_harness::package::platform::Platform;
-use fmu_harness::package::{Stock, build, elf, mach_o};
+use fmu_harness::package::{Stock, build, mach_o};
 use fmu_harness::python::{Missing, environment};
 use fmu_harness::scenes::{Scenario, directory, names};
 use object::read::macho::{FatArch, MachOFatFile32, MachOFile64};
@@ -22,6 +23,7 @@ use scene::{Packaged, STEPS};
 use slidercrank::fmi::v2::abi::functions::NAMES;
 use std::collections::BTreeSet;
 use std::io::Write;
+use std::net::TcpListener;
 use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
@@ -44,7 +46,7 @@ fn skip(platform: Platform, why: &str) {
 /// The portable library of this machine, linked by its own linker: what the others are compared with.
 fn own() -> &'static Stock {
     static OWN: OnceLock<Stock> = OnceLock::new();
-    OWN.get_or_init(|| build::own(Levels::Portable).and_then(Stock::of).expect("a library"))
+    OWN.get_or_init(|| build::with_own_linker(Levels::Portable).and_then(Stock::of).expect("a library"))
 }
 
 /// What it takes to build for a platform and, except for macOS, to run what was built.
@@ -55,7 +57,22 @@ fn prepare(platform: Platform) -> Result<(), String> {
     build::prepare(platform).map_err(|error| format!("{error:#}"))
 }
 
-/// The libraries of a platform, if it is to be tested and can be. Those of all such platforms are built together.
+/// The portable libraries of all platforms that are to be tested and can be, built by one call.
+fn built() -> &'static [Library] {
+    static BUILT: OnceLock<Vec<Library>> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        let wanted = Platform::value_variants().iter().copied();
+        let wanted: Vec<Platform> =
+            wanted.filter(|platform| is_asked(*platform) && prepare(*platform).is_ok()).collect();
+        build::for_platforms(&wanted, Levels::Portable).expect("libraries")
+    })
+}
+
+fn built_for(platform: Platform) -> Vec<Library> {
+    built().iter().filter(|library| library.platform == platform).cloned().collect()
+}
+
+/// The libraries of a platform, if it is to be tested and can be.
 fn stock(platform: Platform) -> Option<&'static Stock> {
     static STOCKS: OnceLock<Vec<(Platform, Stock)>> = OnceLock::new();
     if !is_asked(platform) {
@@ -67,15 +84,10 @@ fn stock(platform: Platform) -> Option<&'static Stock> {
         return None;
     }
     let stocks = STOCKS.get_or_init(|| {
-        let wanted = Platform::value_variants().iter().copied();
-        let wanted: Vec<Platform> =
-            wanted.filter(|platform| is_asked(*platform) && prepare(*platform).is_ok()).collect();
-        let built = build::of(&wanted, Levels::Portable).expect("libraries");
-        let stock = |platform: &Platform| {
-            let libraries = built.iter().filter(|library| library.platform == *platform).cloned().collect();
-            (*platform, Stock::of(libraries).expect("a stock"))
-        };
-        wanted.iter().map(stock).collect()
+        let mut platforms: Vec<Platform> = built().iter().map(|library| library.platform).collect();
+        platforms.dedup();
+        let stock = |platform: Platform| (platform, Stock::of(built_for(platform)).expect("a stock"));
+        platforms.into_iter().map(stock).collect()
     });
     stocks.iter().find(|(known, _)| *known == platform).map(|(_, stock)| stock)
 }
@@ -158,10 +170,14 @@ fn a_state_that_is_saved_on_one_platform_goes_on_to_the_bit_on_another() {
     }
 }
 
-/// FMPy's own program loads the library under Wine and talks to FMPy here.
+/// A server of FMPy loads the library under Wine. `in_wine.py` tells what that takes.
 #[test]
 fn fmpy_runs_the_package_for_windows() {
     let Some(windows) = stock(Platform::Win64) else { return };
+    // The port of FMPy's server is fixed.
+    if TcpListener::bind(("127.0.0.1", 8080)).is_err() {
+        return skip(Platform::Win64, "another program uses port 8080, which FMPy's server needs");
+    }
     let python = environment("hosts", Missing::Make).expect("the environment of the hosts");
     let folder = tempfile::tempdir().expect("a folder");
     let scenario = Scenario::find("wornpin").expect("a shipped scene");
@@ -187,7 +203,33 @@ fn fmpy_runs_the_package_for_windows() {
         .output()
         .expect("timeout, of the coreutils");
     let [told, complaint] = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    assert!(output.status.success() && told.contains("11 points"), "{}\n{told}\n{complaint}", output.status);
+    if !output.status.success() {
+        machine::stop_wine();
+    }
+    assert!(output.status.success() && told.contains("1001 points"), "{}\n{told}\n{complaint}", output.status);
+}
+
+#[test]
+fn linux_on_arm_needs_a_file_of_its_own_in_fmi_2_alone() {
+    let platforms = [Platform::Linux64, Platform::LinuxAarch64];
+    if platforms.iter().any(|platform| stock(*platform).is_none()) {
+        return;
+    }
+    let scenario = Scenario::find("wornpin").expect("a shipped scene");
+    let files = |version: Version| -> Vec<(&str, Vec<String>)> {
+        let stocks = Stock::build_for(version, &platforms, Levels::Portable).expect("libraries");
+        let libraries = |stock: Stock| {
+            let file = tempfile::NamedTempFile::new().expect("a file");
+            stock.package_for(version, &scenario).expect("a package").save(file.path()).expect("written");
+            let names = Archive::open(file.path()).expect("an archive").names();
+            names.into_iter().filter(|name| name.starts_with("binaries/")).collect()
+        };
+        stocks.into_iter().map(|(ending, stock)| (ending, libraries(stock))).collect()
+    };
+    let name = |folder: &str| format!("binaries/{folder}/SliderCrank.so");
+    let [own, arm] = ["", "-linux-aarch64"].map(|ending| (ending, vec![name("linux64")]));
+    assert_eq!(files(Version::Fmi2), [own, arm]);
+    assert_eq!(files(Version::Fmi3), [("", vec![name("x86_64-linux"), name("aarch64-linux")])]);
 }
 
 /// Bytes that differ from build to build, or tell where it was, and functions of a newer Linux than asked for.
@@ -205,8 +247,7 @@ fn packages_of_other_platforms_tell_neither_place_nor_time_and_ask_for_no_new_li
         match platform {
             Platform::Linux64 | Platform::LinuxAarch64 => {
                 let newest = elf::glibc(&library).expect("an ELF library that needs glibc");
-                let minor: u32 = newest.strip_prefix("2.").and_then(|minor| minor.parse().ok()).expect("2.x");
-                assert!(minor <= 17, "{} needs glibc {newest}", platform.name());
+                assert!(newest <= Glibc { major: 2, minor: 17 }, "{} needs glibc {newest}", platform.name());
             }
             Platform::Win64 => {
                 // Microsoft PE specification, 3.3: the header's place is at 0x3C, and the time 8 bytes after its start.
@@ -248,6 +289,31 @@ fn what_is_missing_is_told_in_one_line_and_nothing_is_written() {
     }
 }
 
+/// `python3` is not on PATH, so zig cannot be installed; the C compiler and Rust are.
+#[test]
+fn without_zig_the_package_for_this_linux_is_made_and_says_what_it_needs() {
+    if !is_asked(Platform::Linux64) {
+        return skip(Platform::Linux64, &format!("{ASKED} does not list it"));
+    }
+    own();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = std::env::var_os("PATH").expect("PATH");
+    for program in ["cc", "ld", "as", "cargo", "rustc"] {
+        let found = std::env::split_paths(&path).map(|folder| folder.join(program)).find(|file| file.is_file());
+        std::os::unix::fs::symlink(found.expect(program), folder.path().join(program)).expect("a link");
+    }
+    let file = folder.path().join("scene.fmu");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+    command.args(["package", "--portable", "-o"]).arg(&file).env("PATH", folder.path());
+    let output = command.output().expect("the program starts");
+    let [printed, complaint] = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    assert!(output.status.success(), "{complaint}");
+    assert_eq!(complaint.lines().filter(|line| line.starts_with("zig cannot be set up: ")).count(), 1, "{complaint}");
+    let newest = elf::glibc(&library(own(), Platform::Linux64, &Scenario::find("wornpin").expect("a shipped scene")));
+    let newest = newest.expect("an ELF library that needs glibc");
+    assert!(printed.contains(&format!("needs glibc {newest} or newer")), "{printed}");
+}
+
 /// It cannot be run here. What can be seen: two processors, every function of the standard, digests that fit the bytes.
 #[test]
 fn the_library_for_macos_is_whole() {
@@ -273,8 +339,7 @@ fn the_library_for_macos_is_whole() {
         assert!(signed == slice, "{:?}: the digests are not those of the bytes", arch.architecture());
     }
     // The digests that the linker made are those that this code makes, and on ARM there are some.
-    let linked = build::of(&[Platform::Darwin64], Levels::Portable).expect("libraries");
-    for library in linked {
+    for library in built_for(Platform::Darwin64) {
         let bytes = std::fs::read(&library.file).expect("read");
         let mut signed = bytes.clone();
         mach_o::sign(&mut signed).expect("a library");

@@ -49,5 +49,5 @@ def test_a_plan_has_the_runs_and_what_they_have_in_common(write):
     assert recipe.origin["study"] == PRESS and list(recipe.keep) == ["mean", "tilt", "torque", "way"]
     # Ten times what the turns take at the speed of the start.
     assert recipe.latest({"crank.speed_start": -math.tau}) == pytest.approx(11.0)
-    with pytest.raises(RunError, match="no turns"):
+    with pytest.raises(RunError, match="turns cannot be counted"):
         recipe.latest({"crank.speed_start": 0.0})

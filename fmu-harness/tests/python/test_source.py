@@ -16,7 +16,7 @@ from conftest import fmu
 def test_the_scenes_are_those_that_the_program_knows(tmp_path):
     with pytest.raises(SourceError) as refused:
         package("nothing", tmp_path / "nothing.fmu")
-    shipped = str(refused.value).split("shipped are ")[1].split(";")[0]
+    shipped = str(refused.value).split("shipped scenes are ")[1].split(";")[0]
     assert sorted(scenes()) == sorted(shipped.split(", "))
 
 

@@ -1,16 +1,16 @@
-//! Why a pointer from outside cannot be used.
+//! Errors of pointers that the importer passes.
 
 use std::fmt;
 
-/// Why a pointer from outside cannot be used. Each holds the argument's name.
+/// A pointer of the importer cannot be used. Each error has the argument's name.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ArgumentError {
-    /// NULL where data are needed.
+    /// The pointer is NULL, but data are needed.
     Null(&'static str),
-    /// Not where such a datum can lie.
+    /// The pointer is not aligned for its type.
     Misaligned(&'static str),
-    /// More elements than any sensible call has.
+    /// The number of elements is larger than in any sensible call.
     TooLong(&'static str, usize),
 }
 

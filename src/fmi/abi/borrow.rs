@@ -1,13 +1,13 @@
-//! Pointer + length → checked borrow. All handling of null, zero-length and hostile arguments.
+//! Turns a pointer and a length into a checked borrow. Null pointers, length 0 and hostile arguments are handled only
+//! here.
 
 use super::ArgumentError;
 use std::ffi::{CStr, c_char, c_void};
 
-/// Types of which every bit pattern is a value, so that whatever the importer's memory holds may be
-/// looked at and written over.
+/// Types for which every bit pattern is a valid value, so that any memory of the importer may be read and overwritten.
 ///
 /// # Safety
-/// As said: no bit pattern may be invalid.
+/// No bit pattern may be invalid.
 pub unsafe trait AnyBits: Copy {}
 
 // SAFETY: a floating-point number.
@@ -27,7 +27,7 @@ unsafe impl AnyBits for *const c_char {}
 // SAFETY: a raw pointer; following it is another matter.
 unsafe impl AnyBits for *mut c_void {}
 
-/// More elements than any sensible call has: some hundred variables, some kilobytes of state.
+/// More elements than any sensible call has. There are some hundred variables, and states have some kilobytes.
 const MOST: usize = 1 << 24;
 
 fn check<T>(argument: &'static str, pointer: *const T, length: usize) -> Result<(), ArgumentError> {
@@ -76,7 +76,7 @@ pub unsafe fn slice_mut<'a, T: AnyBits>(
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer, length) })
 }
 
-/// Borrows the place of one answer.
+/// Borrows the memory of one result.
 ///
 /// # Safety
 /// A usable pointer points to one entry that nobody else uses during `'a`.
@@ -86,7 +86,7 @@ pub unsafe fn place<'a, T: AnyBits>(argument: &'static str, pointer: *mut T) -> 
     Ok(unsafe { &mut *pointer })
 }
 
-/// Borrows a structure of the importer's.
+/// Borrows a structure of the importer.
 ///
 /// # Safety
 /// A usable pointer points to a valid `T` that nobody writes during `'a`.
@@ -96,14 +96,14 @@ pub unsafe fn structure<'a, T>(argument: &'static str, pointer: *const T) -> Res
     Ok(unsafe { &*pointer })
 }
 
-/// Borrows a string, if there is one.
+/// Borrows a string, unless the pointer is NULL.
 ///
 /// # Safety
-/// A non-null pointer points to a string that ends in a zero byte and that nobody writes during `'a`.
+/// A non-null pointer points to a null-terminated string that nobody writes during `'a`.
 pub unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a CStr> {
     if pointer.is_null() {
         return None;
     }
-    // SAFETY: non-null; the caller vouches for its end.
+    // SAFETY: not null; the caller guarantees the null character at its end.
     Some(unsafe { CStr::from_ptr(pointer) })
 }

@@ -1,11 +1,11 @@
-//! An instance as the importer holds it: an opaque pointer, lent to one call at a time.
+//! Components: instances as opaque pointers of the importer. An instance is lent to one call at a time.
 
 use std::cell::UnsafeCell;
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a component points to. The flag keeps two calls out of one instance: a second thread, or a
-/// logger that calls back, is refused instead of aliasing.
+/// The memory that a component points to. The flag prevents two calls at the same time: calls from a second thread, or
+/// from the logger, are refused, so that there are never two references.
 pub struct Component<T> {
     busy: AtomicBool,
     instance: UnsafeCell<T>,
@@ -42,7 +42,7 @@ pub unsafe fn lend<'a, T>(component: *mut c_void) -> Option<Lent<'a, T>> {
 /// # Safety
 /// As [`lend`]; and the importer does not use the component again.
 pub unsafe fn take_back<T>(component: *mut c_void) -> Option<T> {
-    // SAFETY: the same promise. The flag stays up, so no call can get in any more.
+    // SAFETY: guaranteed by the caller. The flag stays set, so there are no further calls.
     std::mem::forget(unsafe { lend::<T>(component) }?);
     // SAFETY: the pointer came from `Box::into_raw` in `give`.
     let component = unsafe { Box::from_raw(component.cast::<Component<T>>()) };
@@ -52,7 +52,7 @@ pub unsafe fn take_back<T>(component: *mut c_void) -> Option<T> {
 impl<T> Lent<'_, T> {
     /// The instance.
     pub fn instance(&mut self) -> &mut T {
-        // SAFETY: the flag, raised by `lend`, keeps every other call out while `self` lives.
+        // SAFETY: the flag, set by `lend`, prevents other calls while `self` lives.
         unsafe { &mut *self.component.instance.get() }
     }
 }

@@ -1,10 +1,10 @@
-//! What one entry of a list of functions stands for.
+//! The macro that declares the functions of a version of FMI.
 
 /// Declares the functions of a version of FMI. An entry is a function's signature in C and its body,
 /// which is unsafe code under the argument given below. From the entries the macro makes
-/// - `bodies`: each function, for this library's own tests to call;
+/// - `bodies`: each function, for this library's own tests;
 /// - `NAMES`: the names of all functions;
-/// - the exports: what an importer finds under each name.
+/// - the exports: the functions that importers find by these names.
 macro_rules! functions {
     ($(
         $(#[$doc:meta])*
@@ -20,9 +20,9 @@ macro_rules! functions {
                 #[allow(unused_variables, reason = "the signature is the standard's, not every argument is needed")]
                 #[allow(unused_unsafe, unused_braces, reason = "not every body needs them")]
                 pub unsafe extern "C" fn $name($($argument: $type),*) -> $result {
-                    // SAFETY: by the standard the importer vouches that a component is NULL or a live one of
-                    // ours and that a non-NULL pointer has behind it a string, a structure, one entry or as
-                    // many as the length beside it says; the body borrows no more than that.
+                    // SAFETY: the standard requires that a component is NULL or a live component of this library,
+                    // and that a non-NULL pointer points to a string, a structure, one element, or as many
+                    // elements as the length argument says; the body borrows no more than that.
                     unsafe { $body }
                 }
             )+
@@ -31,7 +31,7 @@ macro_rules! functions {
         /// The names of all functions.
         pub const NAMES: &[&str] = &[$(stringify!($name)),+];
 
-        /// What the library exports: the functions of the standard, and nothing else.
+        /// The exports of the library: the functions of the standard, and nothing else.
         mod exports {
             use super::*;
             $(

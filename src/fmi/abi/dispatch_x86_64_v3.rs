@@ -1,12 +1,12 @@
-//! The same library, compiled for newer processors, beside this one.
+//! Finds and loads the same library, compiled for newer processors.
 //!
-//! A package for Linux on x86-64 has the library twice: `NAME.so`, which importers look for, runs on every such
-//! processor; `NAME.x86-64-v3.so` needs one of the level v3 (System V ABI, AMD64 supplement, 3.1.1: AVX2, fused
-//! multiplication and addition; usual since 2013 to 2015) and takes a tenth to three fifths less time. Importers talk to
-//! the first. It has the second compute the motion, unless the scene asks for portable bits; where the second is missing,
-//! damaged or too new for the processor, the first computes the motion, too.
+//! A package for Linux on x86-64 has the library twice: `NAME.so`, which importers load, runs on every such processor;
+//! `NAME.x86-64-v3.so` needs a processor of the level v3 (System V ABI, AMD64 supplement, 3.1.1: AVX2, fused
+//! multiplication and addition; common since 2013 to 2015) and takes a tenth to three fifths less time. Importers call
+//! the first library, which lets the second one compute the motion, unless the scene has `solver.portable` set. If the
+//! second library is missing, damaged or too new for the processor, the first one computes the motion itself.
 
-/// Name of the level, as compilers spell it.
+/// The compilers' name of the level.
 pub const LEVEL: &str = "x86-64-v3";
 
 #[cfg(not(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma"))))]
@@ -21,14 +21,14 @@ mod beside {
     use std::io::Read;
     use std::os::unix::ffi::OsStrExt;
 
-    /// A loaded library. It stays for as long as the process.
+    /// A loaded library. It is never unloaded.
     pub struct Library(*mut c_void);
 
     impl Library {
         /// Address of a function.
         pub fn find(&self, name: &str) -> Option<*const ()> {
             let name = CString::new(name).ok()?;
-            // SAFETY: the handle is of a library that is never closed.
+            // SAFETY: the library of the handle is never closed.
             let found = unsafe { libc::dlsym(self.0, name.as_ptr()) };
             if found.is_null() { None } else { Some(found.cast_const().cast()) }
         }
@@ -45,13 +45,14 @@ mod beside {
             return None;
         }
         let beside = CString::new(beside).ok()?;
-        // SAFETY: the package has put the file of this name there; its initialisers are Rust's.
+        // SAFETY: the file of this name comes from the package; its initialisers are those of Rust.
         let library = unsafe { libc::dlopen(beside.as_ptr(), libc::RTLD_NOW | libc::RTLD_LOCAL) };
         if library.is_null() { None } else { Some(Library(library)) }
     }
 
-    /// Whether an ELF file is not cut short: the loader would map the missing part as well, and the process would end
-    /// when it reads there. The table of sections comes last (System V ABI, ELF header: e_shoff, e_shentsize, e_shnum).
+    /// Whether an ELF file is complete. The loader would map the missing part of an incomplete file, too, and the
+    /// process would be killed when it reads there. The table of sections comes last (System V ABI, ELF header:
+    /// e_shoff, e_shentsize, e_shnum).
     fn is_whole(path: &OsStr) -> Option<bool> {
         let mut file = File::open(path).ok()?;
         let mut header = [0; 64];
@@ -69,7 +70,7 @@ mod beside {
         has!("avx" "avx2" "bmi1" "bmi2" "f16c" "fma" "lzcnt" "movbe" "popcnt" "sse3" "ssse3" "sse4.1" "sse4.2")
     }
 
-    /// The file that this code was loaded from.
+    /// The file of this library.
     fn own_path() -> Option<CString> {
         let here = own_path as fn() -> Option<CString> as *const c_void;
         let mut found = libc::Dl_info {
@@ -78,19 +79,19 @@ mod beside {
             dli_sname: std::ptr::null(),
             dli_saddr: std::ptr::null_mut(),
         };
-        // SAFETY: `found` is a place for the answer.
+        // SAFETY: `found` is memory for the result.
         let known = unsafe { libc::dladdr(here, &raw mut found) } != 0;
         if !known || found.dli_fname.is_null() {
             return None;
         }
-        // SAFETY: the loader's name of a library that is loaded.
+        // SAFETY: the loader's name of a loaded library.
         Some(unsafe { CStr::from_ptr(found.dli_fname) }.to_owned())
     }
 }
 
 #[cfg(not(all(target_os = "linux", target_arch = "x86_64", not(target_feature = "fma"))))]
 mod absent {
-    /// There is no such library.
+    /// A type without values, since there is no such library.
     pub enum Library {}
 
     impl Library {
@@ -100,7 +101,7 @@ mod absent {
         }
     }
 
-    /// Nothing: this library is built for the level itself, or the platform has no levels.
+    /// Always `None`: this library is built for the level itself, or the platform has no levels.
     pub fn open() -> Option<Library> {
         None
     }

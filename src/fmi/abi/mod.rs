@@ -1,10 +1,10 @@
-//! What the C interfaces of all versions of FMI have in common.
+//! The common part of the C interfaces of all versions of FMI.
 //!
-//! What comes from outside is an allegation until [`borrow`] has checked it: null, alignment and length are checked there
-//! and nowhere else. What cannot be checked (that a non-null pointer points to as many entries as the importer says, and
-//! that a component is a live one of ours) the importer vouches for by the standard. A component is lent to one call at a
-//! time by [`component`], and panics end in [`panic_guard`]. From a version's list of functions the macro of `declare.rs`
-//! makes bodies, exports and names. [`engine`] lets another build of the library compute.
+//! [`borrow`] checks all pointers of the importer, for null, alignment and length; they are checked nowhere else. Two
+//! things cannot be checked and are required by the standard: a non-null pointer points to as many elements as the
+//! importer says, and a component is a live component of this library. [`component`] lends a component to one call at a
+//! time, and [`panic_guard`] catches panics. The macro of `declare.rs` makes bodies, exports and names from a version's
+//! list of functions. [`engine`] lets another build of the library compute.
 #![allow(unsafe_code, reason = "pointers of the C interface")]
 
 mod argument_error;

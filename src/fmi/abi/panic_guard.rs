@@ -1,14 +1,14 @@
-//! No panic unwinds into C.
+//! Catches panics, so that none unwinds into C.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Runs a body that must not unwind into C; a panic becomes its text.
+/// Runs a body. If it panics, the error is the panic's message.
 pub fn guarded<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(body)).map_err(text)
 }
 
-/// The message of a panic.
+/// Message of a panic.
 fn text(payload: Box<dyn Any + Send>) -> String {
     match payload.downcast::<String>() {
         Ok(text) => *text,

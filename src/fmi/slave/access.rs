@@ -1,4 +1,4 @@
-//! Which variable a value reference means, and whether a call may read or write it.
+//! Finds the variable of a value reference and decides whether a call may read or write it.
 
 use super::error::{Error, VariableError};
 use super::states;
@@ -15,7 +15,7 @@ pub enum ValueType {
     Integer,
     /// A truth value.
     Boolean,
-    /// An item of an enumeration; it passes as an integer.
+    /// An item of an enumeration, passed as an integer.
     Enumeration,
 }
 
@@ -46,26 +46,26 @@ impl ValueType {
     }
 }
 
-/// Which variables a call may touch, as the importer's lifecycle has it at this moment.
+/// The variables that a call may use in the current state of the life cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Permission {
-    /// Whether the call may touch inputs.
+    /// Whether the call may use inputs.
     pub inputs: bool,
     /// Whether the call may read outputs; no call may write one.
     pub outputs: bool,
-    /// Whether the call may touch parameters.
+    /// Whether the call may use parameters.
     pub parameters: bool,
-    /// Name of the lifecycle's state, for a refusal.
+    /// Name of the state, for error messages.
     pub state: &'static str,
 }
 
 impl Permission {
-    /// Refuses to read what may not be read now.
+    /// Returns an error if the variable may not be read now.
     pub fn check_read(self, variable: &Variable) -> Result<(), VariableError> {
         self.check(variable, false)
     }
 
-    /// Refuses to write what may not be written now.
+    /// Returns an error if the variable may not be written now.
     pub fn check_write(self, variable: &Variable) -> Result<(), VariableError> {
         self.check(variable, true)
     }
@@ -96,8 +96,7 @@ pub fn variable(reference: u32) -> Result<&'static Variable, VariableError> {
     found.or_else(|| states::variable(reference)).ok_or(VariableError::Unknown(reference))
 }
 
-/// The variable of this value reference, which must be of the type asked for; an enumeration passes
-/// as an integer.
+/// The variable of this value reference, which must have this type. An enumeration counts as an integer.
 pub fn typed(reference: u32, asked: ValueType) -> Result<&'static Variable, VariableError> {
     let variable = variable(reference)?;
     match (ValueType::of(variable), asked) {
@@ -112,25 +111,25 @@ pub fn finite(variable: &Variable, value: f64) -> Result<f64, VariableError> {
     if value.is_finite() { Ok(value) } else { Err(VariableError::NotFinite(variable.name, value)) }
 }
 
-/// A value that may be handed out: extreme loads may make an output NaN or infinite.
+/// A value that may be returned. Extreme loads may make an output NaN or infinite.
 pub fn finite_output(variable: &Variable, value: f64) -> Result<f64, Error> {
     finite_number(variable.name, value)
 }
 
-/// The same, of the output of this name.
+/// A value of the output of this name that may be returned.
 pub fn finite_number(name: &'static str, value: f64) -> Result<f64, Error> {
     if value.is_finite() { Ok(value) } else { Err(Error::OutputNotFinite(name, value)) }
 }
 
-/// Order of the derivatives that we know.
+/// Order of the derivatives that exist.
 const FIRST: i32 = 1;
 
-/// Refuses derivatives of every order but the first.
+/// Returns an error unless the order is 1.
 pub fn check_first_order(variable: &Variable, order: i32) -> Result<(), VariableError> {
     if order == FIRST { Ok(()) } else { Err(VariableError::Order(variable.name, order)) }
 }
 
-/// How a real output is read.
+/// Reads a real output.
 pub fn real_output(variable: &Variable) -> Result<fn(&Outputs) -> f64, VariableError> {
     match variable.access {
         Access::RealOutput(get) => Ok(get),
@@ -151,7 +150,7 @@ pub fn real_input(variable: &Variable) -> Result<RealInput, VariableError> {
     input(variable, "a real input")
 }
 
-/// The same, of what outputs are differentiated with respect to, where parameters are out of the question.
+/// The input of directional derivatives, where parameters are not allowed.
 pub fn known_input(variable: &Variable) -> Result<RealInput, VariableError> {
     input(variable, "a real input, nor a real parameter in initialization mode")
 }
@@ -163,7 +162,7 @@ fn input(variable: &Variable, wanted: &'static str) -> Result<RealInput, Variabl
     }
 }
 
-/// The real parameter that a variable is.
+/// The real parameter of a variable.
 pub fn real_parameter(variable: &Variable) -> Option<&'static Parameter> {
     match variable.access {
         Access::Parameter(parameter @ Parameter { kind: Kind::Real { .. }, .. }) => Some(parameter),

@@ -1,4 +1,4 @@
-//! What a slave's time course is made by: an integrator of ours, or the importer's.
+//! The motion of a slave, computed by its own integrator or by that of the importer.
 
 use super::engine::{Engine, Run};
 use super::error::Error;
@@ -30,9 +30,9 @@ impl Interface {
 
 /// A mechanism in motion.
 pub enum Course {
-    /// By an integrator of ours.
+    /// The slave integrates.
     Own(Box<dyn Run>),
-    /// By the importer's.
+    /// The importer integrates.
     Hosted(Box<HostedMechanism>),
 }
 
@@ -44,7 +44,7 @@ pub struct StateValues {
 }
 
 impl StateValues {
-    /// A state, if there are so many.
+    /// A state, if there is one with this number.
     pub fn state(&self, place: usize) -> Option<f64> {
         self.states[..self.count].get(place).copied()
     }
@@ -69,7 +69,7 @@ impl Course {
         })
     }
 
-    /// Where `snapshot` was taken.
+    /// The mechanism in the state of `snapshot`.
     pub fn restore(
         interface: Interface,
         engine: &dyn Engine,
@@ -82,7 +82,7 @@ impl Course {
         })
     }
 
-    /// All that is needed to go on from here.
+    /// Everything that is needed to continue from here.
     pub fn snapshot(&self) -> Snapshot {
         match self {
             Self::Own(simulation) => simulation.snapshot(),
@@ -90,7 +90,7 @@ impl Course {
         }
     }
 
-    /// [s] Time, counted from the start.
+    /// [s] Time since the start.
     pub fn time(&self) -> f64 {
         match self {
             Self::Own(simulation) => simulation.time(),
@@ -98,7 +98,7 @@ impl Course {
         }
     }
 
-    /// Passes on the inputs of this moment.
+    /// Sets the inputs at the current time.
     pub fn take(&mut self, inputs: &mut InputLines) {
         match self {
             Self::Own(simulation) => inputs.pass_on(simulation.as_mut()),
@@ -114,7 +114,7 @@ impl Course {
         }
     }
 
-    /// Their time derivatives.
+    /// Time derivatives of outputs.
     pub fn output_rates(&mut self) -> Outputs {
         match self {
             Self::Own(simulation) => simulation.output_rates(),
@@ -122,7 +122,7 @@ impl Course {
         }
     }
 
-    /// Their derivatives with respect to the inputs, along `seed`.
+    /// Derivatives of outputs with respect to the inputs, along `seed`.
     pub fn output_sensitivity(&mut self, seed: Inputs) -> Outputs {
         match self {
             Self::Own(simulation) => simulation.output_sensitivity(seed),

@@ -4,14 +4,14 @@
 //! computation of F′(x) and F′(x)F″(x), Advances in Engineering Software 4, 1982). Long steps err by the functions'
 //! curvature and short ones by rounding: of all extrapolations each function takes the one whose neighbours agree best.
 
-/// Steps, each half of the one before.
+/// Number of steps. Each is half of the step before.
 const STEPS: usize = 30;
-/// Terms of the error's series that are eliminated.
+/// Number of terms of the error's series that are eliminated.
 const ELIMINATED: usize = 6;
-/// A function's rounding error over its value.
+/// Relative rounding error of a function.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A derivative and how far off it may be.
+/// A derivative and an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The derivative.
@@ -22,11 +22,11 @@ pub struct Estimate {
     pub size: f64,
 }
 
-/// Derivatives at 0 of the functions that `values` lists at a number, from steps up to `longest`. Where the functions
-/// cannot be had on one side of 0, however near, they come from the other side alone.
+/// Derivatives at 0 of the functions whose values `values` returns, from steps up to `longest`. If the functions do not
+/// exist on one side of 0, even very near, the derivatives come from the other side alone.
 ///
 /// # Errors
-/// The refusal on the side of positive numbers, if the functions can be had on neither.
+/// The error on the side of positive numbers, if the functions exist on neither side.
 pub fn derivatives<E>(longest: f64, mut values: impl FnMut(f64) -> Result<Vec<f64>, E>) -> Result<Vec<Estimate>, E> {
     let shortest = longest * 0.5_f64.powi(STEPS as i32 - 1);
     let (above, below) = (values(shortest), values(-shortest));
@@ -38,7 +38,7 @@ pub fn derivatives<E>(longest: f64, mut values: impl FnMut(f64) -> Result<Vec<f6
     };
     let (mut tables, mut step) = (vec![], longest);
     for _ in 0..STEPS {
-        // A step that leads too far is left out; shorter ones lead less far.
+        // A step to where the functions do not exist is left out.
         if let Ok(ends) = sides.ends(step, &mut values) {
             tables.resize_with(ends.len(), Table::default);
             for (table, end) in tables.iter_mut().zip(ends) {
@@ -50,7 +50,7 @@ pub fn derivatives<E>(longest: f64, mut values: impl FnMut(f64) -> Result<Vec<f6
     Ok(tables.into_iter().map(|table| table.best).collect())
 }
 
-/// Where the functions can be had.
+/// The sides on which the functions exist.
 enum Sides {
     Both,
     One { sign: f64, here: Vec<f64> },
@@ -80,7 +80,7 @@ impl Sides {
         }
     }
 
-    /// What a halved step divides the error's first term by, and each further term once more.
+    /// Factor by which halving the step divides the error's first term, and once more each further term.
     fn ratio(&self) -> f64 {
         match self {
             Self::Both => 4.0,

@@ -1,8 +1,8 @@
-//! What computes motions: this library, or another build of it that the processor can run.
+//! Engines compute motions: this library, or another build of it for newer processors.
 //!
-//! The slave holds settings, saved states and the log whichever engine computes; an engine gets a whole scene and hands
-//! back a run of it, and a snapshot of a run is the same numbers for every engine. So the choice is made anew wherever a
-//! mechanism is assembled: when start values have changed, and when a state is restored.
+//! The slave holds settings, saved states and the log for every engine. An engine gets a whole scene and returns a run
+//! of it, and a snapshot of a run has the same numbers for every engine. Therefore an engine is chosen whenever a
+//! mechanism is assembled: after start values have changed, and when a state is restored.
 
 use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
@@ -24,7 +24,7 @@ pub trait Engine: Sync {
     fn restore(&self, scene: &Scene, snapshot: &Snapshot) -> Result<Box<dyn Run>, SimulationError>;
 }
 
-/// Where an advance may end before its end.
+/// The points at which an advance may stop early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub enum Stops {
@@ -32,18 +32,19 @@ pub enum Stops {
     Nowhere,
     /// Where a contact closes or opens.
     Events,
-    /// Where a step of the method ends; that is so at every event, too.
+    /// Where a step of the method ends, also at every event.
     Steps,
 }
 
-/// A mechanism at one communication point: what a slave asks of a [`Simulation`]. No method but `snapshot` allocates.
+/// A mechanism at one communication point: the methods of a [`Simulation`] that a slave uses. Only `snapshot`
+/// allocates.
 pub trait Run: Send {
     /// [s] The communication point reached.
     fn time(&self) -> f64;
     /// As [`Simulation::set_inputs`].
     fn set_inputs(&mut self, inputs: Inputs, rates: Inputs);
-    /// Moves to `time` (≥ the time reached), or to the first stop before it, and tells whether a contact has closed or
-    /// opened there. The trajectory is the same whatever the stops.
+    /// Advances to `time`, not before the time reached, or to the first stop before it. Returns whether a contact has
+    /// closed or opened there. The trajectory does not depend on the stops.
     ///
     /// # Errors
     /// As [`Simulation::advance_to`].

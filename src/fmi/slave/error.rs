@@ -1,4 +1,4 @@
-//! Why a slave refuses or breaks off: each cause with the names and numbers that the importer needs.
+//! Errors of a slave, each with the names and numbers that the importer needs.
 
 mod display;
 
@@ -7,7 +7,7 @@ use crate::scene::SceneError;
 use crate::scene::parameter::Refusal;
 use crate::simulation::SimulationError;
 
-/// Why a call is refused or a step not finished.
+/// A call is refused, or a step fails.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
@@ -17,15 +17,15 @@ pub enum Error {
     Time(TimeError),
     /// A saved state cannot be used.
     SavedState(SavedStateError),
-    /// The parameters do not go together.
+    /// The parameters contradict each other.
     Scene(SceneError),
-    /// An output that is NaN or infinite.
+    /// An output is NaN or infinite.
     OutputNotFinite(&'static str, f64),
-    /// An output that has no derivative with respect to start values: it jumps there.
+    /// An output has no derivative with respect to start values, since it jumps.
     NoDerivative(&'static str),
     /// The mechanism cannot start or go on.
     Simulation(SimulationError),
-    /// The call is for a slave of the other kind of interface.
+    /// The call belongs to the other kind of interface.
     Interface,
     /// An array has not as many entries as the slave has states or event indicators.
     Count {
@@ -39,7 +39,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// How bad it is.
+    /// Its severity.
     pub fn severity(&self) -> Severity {
         match self {
             Self::Variable(_)
@@ -56,13 +56,13 @@ impl Error {
     }
 }
 
-/// Why a value reference or a value cannot be used.
+/// A value reference or a value cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum VariableError {
     /// No variable has this value reference.
     Unknown(u32),
-    /// The variable is of another type than the function's.
+    /// The variable does not have the function's type.
     Type {
         /// Name of the variable.
         name: &'static str,
@@ -75,20 +75,20 @@ pub enum VariableError {
     Moment {
         /// Name of the variable.
         name: &'static str,
-        /// Whether it was to be written, rather than read.
+        /// Whether it was written, rather than read.
         write: bool,
-        /// What it is: input, output or fixed parameter.
+        /// Its causality: input, output or fixed parameter.
         causality: &'static str,
-        /// State of the importer's lifecycle.
+        /// State of the life cycle.
         state: &'static str,
     },
     /// NaN or infinite.
     NotFinite(&'static str, f64),
     /// Outside the declared range, or not an item of the enumeration.
     Refused(Refusal),
-    /// Derivatives are of order 1 only.
+    /// The order of a derivative is not 1.
     Order(&'static str, i32),
-    /// The scene has not so many continuous states.
+    /// The scene has fewer continuous states.
     Absent(&'static str),
     /// This parameter's value would change the states or event indicators of model exchange.
     Structure(&'static str),
@@ -96,13 +96,13 @@ pub enum VariableError {
     Kind(&'static str, &'static str),
 }
 
-/// Why a time or a tolerance cannot be used.
+/// A time or a tolerance cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TimeError {
     /// NaN or infinite.
     NotFinite(&'static str, f64),
-    /// Not above 0.
+    /// 0 or negative.
     NotPositive(&'static str, f64),
     /// The stop lies before the start.
     StopBeforeStart {
@@ -111,11 +111,11 @@ pub enum TimeError {
         /// [s]
         stop: f64,
     },
-    /// The importer's communication point is not where the slave is.
+    /// The importer's communication point is not that of the slave.
     Elsewhere {
-        /// [s] The importer's.
+        /// [s] The importer's communication point.
         given: f64,
-        /// [s] The slave's.
+        /// [s] The slave's communication point.
         reached: f64,
     },
     /// The step would end after the experiment's stop time.
@@ -127,11 +127,11 @@ pub enum TimeError {
     },
 }
 
-/// Why a saved state cannot be used.
+/// A saved state cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SavedStateError {
-    /// NULL.
+    /// The state is NULL.
     Null,
     /// Not a live state of this slave.
     Foreign,
@@ -142,29 +142,29 @@ pub enum SavedStateError {
         /// Bytes needed.
         needed: usize,
     },
-    /// Too short or without our magic number.
+    /// Too short, or without the magic number of this format.
     NotOurs,
-    /// Written in another version of the format.
+    /// In another version of the format.
     Version {
-        /// Theirs.
+        /// Version of the bytes.
         found: u32,
-        /// Ours.
+        /// Version that this library reads.
         known: u32,
     },
-    /// Written by an FMU with another declaration of variables.
+    /// From an FMU with other variables.
     Declaration,
-    /// Cut or with bytes after the end.
+    /// Incomplete, or with bytes after the end.
     Length {
-        /// Bytes that the header promises.
+        /// Number of bytes in the header.
         expected: usize,
         /// Bytes given.
         given: usize,
     },
-    /// Of an instance of the other kind: co-simulation or model exchange.
+    /// From an instance of the other kind of interface: co-simulation or model exchange.
     Interface,
-    /// Checksum does not match.
+    /// The checksum does not match.
     Checksum,
-    /// The checksum matches but the content makes no sense.
+    /// The checksum matches, but the content is invalid.
     Content,
 }
 

@@ -1,4 +1,4 @@
-//! Model exchange: what a slave does for an importer that integrates. Nothing here allocates but a directional derivative.
+//! Model exchange: the functions of a slave for an importer that integrates. Only directional derivatives allocate.
 
 use super::Slave;
 use super::access::{Permission, finite, finite_output, real_input, real_output, variable};
@@ -35,13 +35,13 @@ impl Slave {
         Ok(Self { interface: Interface::ModelExchange, ..Self::new(packaged, None) })
     }
 
-    /// Which kind of interface the slave has.
+    /// The slave's kind of interface.
     pub fn interface(&self) -> Interface {
         self.interface
     }
 
-    /// Refuses a scene that has not the states of the packaged one where the importer integrates; `name` is the parameter
-    /// that makes the difference.
+    /// If the importer integrates: returns an error for a scene whose states differ from those of the packaged scene.
+    /// `name` is the parameter that makes the difference.
     pub(super) fn check_structure(&self, scene: &Scene, name: &'static str) -> Result<(), VariableError> {
         match self.interface {
             Interface::CoSimulation => Ok(()),
@@ -49,7 +49,7 @@ impl Slave {
         }
     }
 
-    /// Sets the importer's time [s]. An integrator's trial may look past the stop time.
+    /// Sets the importer's time [s]. An integrator's trial step may go past the stop time.
     pub fn set_time(&mut self, time: f64) -> Result<(), Error> {
         if !time.is_finite() {
             return Err(TimeError::NotFinite("time", time).into());
@@ -60,12 +60,12 @@ impl Slave {
         Ok(())
     }
 
-    /// How many continuous states there are.
+    /// Number of continuous states.
     pub fn state_count(&mut self) -> Result<usize, Error> {
         Ok(self.hosted()?.states().len())
     }
 
-    /// How many event indicators there are.
+    /// Number of event indicators.
     pub fn indicator_count(&mut self) -> Result<usize, Error> {
         Ok(self.hosted()?.indicators())
     }
@@ -81,8 +81,8 @@ impl Slave {
         Ok(())
     }
 
-    /// The place of a state that may be set by its value reference: where the importer integrates, once initialization is
-    /// over. The standard has another function for that, which some importers leave aside.
+    /// Number of a state that may be set by its value reference: if the importer integrates, after initialization. The
+    /// standard has another function for this, which some importers do not use.
     pub(super) fn settable_state(&self, variable: &Variable, permission: Permission) -> Option<usize> {
         match (&variable.access, &self.course) {
             (Access::State(place), Some(Course::Hosted(mechanism))) if self.initialized && permission.inputs => {
@@ -92,7 +92,7 @@ impl Slave {
         }
     }
 
-    /// Sets those states that have a new value.
+    /// Sets the states that have new values.
     pub(super) fn take_states(&mut self, states: &[Option<f64>; MAX_STATES]) {
         if let Some(Course::Hosted(mechanism)) = &mut self.course {
             for (state, new) in mechanism.states_mut().iter_mut().zip(states) {
@@ -142,7 +142,7 @@ impl Slave {
         Ok(update)
     }
 
-    /// Whether [`Slave::update_discrete_states`] would do something.
+    /// Whether [`Slave::update_discrete_states`] would change a contact.
     pub fn update_is_due(&mut self) -> Result<bool, Error> {
         Ok(self.hosted()?.update_is_due())
     }
@@ -210,7 +210,7 @@ impl Slave {
     fn hosted(&mut self) -> Result<&mut HostedMechanism, Error> {
         match self.live()? {
             Course::Hosted(mechanism) => Ok(mechanism),
-            // The lifecycle lets no call of model exchange in here.
+            // The life cycle allows no call of model exchange here.
             Course::Own(_) => Err(Error::Interface),
         }
     }

@@ -1,4 +1,4 @@
-//! Times and tolerance of the importer's experiment, and where a step ends.
+//! Times and tolerance of the importer's experiment, and the end of a step.
 
 use super::error::TimeError;
 use crate::scene::parameter::{Kind, Parameter};
@@ -16,10 +16,10 @@ pub struct Experiment {
     pub tolerance: Option<f64>,
 }
 
-/// Two times are the same communication point when they differ by less than this part of the step …
+/// Two times are the same communication point if they differ by less than this share of the step …
 const PART_OF_STEP: f64 = 1e-9;
-/// … or of the time since the start. Importers that add steps up, multiply them, or read them from text
-/// differ by some 1e-13 (measured: `fmuCheck` sends h = 0.0099999999999993).
+/// … or of the time since the start. The times of importers that add steps, multiply them, or read them from text
+/// differ by about 1e-13 (measured: `fmuCheck` sends h = 0.0099999999999993).
 const PART_OF_TIME: f64 = 1e-12;
 
 impl Experiment {
@@ -38,7 +38,7 @@ impl Experiment {
         Ok(Self { start, stop, tolerance })
     }
 
-    /// The same with the nearest tolerance that the solver takes.
+    /// The experiment with the nearest tolerance that the solver accepts.
     pub fn limited(self) -> Self {
         let nearest = |tolerance: f64| match Parameter::named("solver.tolerance").map(|parameter| &parameter.kind) {
             Some(Kind::Real { min, max, .. }) => tolerance.clamp(*min, *max),
@@ -47,17 +47,17 @@ impl Experiment {
         Self { tolerance: self.tolerance.map(nearest), ..self }
     }
 
-    /// Whether an importer can have set it.
+    /// Whether an importer could have set it.
     pub fn is_sound(&self) -> bool {
         Self::new(self.tolerance, self.start, self.stop).map(Self::limited) == Ok(*self)
     }
 
-    /// [s] Where a step of `size` from the importer's `point` ends, for an instance at `reached`; `reached` and the end are
-    /// counted from the start.
+    /// [s] Where a step of `size` from the importer's `point` ends, for an instance at `reached`; `reached` and the end
+    /// are counted from the start.
     ///
-    /// The standard's own step hc_s = (tc_i − tc_s) + hc_i from tc_s ends at the importer's next
-    /// point: so time is the importer's, and no rounding of ours adds up. The importer's point less its start is exact
-    /// wherever both are near; so a run has the same bits from any start time, but for what the importer's own sums round.
+    /// The standard's step hc_s = (tc_i − tc_s) + hc_i from tc_s ends at the importer's next point, so that rounding
+    /// errors do not add up. The difference of the importer's point and start time is exact if they are near each
+    /// other; so a run has the same bits from any start time, except for rounding in the importer's own sums.
     pub fn step_end(&self, reached: f64, point: f64, size: f64) -> Result<f64, TimeError> {
         finite("currentCommunicationPoint", point)?;
         positive("communicationStepSize", size)?;
@@ -71,18 +71,18 @@ impl Experiment {
             Some(stop) if end - stop > slack(size, elapsed + size, stop - self.start) + self.rounding(end) => {
                 Err(TimeError::PastStop { end, stop })
             }
-            // A step below the rounding of time must not lead back.
+            // A step smaller than the rounding error of time must not end before its start.
             _ => Ok((elapsed + size).max(reached)),
         }
     }
 
-    /// [s] What an importer's sums may have lost on the way to the time `t`.
+    /// [s] Largest rounding error of an importer's sums up to the time `t`.
     fn rounding(&self, t: f64) -> f64 {
         4.0 * f64::EPSILON * t.abs().max(self.start.abs())
     }
 }
 
-/// A tolerance that the solver cannot meet, and the one it uses instead.
+/// A tolerance outside the solver's range, and the tolerance that is used instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     asked: f64,
@@ -90,7 +90,7 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// What was limited, if anything.
+    /// The limited tolerance, if it was limited.
     pub fn between(asked: &Experiment, granted: &Experiment) -> Option<Self> {
         let (asked, granted) = (asked.tolerance?, granted.tolerance?);
         (asked != granted).then_some(Self { asked, granted })
@@ -104,7 +104,7 @@ impl fmt::Display for Limit {
     }
 }
 
-/// A tolerance of the experiment that is not used, and the one that the importer has set as a parameter.
+/// A tolerance of the experiment that is not used, and the tolerance that the importer has set as a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeftAside {
     experiment: f64,
@@ -112,7 +112,7 @@ pub struct LeftAside {
 }
 
 impl LeftAside {
-    /// The experiment's tolerance, if there is one and another is used.
+    /// The experiment's tolerance, if there is one and another one is used.
     pub fn between(experiment: &Experiment, used: f64) -> Option<Self> {
         let experiment = experiment.tolerance?;
         (experiment != used).then_some(Self { experiment, used })

@@ -2,7 +2,7 @@
 //!
 //! Value and derivative set at one communication point belong together, in either order. A value
 //! set alone is held: its derivative becomes 0. A derivative set alone starts from the value
-//! reached. Where nothing is set the line goes on, and the simulation is left alone.
+//! reached. If nothing is set, the line continues, and the simulation is not changed.
 
 use super::engine::Run;
 use super::variables::{Access, VARIABLES};
@@ -20,13 +20,13 @@ struct Lines {
 /// The inputs of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InputLines {
-    /// [s] Where the lines in force have their values.
+    /// [s] Time at which the current lines have their values.
     since: f64,
-    /// What the simulation follows.
+    /// The lines that the simulation follows.
     in_force: Lines,
-    /// What is to be followed from this communication point on, if anything was set here.
+    /// The lines from this communication point on, if an input was set here.
     wanted: Option<Lines>,
-    /// Derivatives set at this communication point; 0 where none has been set.
+    /// Derivatives set at this communication point, 0 for those that were not set.
     rates_set: Inputs,
 }
 
@@ -43,7 +43,7 @@ impl Default for InputLines {
 }
 
 impl Lines {
-    /// These lines with their values at a point `later` seconds on.
+    /// The lines with their values `later` seconds later.
     fn shifted(&self, later: f64) -> Self {
         let Self { values, rates } = *self;
         let values = Inputs {
@@ -71,7 +71,7 @@ pub fn are_finite(inputs: &Inputs) -> bool {
     inputs.crank_torque.is_finite() && inputs.slider_load.is_finite()
 }
 
-/// Value of one line; a constant stays the same to the bit.
+/// Value of one line. A constant keeps all its bits.
 fn reached(value: f64, rate: f64, later: f64) -> f64 {
     if rate == 0.0 { value } else { value + rate * later }
 }
@@ -103,14 +103,14 @@ impl InputLines {
         self.at(time).shifted(later - time).values
     }
 
-    /// Whether all of them are finite, as those that an importer can set are.
+    /// Whether all values and derivatives are finite, as all that an importer can set.
     pub fn are_finite(&self) -> bool {
         let Self { since, in_force, wanted, rates_set } = self;
         let lines = [Some(in_force), wanted.as_ref()];
         since.is_finite() && lines.into_iter().flatten().all(Lines::are_finite) && are_finite(rates_set)
     }
 
-    /// Makes a simulation by `start`, with the inputs wanted at its start in force.
+    /// Makes a simulation with `start`, with the inputs at its start time.
     pub fn start(
         &mut self,
         start: impl FnOnce(Inputs) -> Result<Box<dyn Run>, SimulationError>,
@@ -124,7 +124,7 @@ impl InputLines {
         Ok(simulation)
     }
 
-    /// Passes to the simulation what was set at its communication point, if that changes anything.
+    /// Passes inputs that were set at this communication point to the simulation, if they have changed.
     pub fn pass_on(&mut self, simulation: &mut dyn Run) {
         let Some(lines) = self.wanted else { return };
         let time = simulation.time();
@@ -134,7 +134,7 @@ impl InputLines {
         }
     }
 
-    /// Closes the communication point: what is set from now on belongs to the next one.
+    /// Ends the communication point: inputs that are set from now on belong to the next one.
     pub fn move_on(&mut self) {
         (self.wanted, self.rates_set) = (None, Inputs::default());
     }

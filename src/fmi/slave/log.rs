@@ -1,21 +1,21 @@
-//! One line to the importer: always where a call did not simply succeed, on request otherwise.
+//! Log lines to the importer: warnings and errors always, remarks on request.
 //!
-//! `loggingOn` and the choice of categories rule what helps in debugging, as the standard has it. A warning, a discarded
-//! step, a refusal or a fault is told to every importer: many do not look at the status of a call, and would go on with
-//! values that nobody asked for. Success as such is not logged, so a run without trouble is silent.
+//! `loggingOn` and the selected categories control debug messages, as the standard requires. Warnings, discarded steps,
+//! refusals and internal errors are sent to every importer: many importers do not check the status of a call and would
+//! continue with unintended values. Success is not logged, so a run without problems is silent.
 
 use super::severity::Severity;
 use super::variables::LogCategory;
 use std::ffi::{CStr, CString};
 use std::fmt::{self, Display, Write as _};
 
-/// Where lines go: the importer, through the callback of its version of FMI.
+/// Receives lines: the importer, through the callback of its version of FMI.
 pub trait Host {
-    /// Hands one line to the importer; without a severity it is about a call that simply succeeded.
+    /// Sends one line to the importer. Without a severity it is a remark about a successful call.
     fn log(&self, instance_name: &CStr, severity: Option<Severity>, category: &CStr, line: &CStr);
 }
 
-/// A host that does not listen.
+/// A host without a logger.
 #[derive(Clone, Copy, Debug)]
 pub struct Silent;
 
@@ -23,7 +23,7 @@ impl Host for Silent {
     fn log(&self, _: &CStr, _: Option<Severity>, _: &CStr, _: &CStr) {}
 }
 
-/// Names in a choice of categories that are not declared.
+/// Selected category names that are not declared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnknownCategories {
     first: String,
@@ -39,7 +39,7 @@ impl UnknownCategories {
     }
 }
 
-/// Whether a choice of categories has that of remarks in it.
+/// Whether the category of remarks is among the names.
 fn chooses_remarks(categories: &[&CStr]) -> bool {
     let named = |category: LogCategory| categories.iter().any(|name| name.to_bytes() == category.name().as_bytes());
     categories.is_empty() || named(LogCategory::All) || named(LogCategory::Remark)
@@ -53,7 +53,7 @@ impl Display for UnknownCategories {
     }
 }
 
-/// Where messages go, and whether remarks do.
+/// The receiver of messages, and whether remarks are sent.
 pub struct Logger {
     host: Box<dyn Host>,
     instance_name: CString,
@@ -61,20 +61,20 @@ pub struct Logger {
 }
 
 impl Logger {
-    /// A logger for the instance of this name, with remarks or without.
+    /// A logger for the instance of this name, with or without remarks.
     pub fn new(host: Box<dyn Host>, instance_name: CString, logging_on: bool) -> Self {
         Self { host, instance_name, remarks: logging_on }
     }
 
-    /// Chooses whether remarks are sent: if logging is on, and their category is named or none is. The names that are not
-    /// declared, if there are such; the others count.
+    /// Enables remarks if logging is on and their category, or no category, is named. Returns the names that are not
+    /// declared, if there are any; the others count.
     pub fn enable(&mut self, logging_on: bool, categories: &[&CStr]) -> Option<UnknownCategories> {
         self.remarks = logging_on && chooses_remarks(categories);
         UnknownCategories::among(categories)
     }
 
-    /// Switches the named categories on or off and leaves the others as they are; all of them if no category is named. The
-    /// names that are not declared, if there are such; the others count.
+    /// Switches the named categories on or off, or all of them if no category is named. Returns the names that are not
+    /// declared, if there are any; the others count.
     pub fn switch(&mut self, on: bool, categories: &[&CStr]) -> Option<UnknownCategories> {
         if chooses_remarks(categories) {
             self.remarks = on;
@@ -82,7 +82,7 @@ impl Logger {
         UnknownCategories::among(categories)
     }
 
-    /// Sends one line about a call to `function` that did not simply succeed, whatever is enabled.
+    /// Sends one line about a call to `function` with a warning or an error, whatever is enabled.
     pub fn say(&self, severity: Severity, function: &str, message: &dyn Display) {
         self.send(Some(severity), severity.category(), function, message);
     }
@@ -100,8 +100,8 @@ impl Logger {
     }
 }
 
-/// One line that no `printf` changes: the standard gives meaning to `%` and `#`, so they are written
-/// by number, as control characters are.
+/// One line that `printf` does not change. `%` and `#` have a meaning in the standard, so they are escaped by their
+/// codes, like control characters.
 fn line(function: &str, message: &dyn Display) -> CString {
     let text = format!("{function}: {message}");
     let mut safe = String::with_capacity(text.len());

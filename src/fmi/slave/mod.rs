@@ -1,15 +1,15 @@
-//! One slave, whichever version of FMI its importer speaks.
+//! A slave, for every version of FMI.
 //!
-//! A [`Slave`] holds what an importer can set and the simulation that follows from it. It knows
-//! neither states of a lifecycle nor C types: a version of FMI says with each call what the call
-//! may touch ([`Permission`]), turns an [`Error`] into a status of its own, and keeps what else its
-//! lifecycle needs. Saved states, their bytes and the log serve every version as well.
+//! A [`Slave`] has the settings of an importer and the simulation that follows from them. It has neither life-cycle
+//! states nor C types: a version of FMI passes with each call the variables that the call may use ([`Permission`]),
+//! turns an [`Error`] into one of its statuses, and stores the state of its life cycle. Saved states, their bytes and
+//! the log are the same for every version.
 //!
-//! The scene is the ground state. Until initialization is over, setting a start value edits the
-//! scene and drops the simulation, which is made anew when an output is asked for; so outputs follow
-//! start values in initialization mode. From then on only inputs change.
+//! All settings are in the scene. Until the end of initialization, setting a start value edits the scene and drops the
+//! simulation, which is made anew when an output is read; so outputs follow start values in initialization mode. After
+//! that only inputs change.
 //!
-//! A refused call changes nothing: values set together are applied all or none.
+//! A refused call changes nothing: values that are set together are all applied, or none of them.
 
 pub mod access;
 mod adjoint;
@@ -52,35 +52,35 @@ use inputs::are_finite;
 use start_sensitivity::{Rate, Reading, along};
 use variables::{Access, VARIABLES};
 
-/// Name of the parameter that comes before the experiment's tolerance once an importer has set it.
+/// Name of the parameter that takes precedence over the experiment's tolerance if an importer has set it.
 const TOLERANCE: &str = "solver.tolerance";
 
 /// One slave.
 pub struct Slave {
-    /// The scene that the FMU was packaged with.
+    /// The packaged scene.
     packaged: Scene,
-    /// Computes the motion of scenes that do not ask for portable bits, if there is such an engine.
+    /// The engine for newer processors, if there is one. It computes scenes without `solver.portable`.
     newer: Option<&'static dyn Engine>,
     interface: Interface,
     settings: Settings,
-    /// Whether initialization is over: parameters are fixed and the simulation is there.
+    /// Whether initialization is finished: parameters are fixed, and there is a simulation.
     initialized: bool,
     /// Absent until an output is needed.
     course: Option<Course>,
-    /// Outputs at this communication point, once they have been asked for.
+    /// Outputs at this communication point, after they have been read.
     outputs: Option<Outputs>,
 }
 
 impl Slave {
-    /// A slave with the start values of the packaged scene. Its motions are computed by `newer`, if there is such an
-    /// engine and the scene does not ask for portable bits.
+    /// A slave with the start values of the packaged scene. The engine `newer`, if there is one, computes its motion
+    /// unless `solver.portable` is set.
     pub fn new(packaged: Scene, newer: Option<&'static dyn Engine>) -> Self {
         let settings = Settings::of(packaged.clone());
         let interface = Interface::CoSimulation;
         Self { packaged, newer, interface, settings, initialized: false, course: None, outputs: None }
     }
 
-    /// As after [`Slave::new`].
+    /// Returns to the state after [`Slave::new`].
     pub fn reset(&mut self) {
         self.settings = Settings::of(self.packaged.clone());
         self.initialized = false;
@@ -92,12 +92,12 @@ impl Slave {
         self.settings.experiment.start + self.elapsed()
     }
 
-    /// [s] The same, counted from the start: the simulation's time, which no start time rounds.
+    /// [s] Time since the start: the simulation's time, which does not depend on the start time's rounding.
     fn elapsed(&self) -> f64 {
         self.course.as_ref().map_or(0.0, Course::time)
     }
 
-    /// Sets times and tolerance. A tolerance that the solver cannot meet is limited: that limit.
+    /// Sets times and tolerance. A tolerance outside the solver's range is limited; then the limit is returned.
     pub fn set_up(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Option<Limit>, Error> {
         let asked = Experiment::new(tolerance, start, stop)?;
         let granted = asked.limited();
@@ -105,7 +105,7 @@ impl Slave {
         Ok(Limit::between(&asked, &granted))
     }
 
-    /// What became of the experiment's tolerance, if another one is in use though the solver could meet it.
+    /// The experiment's tolerance, if it is valid but another one is used.
     pub fn tolerance_left_aside(&self) -> Option<LeftAside> {
         LeftAside::between(&self.settings.experiment, self.settings.tolerance())
     }
@@ -164,7 +164,7 @@ impl Slave {
         Ok(())
     }
 
-    /// Writes variables of one type: into drafts first, which count once every value is legal.
+    /// Writes variables of one type: first into copies, which replace the originals if every value is legal.
     pub fn set<T: Copy>(
         &mut self,
         asked: ValueType,
@@ -173,7 +173,7 @@ impl Slave {
         values: &[T],
         convert: fn(T) -> f64,
     ) -> Result<(), Error> {
-        // Inputs are set every step: the scene is copied only where one of its parameters is set.
+        // Inputs are set in every step, so the scene is copied only if a parameter is set.
         let (mut scene, mut inputs, time) = (None, self.settings.inputs, self.elapsed());
         let mut tolerance_set = self.settings.tolerance_set;
         let mut states: Option<[Option<f64>; MAX_STATES]> = None;
@@ -193,7 +193,7 @@ impl Slave {
                     self.check_structure(scene, variable.name)?;
                     tolerance_set |= parameter.name == TOLERANCE;
                 }
-                // `check_write` lets no write to an output or a state pass.
+                // `check_write` refuses to write outputs and states.
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => {}
                 Access::State(_) | Access::Derivative(_) => {}
             }
@@ -210,7 +210,7 @@ impl Slave {
         Ok(())
     }
 
-    /// Strings, of which there are none: only an empty list is right.
+    /// Strings. No variable is a string, so only an empty list is allowed.
     pub fn check_strings(&self, references: &[u32]) -> Result<(), Error> {
         match references {
             [] => Ok(()),
@@ -314,7 +314,7 @@ impl Slave {
         let end = self.settings.experiment.step_end(self.elapsed(), point, size)?;
         let inputs = self.settings.inputs.values_until(self.elapsed(), end);
         if !are_finite(&inputs) {
-            // Names the first input whose slope leads beyond all numbers.
+            // The error names the first input that overflows.
             VARIABLES.iter().try_for_each(|variable| match variable.access {
                 Access::Input { get, .. } => finite(variable, get(&inputs)).map(drop),
                 _ => Ok(()),
@@ -323,16 +323,16 @@ impl Slave {
         Ok(end)
     }
 
-    /// Everything that the slave is: what was set, and the simulation once initialization is over.
+    /// The state of the slave: its settings and, after initialization, the simulation.
     pub fn save(&self) -> (Settings, Option<Snapshot>) {
-        // While parameters can still change, the simulation is no more than a reading of the scene.
+        // While parameters can still change, the simulation follows from the scene.
         let running = if self.initialized { self.course.as_ref() } else { None };
         (self.settings.clone(), running.map(Course::snapshot))
     }
 
-    /// Makes the slave what it was when it was saved.
+    /// Restores a saved state.
     pub fn restore(&mut self, settings: &Settings, snapshot: Option<&Snapshot>) -> Result<(), Error> {
-        // The only part that can fail comes first.
+        // The parts that can fail come first.
         self.check_structure(&settings.scene, "a parameter of the saved state")?;
         self.course = match snapshot {
             None => None,
@@ -347,7 +347,7 @@ impl Slave {
         Ok(())
     }
 
-    /// The simulation, started if need be, with the inputs of this communication point.
+    /// The simulation with the inputs of this communication point. It is started if there is none yet.
     fn live(&mut self) -> Result<&mut Course, Error> {
         let (interface, newer) = (self.interface, self.newer);
         match &mut self.course {
@@ -363,7 +363,7 @@ impl Slave {
         if self.outputs.is_none() {
             self.outputs = Some(self.live()?.outputs());
         }
-        // There by now; a copy of them for each variable would cost more than making them.
+        // The outputs exist now. Copying them for each variable would cost more than computing them.
         Ok(self.outputs.get_or_insert_default())
     }
 
@@ -375,13 +375,13 @@ impl Slave {
     }
 }
 
-/// The mechanism of these settings at its start, with the inputs wanted there in force.
+/// The mechanism of these settings at its start, with its inputs at the start.
 fn started(interface: Interface, newer: Option<&'static dyn Engine>, settings: &mut Settings) -> Result<Course, Error> {
     let scene = settings.simulated_scene()?;
     Course::start(interface, engine_of(newer, &scene), &scene, &mut settings.inputs)
 }
 
-/// What computes the motion of `scene`.
+/// The engine for `scene`.
 fn engine_of(newer: Option<&'static dyn Engine>, scene: &Scene) -> &'static dyn Engine {
     match newer {
         Some(newer) if !scene.solver.portable => newer,
@@ -389,7 +389,7 @@ fn engine_of(newer: Option<&'static dyn Engine>, scene: &Scene) -> &'static dyn 
     }
 }
 
-/// Hands out what the outputs of these references have in `source`, up to the first that is not finite.
+/// Returns the values of these outputs in `source`, up to the first that is not finite.
 fn fill(references: &[u32], source: &Outputs, values: &mut [f64]) -> Result<(), Error> {
     for (&reference, value) in references.iter().zip(values) {
         let variable = variable(reference)?;

@@ -1,4 +1,4 @@
-//! The saved states of one slave, under the handles that the importer holds.
+//! The saved states of one slave, with the handles of the importer.
 
 use super::error::SavedStateError;
 use super::sealed;
@@ -6,12 +6,12 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
-/// What a version of FMI saves of an instance.
+/// The saved state of an instance, in a version of FMI.
 pub trait Saved: Serialize + DeserializeOwned {
-    /// Version of the bytes' format, to be raised with every change of the type or of what it holds.
+    /// Version of the bytes' format. It must be increased with every change of the type or of its contents.
     const FORMAT: u32;
 
-    /// Whether an instance can be in this state. The snapshot in it is checked when it is restored.
+    /// Whether an instance could be in this state. Its snapshot is checked when it is restored.
     fn makes_sense(&self) -> bool;
 
     /// The bytes.
@@ -26,8 +26,8 @@ pub trait Saved: Serialize + DeserializeOwned {
     }
 }
 
-/// The saved states of one slave. The importer holds their addresses, which are looked up and never
-/// followed: a made-up or freed one is refused.
+/// The saved states of one slave. The importer has their addresses as handles. A handle is searched in a list and never
+/// dereferenced, so an invented or freed handle is refused.
 pub struct SavedStates<T> {
     states: BTreeMap<usize, Box<T>>,
 }
@@ -39,8 +39,8 @@ impl<T> Default for SavedStates<T> {
 }
 
 impl<T> SavedStates<T> {
-    /// Keeps a state in the place of `handle`, or in a new place if that is 0; its handle. `T` must
-    /// not be of size zero, or addresses would coincide.
+    /// Stores a state under `handle`, or under a new handle if that is 0, and returns the handle. The size of `T` must
+    /// not be 0, or addresses would coincide.
     pub fn keep(&mut self, handle: usize, state: T) -> Result<usize, SavedStateError> {
         const { assert!(size_of::<T>() > 0, "a state has an address of its own") };
         if handle != 0 {
@@ -53,7 +53,7 @@ impl<T> SavedStates<T> {
         Ok(handle)
     }
 
-    /// The state kept under `handle`.
+    /// The state with this handle.
     pub fn get(&self, handle: usize) -> Result<&T, SavedStateError> {
         match self.states.get(&handle) {
             Some(state) => Ok(state),
@@ -62,7 +62,7 @@ impl<T> SavedStates<T> {
         }
     }
 
-    /// Forgets a state; 0 stands for no state.
+    /// Removes a state; handle 0 means no state.
     pub fn forget(&mut self, handle: usize) -> Result<(), SavedStateError> {
         match (handle, self.states.remove(&handle)) {
             (0, _) | (_, Some(_)) => Ok(()),
@@ -72,12 +72,12 @@ impl<T> SavedStates<T> {
 }
 
 impl<T: Saved> SavedStates<T> {
-    /// How many bytes the state kept under `handle` has.
+    /// Number of bytes of the state with this handle.
     pub fn serialized_size(&self, handle: usize) -> Result<usize, SavedStateError> {
         Ok(self.get(handle)?.to_bytes()?.len())
     }
 
-    /// Writes the bytes of the state kept under `handle`. The rest of a longer buffer becomes 0.
+    /// Writes the bytes of the state with this handle. The rest of a longer buffer is filled with 0.
     pub fn serialize(&self, handle: usize, buffer: &mut [u8]) -> Result<(), SavedStateError> {
         let bytes = self.get(handle)?.to_bytes()?;
         let (given, needed) = (buffer.len(), bytes.len());

@@ -1,8 +1,8 @@
 //! Versioned bytes: content between a header and a checksum.
 //!
-//! Layout, little-endian: magic (8), format version (4), digest of the declaration of variables
-//! (32), length of the content (4), content, CRC-32 of everything before it (4). Nothing in them
-//! points anywhere, so another process can read them, and every value is kept to the bit.
+//! Layout, little-endian: magic (8), format version (4), digest of the declaration of variables (32), length of the
+//! content (4), content, CRC-32 of everything before it (4). The bytes contain no pointers, so another process can read
+//! them, and every value keeps all its bits.
 
 use super::error::SavedStateError;
 use crate::scene::parameter::DECLARATION;
@@ -20,8 +20,8 @@ pub fn seal(version: u32, content: &impl Serialize) -> Result<Vec<u8>, SavedStat
     Ok([&sealed[..], &checksum].concat())
 }
 
-/// The content of bytes in format `version`. Zeros after the end are tolerated: an importer's buffer
-/// may be longer than the state.
+/// The content of bytes in format `version`. Zeros after the end are allowed, since an importer's buffer may be longer
+/// than the state.
 pub fn open<T: DeserializeOwned>(version: u32, bytes: &[u8]) -> Result<T, SavedStateError> {
     let mut reader = Reader { rest: bytes };
     if reader.take(MAGIC.len()) != Ok(MAGIC) {

@@ -9,7 +9,7 @@ use crate::scene::parameter::{PARAMETERS, Parameter};
 use crate::scene::{DriveMode, JointModel, Scene, SceneError};
 use serde::{Deserialize, Serialize};
 
-/// Everything that an importer has set, or left at its start value.
+/// All values that an importer can set, or their start values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// The scene as edited by the importer.
@@ -18,25 +18,25 @@ pub struct Settings {
     pub experiment: Experiment,
     /// Inputs.
     pub inputs: InputLines,
-    /// Whether the importer has set the scene's tolerance: then it takes precedence over the experiment's, which many
-    /// importers take from the model description without being told to.
+    /// Whether the importer has set the scene's tolerance. If so, it takes precedence over the experiment's tolerance,
+    /// which many importers take from the model description by default.
     pub tolerance_set: bool,
 }
 
 impl Settings {
-    /// Those of a slave of which nothing has been set yet.
+    /// The settings of a new slave.
     pub fn of(scene: Scene) -> Self {
         Self { scene, experiment: Experiment::default(), inputs: InputLines::default(), tolerance_set: false }
     }
 
-    /// Whether an importer can have set all of this.
+    /// Whether an importer could have set all these values.
     pub fn are_sound(&self) -> bool {
         let in_range = |parameter: &Parameter| parameter.admit(parameter.value(&self.scene)).is_ok();
         PARAMETERS.iter().all(in_range) && self.experiment.is_sound() && self.inputs.are_finite()
     }
 
-    /// The tolerance to be used: the scene's if the importer has set it, else the experiment's if it has one, else the
-    /// scene's as packaged.
+    /// The tolerance in use: the scene's if the importer has set it, else the experiment's if it has one, else that of
+    /// the packaged scene.
     pub fn tolerance(&self) -> f64 {
         match self.experiment.tolerance {
             Some(tolerance) if !self.tolerance_set => tolerance,
@@ -44,8 +44,9 @@ impl Settings {
         }
     }
 
-    /// Refuses a run that is certain to end before its time: a crank that is driven at a constant speed to where the rod
-    /// stands across the guide, if the experiment does not stop before. A torque may or may not lead there.
+    /// Refuses a run that is certain to end early: a crank with prescribed speed that must pass a position at which the
+    /// rod is perpendicular to the guide, unless the experiment stops before. With a torque the crank may or may not
+    /// get there.
     fn check_way(&self) -> Result<(), SceneError> {
         let Scene { drive, crank, rod, joint, .. } = &self.scene;
         let ideal = [joint.a.model, joint.b.model, joint.c.model, joint.t.model] == [JointModel::Ideal; 4];
@@ -69,7 +70,7 @@ impl Settings {
         Err(SceneError::Conflict { name: "rod.length".into(), value: rod.length, allowed })
     }
 
-    /// The scene to be simulated, if its parameters go together, with the tolerance to be used.
+    /// The scene to simulate, with the tolerance in use. It is an error if its parameters contradict each other.
     pub fn simulated_scene(&self) -> Result<Scene, SceneError> {
         self.scene.check()?;
         if self.scene.solver.portable && !PORTABLE {

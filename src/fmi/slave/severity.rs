@@ -1,17 +1,17 @@
-//! How bad it is: the statuses that every version of FMI has, success aside.
+//! Severities: the statuses of every version of FMI, without success.
 
 use super::variables::LogCategory;
 
-/// How bad the outcome of a call is.
+/// The severity of a call's outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Done, with a remark in the log.
+    /// Success with a warning.
     Warning,
-    /// Not done in full; the slave is sound.
+    /// Not finished; the slave can go on.
     Discard,
     /// Refused.
     Error,
-    /// A fault of ours; the slave is lost.
+    /// An internal error; the slave must not be used any more.
     Fatal,
 }
 

@@ -1,7 +1,7 @@
-//! Derivatives of outputs with respect to start values, while these may still be set.
+//! Derivatives of outputs with respect to start values, while start values may be set.
 //!
-//! A mechanism is assembled from numbers, not from numbers with derivatives; so the mechanism is assembled anew with start
-//! values a little to either side, and the outputs' differences are extrapolated (see [`difference`](super::difference)).
+//! A mechanism is assembled from numbers without derivatives. Therefore it is assembled anew with start values a little
+//! smaller and larger, and the differences of outputs are extrapolated (see [`difference`](super::difference)).
 
 use super::access::finite_number;
 use super::difference::{Estimate, derivatives};
@@ -10,27 +10,27 @@ use super::settings::Settings;
 use crate::model::signals::Outputs;
 use crate::scene::parameter::{Kind, Parameter};
 
-/// A real parameter and how fast it changes.
+/// A real parameter and its component of the direction.
 pub type Rate = (&'static Parameter, f64);
 
 /// The longest step changes a parameter by this share of itself …
 const SHARE: f64 = 1.0 / 16.0;
-/// … or, where it is 0, by this share of its range, …
+/// … or, if it is 0, by this share of its range, …
 const SHARE_OF_RANGE: f64 = 1e-3;
-/// … and by no more than this.
+/// … and by not more than this.
 const MOST: f64 = 0.1;
-/// A derivative whose error may be larger than this share of it is none, …
+/// A derivative is rejected if its error may be larger than this share of it, …
 const DOUBTFUL: f64 = 1e-3;
-/// … unless what the longest step makes of the error is less than this share of the output.
+/// … unless the error times the longest step is less than this share of the output.
 const NOTICEABLE: f64 = 1e-6;
 
-/// An output by its name, and how it is read.
+/// Name of an output, and the function that reads it.
 pub type Reading = (&'static str, fn(&Outputs) -> f64);
 
-/// Derivatives of `outputs` along a direction of the start values. `assembled` tells the outputs of settings.
+/// Derivatives of `outputs` along a direction of the start values. `assembled` returns the outputs for settings.
 ///
 /// # Errors
-/// `NoDerivative` if an output jumps there; the refusal of the settings if they cannot be changed to either side.
+/// `NoDerivative` if an output jumps; the error of the settings if they cannot be changed in either direction.
 pub fn along(
     direction: &[Rate],
     settings: &Settings,
@@ -41,7 +41,7 @@ pub fn along(
     if largest == 0.0 {
         return Ok(vec![0.0; outputs.len()]);
     }
-    // Of a direction whose largest part is 1, so that no step overflows.
+    // The largest component of the direction becomes 1, so that no step overflows.
     let reach = |(parameter, rate): &Rate| scale(parameter, settings) / (rate / largest).abs();
     let longest = direction.iter().filter(|(_, rate)| *rate != 0.0).map(reach).fold(f64::MAX, f64::min);
     let estimates = derivatives(longest, |step| {
@@ -62,7 +62,7 @@ pub fn along(
     outputs.iter().zip(estimates).map(accepted).collect()
 }
 
-/// How far a parameter may be changed for a start.
+/// Longest step of a parameter.
 fn scale(parameter: &Parameter, settings: &Settings) -> f64 {
     match (parameter.value(&settings.scene).abs(), &parameter.kind) {
         (0.0, Kind::Real { max, .. }) => (SHARE_OF_RANGE * max).min(MOST),

@@ -1,4 +1,4 @@
-//! Continuous states on the FMU's face: their variables, and which parameters decide how many there are.
+//! Continuous states of model exchange: their variables, and the parameters that determine their number.
 
 use super::error::VariableError;
 use super::variables::{DERIVATIVES, STATES, Variable};
@@ -11,7 +11,7 @@ use crate::simulation::{PINS, contacts, nominals};
 
 const _: () = assert!(STATES.len() == MAX_STATES && DERIVATIVES.len() == MAX_STATES, "a variable for every state");
 
-/// The state or derivative of this value reference, if it is one's.
+/// Number of the state whose value or derivative has this value reference, if there is one.
 pub fn variable(reference: u32) -> Option<&'static Variable> {
     let of = |list: &'static [Variable], first: u32| {
         reference.checked_sub(first).and_then(|place| list.get(usize::try_from(place).ok()?))
@@ -19,12 +19,12 @@ pub fn variable(reference: u32) -> Option<&'static Variable> {
     of(STATES, FIRST_STATE).or_else(|| of(DERIVATIVES, FIRST_DERIVATIVE))
 }
 
-/// Whether another integrator can have the scene's equations: rigid contacts have none.
+/// Whether another integrator can solve the scene's equations. Rigid contacts have no equations of motion.
 pub fn can_be_exchanged(scene: &Scene) -> bool {
     scene.solver.method != Method::Moreau
 }
 
-/// What the description of a package of this scene says for model exchange, if it offers that.
+/// Contents of the model description for model exchange, if the scene supports it.
 pub fn exchange(scene: &Scene) -> Option<Exchange> {
     can_be_exchanged(scene).then(|| {
         let variables = state_variables(scene);

@@ -1,4 +1,4 @@
-//! Steps to their end, or to an earlier one: at an event, or with a step of the method; and both sides of an event.
+//! Steps of a slave, which may stop early at an event or at the end of a method's step, and the two sides of an event.
 
 use super::access::finite_number;
 use super::course::Course;
@@ -12,25 +12,25 @@ use crate::scene::{JointModel, Surface};
 use crate::simulation::{ContactReport, PINS, Side, contacts};
 
 impl Slave {
-    /// [s] The communication point reached, counted from the start.
+    /// [s] The communication point reached, as time since the start.
     pub fn reached(&self) -> f64 {
         self.elapsed()
     }
 
-    /// [s] A time of the importer's, counted from the start.
+    /// [s] A time of the importer as time since the start.
     pub fn counted_from_start(&self, time: f64) -> f64 {
         time - self.settings.experiment.start
     }
 
-    /// Moves the slave to `end`, counted from the start, or as far as it gets.
+    /// Advances to `end`, a time since the start, or as far as possible.
     pub fn advance_to(&mut self, end: f64) -> Result<(), Error> {
         self.advance_with(end, Stops::Nowhere).map(drop)
     }
 
-    /// Moves the slave to `end`, counted from the start, or to the first stop before it, and tells whether a contact has
-    /// closed or opened there. The trajectory is the same whatever the stops.
+    /// Advances to `end`, a time since the start, or to the first stop before it. Returns whether a contact has closed
+    /// or opened there. The trajectory does not depend on the stops.
     pub fn advance_with(&mut self, end: f64, stops: Stops) -> Result<bool, Error> {
-        // The lifecycle lets no step into model exchange.
+        // The life cycle allows no steps in model exchange.
         let Course::Own(simulation) = self.live()? else { return Err(Error::Interface) };
         let outcome = simulation.advance(end, stops);
         self.settings.inputs.move_on();
@@ -39,8 +39,8 @@ impl Slave {
         Ok(outcome.map_err(|error| error.counted_from(start))?)
     }
 
-    /// Reads outputs and their derivatives from now on on this side of the events at the communication point, until time
-    /// moves.
+    /// Selects the side of the events at this communication point on which outputs and their derivatives are read,
+    /// until the next step.
     pub fn look(&mut self, side: Side) -> Result<(), Error> {
         if let Course::Own(simulation) = self.live()? {
             simulation.look(side);

@@ -7,11 +7,11 @@ use crate::scene::parameter::Parameter;
 pub struct Variable {
     /// Name in the model description.
     pub name: &'static str,
-    /// Type and place.
+    /// Type, and the functions that access it.
     pub access: Access,
 }
 
-/// Type and place of a variable.
+/// Type of a variable, with the functions that access it.
 pub enum Access {
     /// A real input.
     Input {
@@ -28,11 +28,11 @@ pub enum Access {
     IntegerOutput(fn(&Outputs) -> i32),
     /// A Boolean output.
     BooleanOutput(fn(&Outputs) -> bool),
-    /// The continuous state at this place; not every scene has one there.
+    /// The continuous state of this number. Not every scene has so many states.
     State(usize),
-    /// The derivative of the state at this place.
+    /// The derivative of the state of this number.
     Derivative(usize),
-    /// A fixed parameter of any type; an enumeration passes as an integer.
+    /// A fixed parameter of any type. An enumeration is passed as an integer.
     Parameter(&'static Parameter),
 }
 
@@ -46,7 +46,7 @@ macro_rules! log_categories {
         }
 
         impl LogCategory {
-            /// Every category, in the order of the declaration.
+            /// All categories, in the order of the declaration.
             pub const ALL: &[Self] = &[$(Self::$item),+];
 
             /// The standard's name.

@@ -1,4 +1,4 @@
-//! What a package says of itself beside its binary: `modelDescription.xml` and the documentation.
+//! The description in a package: `modelDescription.xml` and the documentation page.
 
 use crate::fmi::slave::states::exchange;
 use crate::model_description::rows::{Experiment, RowError};
@@ -8,12 +8,12 @@ use crate::scene::modal::ModalTable;
 use crate::scene::{PARAMETERS, Scene, slot};
 use std::{fmt, io};
 
-/// Why a description cannot be written.
+/// A description cannot be written.
 #[derive(Debug)]
 pub enum DescriptionError {
-    /// The declaration is wrong; build.rs would have said so.
+    /// The declaration is wrong; build.rs would have reported it.
     Declaration(RowError),
-    /// The text cannot be put together.
+    /// The text cannot be written.
     Writing(io::Error),
 }
 
@@ -40,8 +40,8 @@ impl From<io::Error> for DescriptionError {
     }
 }
 
-/// `modelDescription.xml` of a package whose start values are the scene's. With no experiment it has the declared one;
-/// `made` is when it was made, in seconds since 1970, if not on the day of the version.
+/// `modelDescription.xml` of a package with the scene's start values. The default experiment is the declared one unless
+/// it is given. `made` is the date in seconds since 1970, if it is not that of the version.
 pub fn model_description(
     scene: &Scene,
     experiment: Option<Experiment>,
@@ -61,8 +61,7 @@ pub fn model_description(
     Ok(xml::write(&declaration, &package)?)
 }
 
-/// `documentation/index.html` of a package whose start values are the scene's; `title` tells which
-/// scene that is.
+/// `documentation/index.html` of a package with the scene's start values. `title` is the title of the scene.
 pub fn documentation(scene: &Scene, title: &str) -> Result<String, DescriptionError> {
     let starts: Vec<f64> = PARAMETERS.iter().map(|parameter| parameter.value(scene)).collect();
     let modes = scene.rod.flexible.table.as_ref().map(ModalTable::modes);

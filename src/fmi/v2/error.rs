@@ -1,4 +1,4 @@
-//! Why a call is refused: what the slave says, and what FMI 2.0 and its C interface add.
+//! Errors of calls: those of the slave, and those of FMI 2.0 and its C interface.
 
 use super::lifecycle::State;
 use super::status_kind::StatusKind;
@@ -10,30 +10,30 @@ use crate::fmi::status::Status;
 use crate::scene::slot::SlotError;
 use std::fmt;
 
-/// Why a call is refused or a step not finished.
+/// A call is refused, or a step fails.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The slave refuses or breaks off.
+    /// An error of the slave.
     Slave(slave::Error),
-    /// A pointer from outside cannot be used.
+    /// A pointer of the importer cannot be used.
     Argument(ArgumentError),
-    /// The call does not belong in this state.
+    /// The call is not allowed in this state.
     CallOrder(State),
-    /// The function belongs to this kind of interface, and the instance is of the other.
+    /// The function belongs to this kind of interface, but the instance has the other kind.
     Interface(Interface),
-    /// The importer asks for something else than this FMU.
+    /// The importer expects a different FMU.
     Instantiate(InstantiateError),
-    /// The status asked for is not known here.
+    /// This FMU does not have this kind of status.
     StatusKind(StatusKind),
     /// A number that is not a status kind.
     NotAStatusKind(i32),
-    /// A fault of ours, with what is known of it.
+    /// An internal error, with its message.
     Panic(String),
 }
 
 impl Error {
-    /// How bad it is.
+    /// Its severity.
     pub fn severity(&self) -> Severity {
         match self {
             Self::Slave(error) => error.severity(),
@@ -48,21 +48,21 @@ impl Error {
     }
 }
 
-/// Why there is no instance.
+/// An instance cannot be made.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InstantiateError {
-    /// Neither model exchange nor co-simulation.
+    /// The type is neither model exchange nor co-simulation.
     Type(i32),
-    /// NULL or empty.
+    /// The name is NULL or empty.
     Name,
     /// The packaged scene inside the library cannot be read.
     Slot(SlotError),
-    /// The XML that the importer read is not this library's.
+    /// The importer's model description does not belong to this library.
     Guid {
-        /// The library's.
+        /// GUID of the library.
         expected: String,
-        /// The importer's, if any.
+        /// GUID of the importer, if it passed one.
         given: Option<String>,
     },
 }

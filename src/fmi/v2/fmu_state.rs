@@ -1,4 +1,4 @@
-//! The standard's FMU state: where an instance is in its life, and all that its slave is.
+//! The standard's FMU state: the state of the life cycle and the state of the slave.
 
 use super::lifecycle::{Call, State};
 use crate::fmi::slave::Settings;
@@ -7,26 +7,26 @@ use crate::fmi::status::Status;
 use crate::simulation::Snapshot;
 use serde::{Deserialize, Serialize};
 
-/// Everything that an instance is, its name and its logging aside.
+/// The state of an instance, without its name and its logging.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FmuState {
-    /// Where it is in its life.
+    /// State of the life cycle.
     pub state: State,
-    /// What the importer set.
+    /// Settings of the importer.
     pub settings: Settings,
     /// Status of the last step.
     pub last_step: Status,
-    /// Whether that step came to where no step leads on.
+    /// Whether the last step reached a dead end.
     pub dead_end: bool,
-    /// The simulation, once initialization is over.
+    /// The simulation, after initialization.
     pub snapshot: Option<Snapshot>,
 }
 
 impl Saved for FmuState {
     const FORMAT: u32 = 9;
 
-    /// Whether an instance can be in this state: a snapshot belongs to it once initialization is over, and nothing in
-    /// it is what an importer cannot set. The snapshot is checked when it is restored.
+    /// Whether an instance could be in this state: there is a snapshot after initialization and only then, and all
+    /// settings are values that an importer can set. The snapshot is checked when it is restored.
     fn makes_sense(&self) -> bool {
         let ended = !self.dead_end || self.last_step == Status::Discard;
         let before = matches!(self.state, State::Instantiated | State::InitializationMode);

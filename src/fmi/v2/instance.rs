@@ -1,4 +1,4 @@
-//! One instance: every FMI call as a safe method.
+//! An instance, with every function of the standard as a safe method.
 
 use super::error::{Error, InstantiateError};
 use super::fmu_state::FmuState;
@@ -22,35 +22,35 @@ pub const MODEL_EXCHANGE: i32 = 0;
 /// `fmi2CoSimulation`
 pub const CO_SIMULATION: i32 = 1;
 
-/// What `fmi2Instantiate` is given.
+/// Arguments of `fmi2Instantiate`.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// Name for the log; needed.
+    /// Name for the log; it must not be empty.
     pub name: Option<&'a CStr>,
     /// [`MODEL_EXCHANGE`] or [`CO_SIMULATION`]; anything else is refused.
     pub fmu_type: i32,
-    /// The guid in the XML that the importer read.
+    /// GUID in the importer's model description.
     pub guid: Option<&'a CStr>,
-    /// URI of the resources, which we do not need.
+    /// URI of the resources, which are not used.
     pub resource_location: Option<&'a CStr>,
-    /// Whether remarks are logged; trouble always is.
+    /// Whether remarks are logged. Warnings and errors are always logged.
     pub logging_on: bool,
 }
 
-/// A slave with its place in the lifecycle of FMI 2.0, its saved states and its log.
+/// A slave with its state in the life cycle of FMI 2.0, its saved states and its log.
 pub struct Instance {
     state: State,
     slave: Slave,
     last_step: Status,
-    /// Whether the last step came to where no step leads on.
+    /// Whether the last step reached a dead end.
     dead_end: bool,
     saved: SavedStates<FmuState>,
     logger: Logger,
 }
 
 impl Instance {
-    /// An instance with the packaged start values, whose messages go to `host`. Its motions are computed by `newer`, if
-    /// there is such an engine and the scene does not ask for portable bits.
+    /// An instance with the packaged start values, whose messages go to `host`. The engine `newer`, if there is one,
+    /// computes its motion unless `solver.portable` is set.
     pub fn instantiate(
         request: &Request<'_>,
         host: Box<dyn Host>,
@@ -83,7 +83,7 @@ impl Instance {
         })
     }
 
-    /// Where it is in its life.
+    /// State of the life cycle.
     pub fn state(&self) -> State {
         self.state
     }
@@ -103,7 +103,7 @@ impl Instance {
         self.slave.time()
     }
 
-    /// Lets a call in, if it is allowed in this state.
+    /// Returns an error unless the call is allowed in this state.
     pub fn admit(&self, call: Call) -> Result<(), Error> {
         match (self.state, call.interface()) {
             (State::Fatal, _) if !call.allowed(State::Fatal) => Err(Error::CallOrder(State::Fatal)),
@@ -113,12 +113,12 @@ impl Instance {
         }
     }
 
-    /// Stops the run after a failure that the importer did not cause; saved states can still be set.
+    /// Ends the run after a failure that the importer did not cause. Saved states can still be restored.
     pub fn fail(&mut self) {
         self.state = State::Error;
     }
 
-    /// Gives the instance up after a fault of ours.
+    /// Makes the instance unusable after an internal error.
     pub fn give_up(&mut self) {
         self.state = State::Fatal;
     }
@@ -129,13 +129,13 @@ impl Instance {
         Ok(self.warn_of(Call::SetDebugLogging, unknown))
     }
 
-    /// `fmi2SetupExperiment`. A tolerance that the solver cannot meet is limited, with a warning.
+    /// `fmi2SetupExperiment`. A tolerance outside the solver's range is limited, with a warning.
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Result<Status, Error> {
         let limit = self.slave.set_up(tolerance, start, stop)?;
         Ok(self.warn_of(Call::SetupExperiment, limit))
     }
 
-    /// The status of a call that succeeded, with a reservation if there is one.
+    /// The status of a call that succeeded, with a warning if there is one.
     fn warn_of(&self, call: Call, reservation: Option<impl Display>) -> Status {
         match reservation {
             None => Status::Ok,
@@ -184,7 +184,7 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2Reset`: as after instantiation, except that saved states stay and the log goes on.
+    /// `fmi2Reset`: returns to the state after instantiation. Saved states and the log are kept.
     pub fn reset(&mut self) -> Result<(), Error> {
         self.state = State::Instantiated;
         (self.last_step, self.dead_end) = (Status::Ok, false);
@@ -197,7 +197,7 @@ impl Instance {
         Ok(self.slave.get(ValueType::Real, self.state.reading(), references, values, |value| value)?)
     }
 
-    /// `fmi2GetInteger`; enumerations are read by it too.
+    /// `fmi2GetInteger`, also for enumerations.
     pub fn get_integer(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), Error> {
         Ok(self.slave.get(ValueType::Integer, self.state.reading(), references, values, |value| value as i32)?)
     }
@@ -212,7 +212,7 @@ impl Instance {
         Ok(self.slave.set(ValueType::Real, self.state.writing(), references, values, |value| value)?)
     }
 
-    /// `fmi2SetInteger`; enumerations are set by it too.
+    /// `fmi2SetInteger`, also for enumerations.
     pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
         Ok(self.slave.set(ValueType::Integer, self.state.writing(), references, values, f64::from)?)
     }
@@ -288,7 +288,7 @@ impl Instance {
         }
     }
 
-    /// `fmi2GetBooleanStatus`: a run that has come to a dead end wants to be terminated.
+    /// `fmi2GetBooleanStatus`: `fmi2Terminated` is true if the run has reached a dead end.
     pub fn boolean_status(&self, kind: i32) -> Result<bool, Error> {
         match known(kind)? {
             StatusKind::Terminated => Ok(self.dead_end),
@@ -302,7 +302,7 @@ impl Instance {
         Err(Error::StatusKind(known(kind)?))
     }
 
-    /// `fmi2GetFMUstate`: saves under `handle`, or under a new one if that is 0.
+    /// `fmi2GetFMUstate`: saves under `handle`, or under a new handle if that is 0.
     pub fn get_fmu_state(&mut self, handle: usize) -> Result<usize, Error> {
         let (settings, snapshot) = self.slave.save();
         let state =
@@ -318,7 +318,7 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2FreeFMUstate`; 0 stands for no state.
+    /// `fmi2FreeFMUstate`; handle 0 means no state.
     pub fn free_fmu_state(&mut self, handle: usize) -> Result<(), Error> {
         Ok(self.saved.forget(handle)?)
     }
@@ -328,12 +328,12 @@ impl Instance {
         Ok(self.saved.serialized_size(handle)?)
     }
 
-    /// `fmi2SerializeFMUstate`. The rest of a longer buffer becomes 0.
+    /// `fmi2SerializeFMUstate`. The rest of a longer buffer is filled with 0.
     pub fn serialize(&self, handle: usize, buffer: &mut [u8]) -> Result<(), Error> {
         Ok(self.saved.serialize(handle, buffer)?)
     }
 
-    /// `fmi2DeSerializeFMUstate`: keeps under `handle`, or under a new one if that is 0.
+    /// `fmi2DeSerializeFMUstate`: stores under `handle`, or under a new handle if that is 0.
     pub fn deserialize(&mut self, bytes: &[u8], handle: usize) -> Result<usize, Error> {
         let saved = FmuState::from_bytes(bytes)?;
         if saved.state.interface().is_some_and(|interface| interface != self.slave.interface()) {

@@ -1,10 +1,11 @@
-//! Which call is allowed in which state: the tables of FMI 2.0 §3.2.3 and §4.2.4 as one, one row a call.
+//! The life cycle: one table of the calls that are allowed in each state, from FMI 2.0 §3.2.3 and §4.2.4, with one row
+//! for each call.
 //!
-//! Three deviations, all towards the importer. `fmi2FreeInstance` works in the fatal state too, since
-//! nothing of ours is lost by giving memory back. Reading inputs and parameters back works from
-//! instantiation on, as hosts do; so the rows of `fmi2Get…` are open there, and the rows of
-//! [`Touch`] say which variables they reach. And where inputs may be set in model exchange, `fmi2SetReal` sets continuous
-//! states as `fmi2SetContinuousStates` does, which CasADi takes for granted.
+//! There are three deviations, all in favour of the importer. `fmi2FreeInstance` works in the fatal state, too, since
+//! freeing memory does no harm. Reading inputs and parameters back works from instantiation on, as hosts do; so the
+//! rows of `fmi2Get…` are open there, and the rows of [`Touch`] say which variables they reach. And where inputs may be
+//! set in model exchange, `fmi2SetReal` sets continuous states as `fmi2SetContinuousStates` does, which CasADi takes
+//! for granted.
 
 use crate::fmi::call_table::{permissions, table};
 use crate::fmi::slave::{Interface, Permission};
@@ -15,7 +16,7 @@ use std::fmt;
 /// over when its call returns; they are here because the standard's table has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum State {
-    /// No instance yet, or no longer.
+    /// There is no instance.
     StartAndEnd,
     /// Start values may be set.
     Instantiated,
@@ -31,13 +32,13 @@ pub enum State {
     StepInProgress,
     /// The last step ended before its communication point.
     StepFailed,
-    /// The last step was called off.
+    /// The last step was cancelled.
     StepCanceled,
     /// After `fmi2Terminate`.
     Terminated,
-    /// Only an earlier state, a reset or the end can follow.
+    /// Only restoring a saved state, resetting and freeing are possible.
     Error,
-    /// A fault of ours; only the end can follow.
+    /// After an internal error; only freeing is possible.
     Fatal,
 }
 
@@ -76,7 +77,7 @@ impl State {
         }
     }
 
-    /// The kind of interface of instances in this state, if only one kind comes there.
+    /// The kind of interface of instances in this state, if only one kind can be in it.
     pub fn interface(self) -> Option<Interface> {
         match self {
             Self::EventMode | Self::ContinuousTimeMode => Some(Interface::ModelExchange),
@@ -144,7 +145,7 @@ table! {
 }
 
 table! {
-    /// What a call does to one variable: the footnotes under the standard's table.
+    /// The access of a call to one variable, from the footnotes of the standard's table.
     Touch, "";
     GetOutput                 ".    .    x    x    x    x    .    x    x    x    x    ."
     GetInput                  ".    x    x    x    x    x    .    x    x    x    x    ."
@@ -155,7 +156,7 @@ table! {
 }
 
 impl Call {
-    /// The kind of interface that the function belongs to, if not to both.
+    /// The kind of interface to which the function belongs, unless it belongs to both.
     pub fn interface(self) -> Option<Interface> {
         let place = self as usize;
         if place >= Self::EnterEventMode as usize {

@@ -1,9 +1,9 @@
 //! FMI 2.0 for co-simulation and model exchange: the lifecycle, the statuses and the C interface around a
 //! [`Slave`](crate::fmi::slave::Slave).
 //!
-//! `abi` turns pointers into borrows, [`lifecycle`] says which call is allowed when, the [`Instance`]
-//! does what was asked, [`Status`] turns every outcome into one of the standard's statuses, and the
-//! slave's log gives the importer the reason in one line.
+//! `abi` turns pointers into borrows, [`lifecycle`] lists the calls that are allowed in each state, the [`Instance`]
+//! executes calls, [`Status`] is one of the standard's statuses for every outcome, and the slave's log gives the
+//! importer the reason in one line.
 //!
 //! To add a function of the standard: an entry in the list of `abi/functions.rs`, the safe method of
 //! [`Instance`] that the entry calls, and the function's row in [`lifecycle`], without which the

@@ -1,9 +1,9 @@
-//! What the importer says of the resources. Nothing is read from there (start values live in the
-//! library), so an odd spelling costs a remark at most, never the instance.
+//! Checks the importer's location of the resources. Nothing is read from it (start values are in the library), so an
+//! unusual spelling is only a remark in the log.
 
 use std::fmt;
 
-/// Why a resource location looks odd.
+/// A resource location is unusual.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OddLocation {
     location: String,
@@ -17,8 +17,8 @@ impl fmt::Display for OddLocation {
     }
 }
 
-/// What is odd about a location, if anything. `file:/x`, `file:///x`, `file:////x` and
-/// `file://localhost/x` are all in use, with spaces raw or as %20; and some importers pass none.
+/// The unusual part of a location, if there is one. `file:/x`, `file:///x`, `file:////x` and
+/// `file://localhost/x` are all in use, with spaces raw or as %20; and some importers pass no location.
 pub fn oddity(location: &str) -> Option<OddLocation> {
     let odd = |oddity| Some(OddLocation { location: location.to_owned(), oddity });
     if location.is_empty() {

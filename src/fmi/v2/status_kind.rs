@@ -1,15 +1,15 @@
-//! The statuses that an importer can ask for.
+//! The kinds of status that an importer can read.
 
 /// The standard's `fmi2StatusKind`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatusKind {
     /// Status of the last step.
     DoStep,
-    /// Text about a step under way.
+    /// Text about an asynchronous step.
     Pending,
     /// Time that the last step reached.
     LastSuccessfulTime,
-    /// Whether the instance wants to end the simulation.
+    /// Whether the instance requests the end of the simulation.
     Terminated,
 }
 

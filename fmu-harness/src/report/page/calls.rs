@@ -1,4 +1,4 @@
-//! What a scene calls for, effect by effect, and what it does without.
+//! The effects that a scene has, and the effects that it does not have.
 
 use crate::precision::ladder::{FIXED_STEP, RIGID_CONTACTS};
 use crate::report::table::Table;
@@ -9,10 +9,10 @@ use slidercrank::scene::{Contact, DampingLaw, DriveMode, FrictionLaw, JointModel
 use slidercrank::simulation::Size;
 use std::f64::consts::TAU;
 
-/// [rad/s] One turn a minute.
+/// [rad/s] One turn per minute.
 const RPM: f64 = TAU / 60.0;
 
-/// Effect and how it is modelled; one that is not called for has a dash.
+/// Table of effects with their models. An effect that the scene does not have is a dash.
 pub fn table(file: &SceneFile) -> Table {
     let scene = &file.scene;
     let mut table = Table::default();
@@ -46,7 +46,7 @@ pub fn table(file: &SceneFile) -> Table {
     table
 }
 
-/// What that comes to.
+/// A sentence with the size of the model.
 pub fn sentence(size: &Size) -> String {
     let Size { degrees_of_freedom, states, event_functions } = size;
     let [freedoms, states, events] = [degrees_of_freedom, states, event_functions].map(|count| grouped(*count as f64));

@@ -1,4 +1,4 @@
-//! What the moving mechanism is drawn from: parameters and outputs by their names on the FMU's face.
+//! Data of the animation: parameters and outputs by the names of the FMU's variables.
 
 use crate::report::figure::{first_shown, turns};
 use crate::run::Recording;
@@ -6,9 +6,9 @@ use anyhow::Result;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Frames are at most so many.
+/// Maximum number of frames.
 const MOST_FRAMES: usize = 6000;
-/// What the drawing reads beside what every joint has.
+/// Variables of the animation that do not belong to one joint.
 const PARAMETERS: [&str; 10] = [
     "crank.length",
     "rod.length",
@@ -38,19 +38,19 @@ const OUTPUTS: [&str; 9] = [
 pub struct Film {
     /// Parameters [SI].
     pub parameters: BTreeMap<String, f64>,
-    /// [s] Of every frame.
+    /// [s] Time of every frame.
     pub time: Vec<f64>,
-    /// Turns of the crank since the start, at every frame.
+    /// Crank turns since the start at every frame.
     pub turns: Vec<f64>,
-    /// Outputs [SI] at every frame, to the nine digits that a zoomed drawing is good for.
+    /// Outputs [SI] at every frame, with nine digits, enough for a zoomed drawing.
     pub outputs: BTreeMap<String, Vec<f64>>,
 }
 
 impl Film {
-    /// The turns that the figures show, thinned evenly if there are too many points.
+    /// The turns of the figures, with evenly omitted points if there are too many.
     ///
     /// # Errors
-    /// If the recording is not one of a slider-crank.
+    /// If the recording is not that of a slider-crank.
     pub fn of(recording: &Recording) -> Result<Self> {
         let names = |what: &str, parts: &[&str]| -> Vec<String> {
             ["A", "B", "C"]

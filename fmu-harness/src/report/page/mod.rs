@@ -1,6 +1,6 @@
-//! One page that shows a scene: HTML that needs nothing else, with the mechanism moving and figures that can be zoomed.
+//! A page about a scene: one HTML file with an animation and figures that can be zoomed.
 //!
-//! Its looks are in `templates/`: `report.html`, `report.css` and the moving mechanism, `report.js`.
+//! The folder `templates/` has its layout, `report.html` and `report.css`, and the animation, `report.js`.
 
 pub mod calls;
 pub mod film;
@@ -12,50 +12,50 @@ use anyhow::{Context, Result};
 use askama::Template;
 use film::Film;
 
-/// One part of the page. What it lacks is left out.
+/// One section of the page. Empty parts are left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// Heading.
     pub title: String,
-    /// What it shows, paragraph by paragraph.
+    /// Paragraphs of text.
     pub text: Vec<String>,
-    /// What the curves' colours mean.
+    /// Legend of the curves' colours.
     pub legend: Vec<Key>,
     /// Figures side by side.
     pub figures: Vec<Figure>,
-    /// Tables below them; the first line of each is its head.
+    /// Tables below the figures. The first row of each is its head.
     pub tables: Vec<Table>,
-    /// Why there is nothing.
+    /// The reason why the section is empty.
     pub missing: Option<String>,
 }
 
-/// A colour and what it means.
+/// An entry of a legend.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
-    /// As CSS reads it.
+    /// Colour in CSS.
     pub colour: String,
-    /// What it means.
+    /// Meaning.
     pub name: String,
 }
 
 impl Section {
-    /// A section that is to be filled.
+    /// A new section with this heading.
     pub fn new(title: &str) -> Self {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// A section that says why it is empty.
+    /// An empty section with the reason.
     pub fn missing(title: &str, why: impl Into<String>) -> Self {
         Self { missing: Some(why.into()), ..Self::new(title) }
     }
 
-    /// With one paragraph more.
+    /// Adds a paragraph.
     pub fn saying(mut self, text: impl Into<String>) -> Self {
         self.text.push(text.into());
         self
     }
 
-    /// With the panels of a sheet more, and its legend.
+    /// Adds the panels of a sheet with its legend.
     pub fn showing<P: Interactive>(mut self, sheet: &Sheet<P>) -> Self {
         for (role, name) in &sheet.legend {
             let key = Key::of(*role, name);
@@ -67,13 +67,13 @@ impl Section {
         self
     }
 
-    /// With one table more.
+    /// Adds a table.
     pub fn telling(mut self, table: Table) -> Self {
         self.tables.push(table);
         self
     }
 
-    /// What a link calls it.
+    /// Name of the section's anchor.
     pub fn anchor(&self) -> String {
         self.title.to_lowercase().replace(' ', "-")
     }
@@ -100,16 +100,16 @@ struct Page<'a> {
     program: &'a str,
 }
 
-/// The page as HTML: a title, a line about it, the moving mechanism and the sections in their order.
+/// The page as HTML: title, a line about the scene, the animation, and the sections in their order.
 ///
 /// # Errors
-/// If a number of the film is none.
+/// If a number of the animation is not finite.
 pub fn page(title: &str, description: &str, film: &Film, sections: &[Section]) -> Result<String> {
     let page = Page {
         title,
         description,
         version: env!("CARGO_PKG_VERSION"),
-        film: harmless(&serde_json::to_string(film).context("the film as JSON")?),
+        film: harmless(&serde_json::to_string(film).context("the animation cannot be written as JSON")?),
         sections,
         style: include_str!("../../../templates/report.css"),
         library: library(),
@@ -118,13 +118,13 @@ pub fn page(title: &str, description: &str, film: &Film, sections: &[Section]) -
     page.render().context("the page")
 }
 
-/// JSON that cannot end the script element that it stands in.
+/// Escapes JSON, so that it cannot end the script element around it.
 fn harmless(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
 impl Figure {
-    /// Its JSON for a script element.
+    /// JSON for a script element.
     fn data(&self) -> String {
         harmless(&self.json)
     }

@@ -1,4 +1,4 @@
-//! Another build of this library as an engine.
+//! An engine that another build of this library provides.
 
 use super::super::dispatch_x86_64_v3::{Library, open};
 use super::super::panic_guard::guarded;
@@ -16,13 +16,13 @@ use std::mem::transmute;
 use std::ptr::NonNull;
 use std::sync::OnceLock;
 
-/// An engine made of a table of functions.
+/// An engine from a table of functions.
 #[derive(Clone, Copy)]
 pub struct Borrowed {
     table: &'static Table,
 }
 
-/// The build for newer processors, where it can run. It is looked for once, at the first call, for the whole process.
+/// The build for newer processors, if the processor can run it. It is searched once per process, at the first call.
 pub fn newer() -> Option<&'static dyn Engine> {
     static NEWER: OnceLock<Option<Borrowed>> = OnceLock::new();
     let find = || guarded(|| Borrowed::of(&open()?)).ok().flatten();
@@ -39,19 +39,19 @@ struct BorrowedRun {
 unsafe impl Send for BorrowedRun {}
 
 impl Borrowed {
-    /// The engine that a library offers to builds of its own sources, if it does.
+    /// The engine of a library, if the library provides one for builds of the same sources.
     fn of(library: &Library) -> Option<Self> {
         let offer = library.find(OFFER)?;
         // SAFETY: a function of this name has this type.
         let offer = unsafe { transmute::<*const (), Offer>(offer) };
-        // SAFETY: as many bytes as are asked for; the library stays for as long as the process, and so does its table.
+        // SAFETY: the digest has the required length; library and table exist until the process ends.
         let table = unsafe { offer(DECLARATION.as_ptr(), size_of::<Outputs>()).as_ref() }?;
         Some(Self { table })
     }
 
     fn run(self, run: *mut c_void, failure: Letter) -> Result<Box<dyn Run>, SimulationError> {
         failure.outcome()?;
-        let run = NonNull::new(run).ok_or_else(|| SimulationError::Snapshot("the engine has lost its run".into()))?;
+        let run = NonNull::new(run).ok_or_else(|| SimulationError::Snapshot("the engine returned no run".into()))?;
         Ok(Box::new(BorrowedRun { table: self.table, run }))
     }
 }
@@ -159,37 +159,37 @@ impl Drop for BorrowedRun {
     }
 }
 
-/// What the other library has to say at the end of a call; without bytes, nothing.
+/// The message of the other library at the end of a call; empty without bytes.
 #[derive(Default)]
 struct Letter(Option<Vec<u8>>);
 
 impl Letter {
-    /// Where the letter arrives.
+    /// The sink that receives the message.
     fn sink(&mut self) -> Sink {
         unsafe extern "C" fn take(context: *mut c_void, bytes: Bytes) {
-            // SAFETY: the context is the letter below, and the bytes are lent for this call.
+            // SAFETY: the context is the message below, and the bytes are lent for this call.
             let (letter, bytes) = unsafe { (&mut *context.cast::<Letter>(), bytes.borrow()) };
             letter.0 = Some(bytes.to_vec());
         }
         Sink { context: (&raw mut *self).cast(), take }
     }
 
-    /// What it says. A fault of the other library goes on as a panic here, where the call from C catches it.
+    /// The content. A panic in the other library continues as a panic here, which the call from C catches.
     fn opened<T: DeserializeOwned>(self) -> Result<T, SimulationError> {
         match postcard::from_bytes::<Result<T, Failure>>(&self.0.unwrap_or_default()) {
             Ok(Ok(content)) => Ok(content),
             Ok(Err(Failure::Simulation(error))) => Err(error),
             Ok(Err(Failure::Panic(text))) => std::panic::resume_unwind(Box::new(text)),
-            Err(error) => std::panic::resume_unwind(Box::new(format!("the engine's answer: {error}"))),
+            Err(error) => std::panic::resume_unwind(Box::new(format!("the engine's message cannot be read: {error}"))),
         }
     }
 
-    /// Whether there is nothing to say.
+    /// Whether there is no message.
     fn outcome(self) -> Result<(), SimulationError> {
         if self.0.is_none() { Ok(()) } else { self.opened() }
     }
 
-    /// There is nothing to say, unless something broke.
+    /// Checks that there is no message.
     fn infallible(self) {
         self.outcome().unwrap_or_else(fault);
     }
@@ -215,7 +215,7 @@ mod tests {
     use crate::fmi::slave::engine::Own;
     use crate::scene::JointModel;
 
-    /// This library as a foreign engine.
+    /// This library as the engine of another library.
     const ACROSS: Borrowed = Borrowed { table: &TABLE };
 
     fn worn() -> Scene {
@@ -225,7 +225,7 @@ mod tests {
         scene
     }
 
-    /// All that a run answers, after some steps with inputs that change.
+    /// All results of a run, after some steps with changing inputs.
     fn course(engine: &dyn Engine) -> (Vec<Outputs>, Snapshot) {
         let mut run = engine.start(&worn(), Inputs::default()).expect("a start");
         let mut seen = vec![run.outputs()];

@@ -1,10 +1,10 @@
-//! An [`Engine`](crate::fmi::slave::engine::Engine) across the border of two libraries: a table of C functions.
+//! An [`Engine`](crate::fmi::slave::engine::Engine) across two libraries: a table of C functions.
 //!
-//! Both libraries are builds of the same sources, so they know the same scenes, outputs and errors; but each has its own
-//! memory and its own panics. Inputs and outputs pass as C structures, everything else as bytes that the receiver copies
-//! before the call returns. What fails, a panic included, is returned as a `Failure`.
+//! Both libraries are builds of the same sources and have the same scenes, outputs and errors, but each has its own
+//! memory and its own panics. Inputs and outputs are passed as C structures, everything else as bytes that the receiver
+//! copies before the call returns. Errors and panics are returned as a `Failure`.
 //!
-//! [`offered`] is the table of this library, [`borrowed`] an engine made of the table of another one.
+//! [`offered`] is the table of this library, [`borrowed`] is an engine from the table of another library.
 
 pub mod borrowed;
 pub mod offered;
@@ -15,11 +15,11 @@ use crate::simulation::{ContactReport, Side, SimulationError};
 use serde::{Deserialize, Serialize};
 use std::ffi::c_void;
 
-/// Name of the function that hands out a library's table: an [`Offer`].
+/// Name of the function that returns a library's table: an [`Offer`].
 pub const OFFER: &str = "slidercrank_engine";
 
-/// Hands out the table, or NULL to a library of other sources: `declaration` has 32 bytes, the digest of its variables,
-/// and `outputs` is the size of its [`Outputs`].
+/// Returns the table, or NULL if the caller is built from other sources. `declaration` is the digest of its variables,
+/// 32 bytes, and `outputs` the size of its [`Outputs`].
 pub type Offer = unsafe extern "C" fn(declaration: *const u8, outputs: usize) -> *const Table;
 
 /// Bytes that are lent for one call.
@@ -30,7 +30,7 @@ pub struct Bytes {
     length: usize,
 }
 
-/// Takes bytes during one call.
+/// Receives bytes during one call.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct Sink {
@@ -42,17 +42,17 @@ pub struct Sink {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub enum Reading {
-    /// Their values.
+    /// The values of outputs.
     Values,
-    /// Their first time derivatives.
+    /// The first time derivatives of outputs.
     Rates,
-    /// Their derivatives along a direction of the inputs.
+    /// The derivatives of outputs along a direction of the inputs.
     Sensitivity,
 }
 
-/// What another library calls. A run is a pointer that `start` or `restore` gave and `free` was not given yet; one call
-/// at a time is made on it. The sink of `snapshot` gets a snapshot or a failure, that of any other a failure if there is
-/// one; then a run is NULL.
+/// The functions that another library calls. A run is a pointer from `start` or `restore` that has not been passed to
+/// `free`; it is used in one call at a time. The sink of `snapshot` receives a snapshot or a failure, the sinks of
+/// other functions receive a failure if there is one. A run that cannot be started is NULL.
 #[repr(C)]
 pub struct Table {
     start: unsafe extern "C" fn(scene: Bytes, inputs: *const Inputs, sink: Sink) -> *mut c_void,
@@ -70,11 +70,11 @@ pub struct Table {
     snapshot: unsafe extern "C" fn(run: *mut c_void, sink: Sink),
 }
 
-/// Why a call failed.
+/// The reason why a call failed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum Failure {
     /// The mechanism cannot start or go on.
     Simulation(SimulationError),
-    /// A fault of ours, with what is known of it.
+    /// An internal error, with its message.
     Panic(String),
 }

@@ -1,4 +1,4 @@
-//! This library as an engine of another one.
+//! The engine that this library provides to another library.
 
 use super::super::panic_guard::guarded;
 use super::{Bytes, Failure, Reading, Sink, Table};
@@ -14,7 +14,7 @@ use std::ptr::null_mut;
 pub const TABLE: Table =
     Table { start, restore, free, time, set_inputs, advance, look, read, contacts, write_states, snapshot };
 
-/// Exported by the build for newer processors only: the other one is what importers load, and has the functions of the
+/// Exported only by the build for newer processors. Importers load the other build, which exports the functions of the
 /// standard and no others.
 #[cfg(target_feature = "fma")]
 mod export {
@@ -28,7 +28,7 @@ mod export {
 
     #[unsafe(no_mangle)]
     unsafe extern "C" fn slidercrank_engine(declaration: *const u8, outputs: usize) -> *const Table {
-        // SAFETY: the caller promises so many bytes.
+        // SAFETY: the caller guarantees this number of bytes.
         let declaration = unsafe { std::slice::from_raw_parts(declaration, DECLARATION.len()) };
         if declaration == DECLARATION && outputs == size_of::<Outputs>() { &raw const OFFERED } else { null() }
     }
@@ -51,7 +51,7 @@ unsafe extern "C" fn restore(scene: Bytes, snapshot: Bytes, sink: Sink) -> *mut 
 unsafe extern "C" fn free(run: *mut c_void) {
     // SAFETY: the caller gives back what `start` or `restore` made.
     let run = unsafe { Box::from_raw(run.cast::<Simulation>()) };
-    // What a panic in a destructor leaves behind is a leak at worst.
+    // A panic in a destructor leaks memory at worst.
     let _ = guarded(|| drop(run));
 }
 
@@ -120,7 +120,7 @@ unsafe extern "C" fn snapshot(run: *mut c_void, sink: Sink) {
     }
 }
 
-/// Runs a body; what goes wrong in it goes to the sink.
+/// Runs a body. Errors and panics are passed to the sink.
 pub(super) fn attempt<T>(sink: Sink, body: impl FnOnce() -> Result<T, SimulationError>) -> Option<T> {
     let outcome = guarded(body).map_err(Failure::Panic).and_then(|outcome| outcome.map_err(Failure::Simulation));
     outcome.map_err(|failure| sink.send(&Err::<(), _>(failure))).ok()
@@ -141,14 +141,14 @@ impl Bytes {
     /// # Safety
     /// The bytes are lent for `'a`.
     pub(super) unsafe fn borrow<'a>(self) -> &'a [u8] {
-        // SAFETY: as promised; made from a slice, so the pointer is never NULL.
+        // SAFETY: guaranteed by the caller; the pointer comes from a slice and is never NULL.
         unsafe { std::slice::from_raw_parts(self.data, self.length) }
     }
 }
 
 impl Sink {
     fn send(self, message: &impl Serialize) {
-        // What cannot be written arrives as no bytes, which the receiver takes for a fault.
+        // If writing fails, there are no bytes, which the receiver treats as an internal error.
         let bytes = postcard::to_allocvec(message).unwrap_or_default();
         // SAFETY: the sink is the caller's for this call; it copies the bytes.
         unsafe { (self.take)(self.context, Bytes { data: bytes.as_ptr(), length: bytes.len() }) }

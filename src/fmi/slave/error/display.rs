@@ -1,4 +1,4 @@
-//! What the importer reads: each error in one line, with what was asked and what is allowed.
+//! Messages of errors: one line each, with the given value and the allowed values.
 
 use super::*;
 use crate::model_description::number::number;

@@ -1,4 +1,4 @@
-//! One call from C: lend the instance, admit the call, catch panics, log the error, return the status.
+//! A call from C: lends the instance, checks the life cycle, catches panics, logs errors and returns the status.
 
 use super::super::error::Error;
 use super::super::instance::Instance;
@@ -8,8 +8,8 @@ use crate::fmi::abi::component;
 use crate::fmi::abi::panic_guard::guarded;
 use crate::fmi::status::Status;
 
-/// Runs one call on a component. No panic gets past: a fault of ours ends the instance, not the
-/// importer.
+/// Runs one call on a component. Panics are caught: an internal error makes the instance unusable, but the importer
+/// goes on.
 ///
 /// # Safety
 /// As [`component::lend`].
@@ -18,9 +18,9 @@ pub unsafe fn call<S: Into<Status>>(
     call: Call,
     body: impl FnOnce(&mut Instance) -> Result<S, Error>,
 ) -> Status {
-    // SAFETY: the caller vouches for the component.
+    // SAFETY: the caller guarantees that the component is valid.
     match unsafe { component::lend::<Instance>(component) } {
-        // A NULL or busy component has no log that could be written to.
+        // A NULL or busy component has no log that could be used.
         None => Status::Error,
         Some(mut lent) => guarded(|| answer(lent.instance(), call, body)).unwrap_or(Status::Fatal),
     }

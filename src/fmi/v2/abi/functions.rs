@@ -38,7 +38,7 @@ functions! {
         functions: *const fmi2CallbackFunctions, visible: fmi2Boolean, logging_on: fmi2Boolean,
     ) -> fmi2Component {
         let Ok(functions) = structure("functions", functions) else {
-            // Not even a logger to complain to.
+            // There is no logger.
             return null_mut();
         };
         let request = Request {
@@ -54,7 +54,7 @@ functions! {
     /// Frees an instance with all that belongs to it; NULL is allowed.
     fmi2FreeInstance(c: fmi2Component) -> () {
         let instance = take_back::<Instance>(c);
-        // What a panic in a destructor leaves behind is a leak at worst.
+        // A panic in a destructor leaks memory at worst.
         let _ = guarded(|| drop(instance));
     }
     /// Chooses the log categories that the importer receives.
@@ -77,17 +77,17 @@ functions! {
         let stop_time = (stop_time_defined != FMI2_FALSE).then_some(stop_time);
         call(c, Call::SetupExperiment, |instance| instance.setup_experiment(tolerance, start_time, stop_time))
     }
-    /// From now on outputs follow start values.
+    /// Enters initialization mode, in which outputs follow start values.
     fmi2EnterInitializationMode(c: fmi2Component) -> fmi2Status {
         call(c, Call::EnterInitializationMode, Instance::enter_initialization_mode)
     }
-    /// Fixes the parameters; the first step can follow.
+    /// Leaves initialization mode and fixes the parameters. The first step can follow.
     fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
         call(c, Call::ExitInitializationMode, Instance::exit_initialization_mode)
     }
     /// Ends the run; values can still be read.
     fmi2Terminate(c: fmi2Component) -> fmi2Status { call(c, Call::Terminate, Instance::terminate) }
-    /// Back to the state after instantiation.
+    /// Returns to the state after instantiation.
     fmi2Reset(c: fmi2Component) -> fmi2Status { call(c, Call::Reset, Instance::reset) }
 
     // Values.
@@ -175,7 +175,7 @@ functions! {
     ) -> fmi2Status {
         call(c, Call::DoStep, |instance| instance.do_step(current_communication_point, communication_step_size))
     }
-    /// No step is ever under way, so there is nothing to cancel: the lifecycle refuses this in every state.
+    /// Steps are never asynchronous, so there is nothing to cancel. The life cycle refuses this call in every state.
     fmi2CancelStep(c: fmi2Component) -> fmi2Status { call(c, Call::CancelStep, |_| Ok(())) }
     /// Status of the last step.
     fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut i32) -> fmi2Status {
@@ -197,13 +197,13 @@ functions! {
             put(place("value", value)?, instance.boolean_status(s).map(fmi2Boolean::from))
         })
     }
-    /// The standard's only string status is about a step under way, and there never is one.
+    /// The standard's only string status belongs to asynchronous steps, which this FMU does not have.
     fmi2GetStringStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> fmi2Status {
         call(c, Call::GetStringStatus, |instance| put(place("value", value)?, instance.absent_status(s)))
     }
 
-    // Saved states. The importer holds handles, which are looked up and never followed.
-    /// Saves the instance: under the state given, or a new one if that is NULL.
+    // Saved states. The importer has handles, which are searched in a list and never dereferenced.
+    /// Saves the instance in this state, or in a new one if the state is NULL.
     fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> fmi2Status {
         call(c, Call::GetFMUstate, |instance| {
             let state = place("FMUstate", state)?;
@@ -211,11 +211,11 @@ functions! {
             put(state, saved.map(without_provenance_mut))
         })
     }
-    /// Makes the instance what it was when the state was saved.
+    /// Restores the instance from a saved state.
     fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
         call(c, Call::SetFMUstate, |instance| instance.set_fmu_state(state.addr()))
     }
-    /// Forgets a state and sets it to NULL; NULL, and NULL for the place, are allowed.
+    /// Frees a state and sets it to NULL. The state, and the pointer to it, may be NULL.
     fmi2FreeFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> fmi2Status {
         call(c, Call::FreeFMUstate, |instance| {
             if state.is_null() {
@@ -226,7 +226,7 @@ functions! {
             put(state, freed.map(|()| null_mut()))
         })
     }
-    /// Number of bytes that the state takes.
+    /// Number of bytes of a state.
     fmi2SerializedFMUstateSize(c: fmi2Component, state: fmi2FMUstate, size: *mut usize) -> fmi2Status {
         call(c, Call::SerializedFMUstateSize, |instance| {
             put(place("size", size)?, instance.serialized_size(state.addr()))
@@ -238,7 +238,7 @@ functions! {
             instance.serialize(state.addr(), slice_mut("serializedState", bytes.cast::<u8>(), size)?)
         })
     }
-    /// Reads bytes as a state: into the state given, or a new one if that is NULL.
+    /// Reads bytes into this state, or into a new one if the state is NULL.
     fmi2DeSerializeFMUstate(
         c: fmi2Component, bytes: *const fmi2Byte, size: usize, state: *mut fmi2FMUstate,
     ) -> fmi2Status {
@@ -251,9 +251,9 @@ functions! {
     }
 
     // Model exchange.
-    /// From now on discrete states may change.
+    /// Enters event mode, in which discrete states may change.
     fmi2EnterEventMode(c: fmi2Component) -> fmi2Status { call(c, Call::EnterEventMode, Instance::enter_event_mode) }
-    /// Closes and opens contacts as the event indicators say.
+    /// Closes and opens contacts according to the event indicators.
     fmi2NewDiscreteStates(c: fmi2Component, event_info: *mut fmi2EventInfo) -> fmi2Status {
         call(c, Call::NewDiscreteStates, |instance| {
             let info = place("fmi2EventInfo", event_info)?;
@@ -261,11 +261,11 @@ functions! {
             Ok(())
         })
     }
-    /// From now on the importer integrates.
+    /// Enters continuous-time mode, in which the importer integrates.
     fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2Status {
         call(c, Call::EnterContinuousTimeMode, Instance::enter_continuous_time_mode)
     }
-    /// Whether an event has been passed over.
+    /// Returns whether an event has happened.
     fmi2CompletedIntegratorStep(
         c: fmi2Component, no_set_fmu_state_prior_to_current_point: fmi2Boolean,
         enter_event_mode: *mut fmi2Boolean, terminate_simulation: *mut fmi2Boolean,
@@ -311,7 +311,7 @@ functions! {
     }
 }
 
-/// Writes a value, if there is one.
+/// Writes a value to the importer's memory, if there is a value.
 fn put<T>(place: &mut T, value: Result<T, Error>) -> Result<(), Error> {
     *place = value?;
     Ok(())

@@ -1,4 +1,4 @@
-//! The importer's logger as a safe host of log lines.
+//! Sends log lines to the importer's logger.
 
 use super::types::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2ComponentEnvironment};
 use crate::fmi::slave::Severity;

@@ -1,4 +1,4 @@
-//! An instance for the importer, or the reason why there is none.
+//! Makes an instance for the importer, or logs why it cannot be made.
 
 use super::super::error::Error;
 use super::super::instance::{Instance, Request};
@@ -12,7 +12,7 @@ use crate::fmi::slave::log::Logger;
 use std::ffi::CString;
 use std::ptr::null_mut;
 
-/// Makes an instance whose messages go to `host`; NULL, and one line in the log, if that cannot be.
+/// Makes an instance whose messages go to `host`. If that fails, the result is NULL, with one line in the log.
 pub fn instantiate(request: &Request<'_>, host: HostLogger) -> fmi2Component {
     let made = guarded(|| Instance::instantiate(request, Box::new(host), newer()));
     match made.unwrap_or_else(|fault| Err(Error::Panic(fault))) {

@@ -1,4 +1,4 @@
-//! The C interface of FMI 2.0, on what [`abi`](crate::fmi::abi) has for every version.
+//! The C interface of FMI 2.0. The parts for all versions are in [`abi`](crate::fmi::abi).
 #![allow(unsafe_code, reason = "pointers of the C interface")]
 
 pub mod call;

@@ -5,13 +5,13 @@ use crate::fmi::abi::borrow::AnyBits;
 use crate::simulation::Update;
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
-/// An instance of ours, opaque to the importer.
+/// An instance, opaque to the importer.
 pub type fmi2Component = *mut c_void;
-/// The importer's own datum, opaque to us.
+/// A pointer of the importer, opaque to this library.
 pub type fmi2ComponentEnvironment = *mut c_void;
-/// A saved state of ours, opaque to the importer.
+/// A saved state, opaque to the importer.
 pub type fmi2FMUstate = *mut c_void;
-/// Number of a variable.
+/// Value reference of a variable.
 pub type fmi2ValueReference = c_uint;
 /// A real number.
 pub type fmi2Real = f64;
@@ -19,15 +19,15 @@ pub type fmi2Real = f64;
 pub type fmi2Integer = c_int;
 /// 0 is false, everything else true.
 pub type fmi2Boolean = c_int;
-/// UTF-8, ended by a zero byte.
+/// A null-terminated UTF-8 string.
 pub type fmi2String = *const c_char;
 /// A byte of a serialized state.
 pub type fmi2Byte = c_char;
-/// What a call answers.
+/// Status of a call.
 pub type fmi2Status = crate::fmi::status::Status;
-/// `fmi2ModelExchange` = 0, `fmi2CoSimulation` = 1. A plain integer, since anything may come.
+/// `fmi2ModelExchange` = 0, `fmi2CoSimulation` = 1. An integer, since the importer may pass any value.
 pub type fmi2Type = c_int;
-/// Which status is asked for. A plain integer, since anything may come.
+/// Kind of status. An integer, since the importer may pass any value.
 pub type fmi2StatusKind = c_int;
 
 /// `fmi2True`.
@@ -39,7 +39,7 @@ pub const FMI2_MODEL_EXCHANGE: fmi2Type = super::super::instance::MODEL_EXCHANGE
 /// `fmi2CoSimulation`.
 pub const FMI2_CO_SIMULATION: fmi2Type = super::super::instance::CO_SIMULATION;
 
-/// Takes a message to the user.
+/// Receives a message.
 pub type fmi2CallbackLogger = unsafe extern "C" fn(
     component_environment: fmi2ComponentEnvironment,
     instance_name: fmi2String,
@@ -48,18 +48,18 @@ pub type fmi2CallbackLogger = unsafe extern "C" fn(
     message: fmi2String,
     ...
 );
-/// The importer's `calloc`, which we leave alone.
+/// The importer's `calloc`, which this library does not use.
 pub type fmi2CallbackAllocateMemory = unsafe extern "C" fn(count: usize, size: usize) -> *mut c_void;
-/// The importer's `free`, which we leave alone.
+/// The importer's `free`, which this library does not use.
 pub type fmi2CallbackFreeMemory = unsafe extern "C" fn(memory: *mut c_void);
-/// Called at the end of an asynchronous step, of which we have none.
+/// Called at the end of an asynchronous step, which this library does not have.
 pub type fmi2StepFinished = unsafe extern "C" fn(environment: fmi2ComponentEnvironment, status: c_int);
 
-/// What the importer lends us. Every function may be NULL.
+/// The importer's callbacks. Every function may be NULL.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fmi2CallbackFunctions {
-    /// Takes messages.
+    /// Receives messages.
     pub logger: Option<fmi2CallbackLogger>,
     /// Unused.
     pub allocate_memory: Option<fmi2CallbackAllocateMemory>,
@@ -67,11 +67,11 @@ pub struct fmi2CallbackFunctions {
     pub free_memory: Option<fmi2CallbackFreeMemory>,
     /// Unused.
     pub step_finished: Option<fmi2StepFinished>,
-    /// Handed back to the logger.
+    /// Passed to the logger.
     pub component_environment: fmi2ComponentEnvironment,
 }
 
-/// What an event came to.
+/// Results of an event.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs, reason = "the names are the standard's")]
