@@ -14,13 +14,15 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 /// The scene that the harness runs, as `test_simulate.py` does.
-const RUN: &str = "wornpin";
+pub const RUN: &str = "wornpin";
 /// A scene whose slider touches the guide with its corners.
 const CORNERS: &str = "guideplay";
 /// Folders of the mechanisms.
 const MECHANISMS: [(Version, &str); 2] = [(Version::Fmi2, "mechanisms"), (Version::Fmi3, "mechanisms3")];
-const STOP: f64 = 0.024;
-const STEP: f64 = 1e-5;
+/// [s] Length of that run.
+pub const STOP: f64 = 0.024;
+/// [s] Its communication step.
+pub const STEP: f64 = 1e-5;
 
 /// Where the files are. A scene that cannot be packaged is missing there: its tests fail, others do not.
 pub fn directory() -> &'static Path {
