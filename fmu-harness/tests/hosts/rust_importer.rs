@@ -137,11 +137,16 @@ fn fmi_rs_finds_no_fault_in_either_description() {
         let description = fmi2::ModelDescription::from_string(&wrong).expect("a description");
         assert!(description.validate().iter().any(|problem| problem.message.contains("Duplicate")), "{name}");
     }
-    let folder = unpacked(&format!("{RUN}3")).expect("an FMU");
-    let file = folder.path().join("modelDescription.xml");
-    let description = fmi3::ModelDescription::from_path(&file).expect("a description");
-    let found: Vec<String> = description.validate().into_iter().map(|problem| problem.message).collect();
-    assert!(found.is_empty(), "{found:#?}");
+    let problems = |name: &str| -> Vec<String> {
+        let folder = unpacked(&format!("{RUN}{name}")).expect("an FMU");
+        let file = folder.path().join("modelDescription.xml");
+        let description = fmi3::ModelDescription::from_path(&file).expect("a description");
+        description.validate().into_iter().map(|problem| problem.message).collect()
+    };
+    assert_eq!(problems("3-without-clocks"), [""; 0]);
+    // Its rule and that of FMPy's validator contradict each other: FMPy counts output clocks among the initial unknowns.
+    let found = problems("3");
+    assert!(found.len() == 1 && found[0].starts_with("The initial unknowns do not match"), "{found:#?}");
 }
 
 #[test]
