@@ -62,11 +62,20 @@ fn the_table_has_a_row_for_each_method_and_names_what_is_missing() {
     let rows: Vec<&str> = text.lines().skip(2).collect();
     assert_eq!(rows.len(), 5, "{text}");
     // 1e-2 is halfway between 1e-1 and 1e-3: 0.01·√2; 1e-4 a quarter of the way from 1e-3 to 1e-7: 0.02·√2.
-    assert_eq!(rows[0], "| ours method | 0.0141 | 1.00 | 0.0283 | 1.00 | 0.0566 | 1.00 |  |");
+    assert_eq!(rows[0], "| ours method | 0.0141 | 1.00 | 0.0283 | 1.00 | 0.0566 | 1.00 | 1e-7 at best | – |  |");
     // 16 times in four decades: 2 at 1e-2, 8 at 1e-4.
-    assert_eq!(rows[1], "| slow method | 2.00 | 141 | 8.00 | 283 | 1e-5 at best | – | a remark |");
-    assert_eq!(rows[2], "| absent method | – | – | – | – | – | – | not installed: apt-get install absent |");
+    assert_eq!(rows[1], "| slow method | 2.00 | 141 | 8.00 | 283 | 1e-5 at best | – | 1e-5 at best | – | a remark |");
+    assert_eq!(rows[2], "| absent method | – | – | – | – | – | – | – | – | not installed: apt-get install absent |");
     assert_eq!(rows[3..], ["", "absent method has no numbers: not installed: apt-get install absent."]);
+}
+
+#[test]
+fn no_cost_is_given_below_the_error_of_the_reference() {
+    let contest = Contest { reference_error: 1e-5, ..contest() };
+    let text = table(&contest).markdown();
+    let ours = text.lines().find(|line| line.contains("ours")).expect("a row");
+    assert_eq!(ours, "| ours method | 0.0141 | 1.00 | 0.0283 | 1.00 | – | – | – | – |  |");
+    assert!(!sentence(&contest).contains("1e-6"));
 }
 
 #[test]
@@ -77,7 +86,8 @@ fn rigid_contacts_are_compared_with_rigid_contacts() {
     contest.series.push(Series { rigid: true, ..series("other, rigid", &runs.map(|(e, cost)| (e, 3.0 * cost)), None) });
     let text = table(&contest).markdown();
     let other = text.lines().find(|line| line.contains("other, rigid")).expect("a row");
-    assert_eq!(other, "| other, rigid method | 4.74 | 3.00 | 1e-3 at best | – | 1e-3 at best | – |  |");
+    let wanted = "| other, rigid method | 4.74 | 3.00 | 1e-3 at best | – | 1e-3 at best | – | 1e-3 at best | – |  |";
+    assert_eq!(other, wanted);
     assert!(!sentence(&contest).contains("rigid"));
 }
 
@@ -98,7 +108,8 @@ fn the_summary_has_the_cheapest_of_the_others() {
     contest.series.push(Series { rigid: true, ..series("rigid", &[(1e-1, 1e-3), (1e-9, 1e-3)], None) });
     let text = summary(&[contest]).markdown();
     // 1e-2: 0.5·√100 against 1·√2; 1e-4: 0.5·100 is not as accurate, 8 is.
-    let row = "| scene | 20.0 | 0.0141 | 70.7 | slow method | 141 | 0.0283 | 35.4 | slow method | 283 | 0.0566 | 17.7 | – | – |";
+    let row = "| scene | 20.0 | 0.0141 | 70.7 | slow method | 141 | 0.0283 | 35.4 | slow method | 283 \
+               | 0.0566 | 17.7 | – | – | 1e-7 at best | – | – | – |";
     assert_eq!(text.lines().last(), Some(row), "{text}");
 }
 

@@ -55,8 +55,15 @@ impl Answer {
     }
 }
 
-/// Runs the command until it ends or has taken the time `budget`. Returns its results and, if it did not end well, a
-/// note.
+/// Time that a program has spent compiling for the result in a line of JSON; it does not count against the budget.
+fn compilation(line: &str) -> Duration {
+    let value = serde_json::from_str(line).ok();
+    let seconds = value.and_then(|value: Value| value.get("compilation")?.as_f64());
+    seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).unwrap_or_default()
+}
+
+/// Runs the command until it ends or has taken the time `budget` without its compilations. Returns its results and, if
+/// it did not end well, a note.
 pub fn run(mut command: Command, budget: Duration) -> Result<(Vec<Answer>, Option<String>)> {
     let mut child = command
         .stdin(Stdio::null())
@@ -79,10 +86,13 @@ pub fn run(mut command: Command, budget: Duration) -> Result<(Vec<Answer>, Optio
         errors.read_to_end(&mut text).map(|_| String::from_utf8_lossy(&text).into_owned())
     });
     let mut answers = vec![];
-    let end = Instant::now() + budget;
+    let mut end = Instant::now() + budget;
     let ended = loop {
         match receive.recv_timeout(end.saturating_duration_since(Instant::now())) {
-            Ok(line) => answers.extend(Answer::parse(&line)),
+            Ok(line) => {
+                end += compilation(&line);
+                answers.extend(Answer::parse(&line));
+            }
             Err(RecvTimeoutError::Disconnected) => break true,
             Err(RecvTimeoutError::Timeout) => break false,
         }
@@ -101,4 +111,28 @@ pub fn run(mut command: Command, budget: Duration) -> Result<(Vec<Answer>, Optio
         (true, false) => Some(complaint.trim().lines().last().unwrap_or("failed without a message").to_owned()),
     };
     Ok((answers, note))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A shell that takes 0.6 s for two answers, the first of which has `compilation` [s].
+    fn answers(compilation: f64) -> (Vec<Answer>, Option<String>) {
+        let line = |more: &str| format!(r#"{{"tolerance":1,"seconds":1,"evaluations":1,"measured":[]{more}}}"#);
+        let [first, second] = [line(&format!(",\"compilation\":{compilation}")), line("")];
+        let mut command = Command::new("sh");
+        command.args(["-c", &format!("echo '{first}'; sleep 0.6; echo '{second}'")]);
+        run(command, Duration::from_millis(300)).expect("a shell")
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn compilation_is_added_to_the_budget() {
+        let (all, note) = answers(60.0);
+        assert_eq!((all.len(), note), (2, None));
+        let (all, note) = answers(0.0);
+        assert_eq!(all.len(), 1);
+        assert!(note.is_some_and(|note| note.starts_with("stopped after")));
+    }
 }

@@ -1,7 +1,7 @@
 //! The programs for each scene, with their tolerances or step sizes.
 
 use slidercrank::model::rod::Rod;
-use slidercrank::scene::{DriveMode, JointModel, Scene};
+use slidercrank::scene::{Contact, DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Scene, Surface};
 
 /// The kind of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +82,17 @@ const fn mujoco(method: &'static str, word: &'static str) -> Program {
 
 const MUJOCO: [Program; 2] = [mujoco("RK4", "RK4"), mujoco("implicit", "implicit")];
 
+const fn heyoka(method: &'static str, word: &'static str, note: &'static str) -> Program {
+    let (peer, kind) = ("heyoka", Kind::Python("heyoka_mechanism.py"));
+    let ladder = &[1e-2, 1e-4, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-14];
+    Program { peer, method, kind, word, ladder, rigid: false, note: Some(note) }
+}
+
+const HEYOKA: [Program; 2] = [
+    heyoka("compiled part", "compiled", "equations of its own; without Python between events, without compilation"),
+    heyoka("whole", "whole", "equations of its own; events handled in Python, without compilation"),
+];
+
 const SICONOS: Program = Program {
     peer: "Siconos",
     method: "Moreau-Jean",
@@ -102,6 +113,9 @@ pub fn of(scene: &Scene) -> Vec<&'static Program> {
     if Rod::new(scene).is_some() {
         return all;
     }
+    if heyoka_knows(scene, clear, speed) {
+        all.extend(&HEYOKA);
+    }
     if clear == [false, false, true, false] && speed {
         all.extend(&SCIPY);
         all.extend(&EXUDYN);
@@ -113,4 +127,18 @@ pub fn of(scene: &Scene) -> Vec<&'static Program> {
         all.push(&SICONOS);
     }
     all
+}
+
+/// Whether the expressions of the program on heyoka have the laws of all contacts, and there is something to integrate.
+fn heyoka_knows(scene: &Scene, clear: [bool; 4], speed: bool) -> bool {
+    let joint = &scene.joint;
+    let contacts = [&joint.a.contact, &joint.b.contact, &joint.c.contact, &joint.t.contact];
+    let law = |(contact, _): (&Contact, bool)| {
+        let friction = [FrictionLaw::None, FrictionLaw::Ambrosio].contains(&contact.friction.law);
+        friction && contact.law != DampingLaw::ZhangSharf
+    };
+    let shapes = [joint.a.elasticity, joint.b.elasticity, joint.c.elasticity].map(|own| own == Elasticity::Hertz);
+    let shapes = shapes.into_iter().chain([joint.t.surface == Surface::Corner]);
+    let known = clear.into_iter().zip(shapes).all(|(clear, shape)| shape || !clear);
+    known && contacts.into_iter().zip(clear).filter(|(_, clear)| *clear).all(law) && !(speed && clear == [false; 4])
 }
