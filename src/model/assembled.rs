@@ -244,7 +244,16 @@ impl MechanismModel for Model {
         t: Tangent,
         y: &[Tangent],
         rates: &mut [Tangent],
-    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
+    ) -> Evaluation<Tangent> {
         self.mechanism.tangent_evaluation(conditions, t, y, rates)
+    }
+
+    fn tangent_contact_energy(
+        &self,
+        contacts: &Contacts,
+        pose: &Pose<Tangent>,
+        y: &[Tangent],
+    ) -> ContactEnergy<Tangent> {
+        self.mechanism.contact_energy(contacts, pose, y)
     }
 }

@@ -114,6 +114,7 @@ impl Audited {
     }
 
     /// [W] Rates of the audit's states.
+    #[inline(never)]
     fn powers<R: Real>(
         &self,
         inputs: &InputSignal,
@@ -256,8 +257,8 @@ impl MechanismModel for Audited {
 
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         let first = self.first();
-        let (evaluation, contact_energy) =
-            self.model.tangent_evaluation(conditions, t, &y[..first], &mut rates[..first]);
+        let evaluation = self.model.tangent_evaluation(conditions, t, &y[..first], &mut rates[..first]);
+        let contact_energy = self.model.tangent_contact_energy(&conditions.contacts, &evaluation.pose, &y[..first]);
         rates[first..][..STATES].copy_from_slice(&self.powers(&conditions.inputs, t, &evaluation, &contact_energy));
     }
 
@@ -267,9 +268,18 @@ impl MechanismModel for Audited {
         t: Tangent,
         y: &[Tangent],
         rates: &mut [Tangent],
-    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
+    ) -> Evaluation<Tangent> {
         let first = self.first();
         self.model.tangent_evaluation(conditions, t, &y[..first], &mut rates[..first])
+    }
+
+    fn tangent_contact_energy(
+        &self,
+        contacts: &Contacts,
+        pose: &Pose<Tangent>,
+        y: &[Tangent],
+    ) -> ContactEnergy<Tangent> {
+        self.model.tangent_contact_energy(contacts, pose, &y[..self.first()])
     }
 
     fn energies(&self, contacts: &Contacts, evaluation: &Evaluation, y: &[f64]) -> EnergyOutputs {

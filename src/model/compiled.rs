@@ -11,9 +11,8 @@
 //! The loop over the stages of a step is compiled together with the equations, so that the results of a stage do not
 //! pass through memory in other portions than they are read in.
 
-use super::contact::ContactEnergy;
 use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
-use super::rod::{Chord, CompiledCounts, FixedCounts, RodCapacity, RuntimeCounts};
+use super::rod::{Chord, CompiledCounts, FixedCounts, Inertia, RodCapacity, RuntimeCounts};
 use super::scalar::{Scalar, Tangent};
 use super::stages::run_stages;
 use super::state::{Conditions, Evaluation, Pose};
@@ -200,7 +199,7 @@ impl Mechanism {
     #[inline(never)]
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
-            None => self.rates(&self.structure, conditions, t, y, rates),
+            None => self.rigid_tangent_rates(conditions, t, y, rates),
             Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates)),
         }
     }
@@ -241,7 +240,7 @@ impl Mechanism {
         }
     }
 
-    /// The evaluation of an instant with derivatives, and the energy of its contacts; writes the rates.
+    /// The evaluation of an instant with derivatives; writes the rates.
     #[inline(never)]
     pub fn tangent_evaluation(
         &self,
@@ -249,13 +248,30 @@ impl Mechanism {
         t: Tangent,
         y: &[Tangent],
         rates: &mut [Tangent],
-    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>) {
-        let evaluation = match &self.rod {
-            None => self.rates_and_evaluation(&self.structure, conditions, t, y, rates),
+    ) -> Evaluation<Tangent> {
+        match &self.rod {
+            None => self.rigid_tangent_evaluation(conditions, t, y, rates),
             Some(rod) => with_capacity!(rod, self.flexible_instant::<Tangent>(rod, conditions, t, y, rates)),
-        };
-        let contact_energy = self.contact_energy(&conditions.contacts, &evaluation.pose, y);
-        (evaluation, contact_energy)
+        }
+    }
+
+    /// The rates with a rigid rod. They are not compiled into the function that calls those with a flexible rod, too: its
+    /// stack frame would be there for both.
+    #[inline(never)]
+    fn rigid_tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+        self.rates(&self.structure, conditions, t, y, rates);
+    }
+
+    /// As [`rigid_tangent_rates`](Self::rigid_tangent_rates), and returns the evaluation of the instant.
+    #[inline(never)]
+    fn rigid_tangent_evaluation(
+        &self,
+        conditions: &Conditions,
+        t: Tangent,
+        y: &[Tangent],
+        rates: &mut [Tangent],
+    ) -> Evaluation<Tangent> {
+        self.rates_and_evaluation(&self.structure, conditions, t, y, rates)
     }
 
     /// Writes the rates with a flexible rod whose counts are known at compile time.
@@ -269,7 +285,7 @@ impl Mechanism {
         rates: &mut [R],
     ) {
         if let Some(rod) = &self.rod {
-            self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates);
+            self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates, &mut Inertia::default());
         }
     }
 
@@ -285,7 +301,8 @@ impl Mechanism {
         event_functions: &mut EventFunctions,
     ) {
         if let Some(rod) = &self.rod {
-            let motion = self.flexible_rates::<f64, C, 4, 12>(of, rod, conditions, t, y, rates);
+            let inertia = &mut Inertia::default();
+            let motion = self.flexible_rates::<f64, C, 4, 12>(of, rod, conditions, t, y, rates, inertia);
             motion.event_functions(self, of, &conditions.contacts, event_functions);
         }
     }
@@ -300,7 +317,7 @@ impl Mechanism {
         rates: &mut [f64],
         event_functions: &mut EventFunctions,
     ) {
-        let motion = self.flexible_motion::<f64, K, F>(rod, conditions, t, y, rates);
+        let motion = self.flexible_motion::<f64, K, F>(rod, conditions, t, y, rates, &mut Inertia::default());
         motion.event_functions(self, &self.structure, &conditions.contacts, event_functions);
     }
 
@@ -313,7 +330,8 @@ impl Mechanism {
         y: &[F64x8],
         rates: &mut [F64x8],
     ) {
-        self.flexible_rates::<F64x8, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates);
+        let inertia = &mut Inertia::default();
+        self.flexible_rates::<F64x8, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates, inertia);
     }
 
     #[inline(never)]
@@ -324,8 +342,9 @@ impl Mechanism {
         t: R,
         y: &[R],
         rates: &mut [R],
+        inertia: &mut Inertia<R, K>,
     ) -> FlexibleMotion<R, K> {
-        self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates)
+        self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates, inertia)
     }
 
     /// Writes the rates and discards the motion.
@@ -338,7 +357,7 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
     ) {
-        self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates);
+        self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates, &mut Inertia::default());
     }
 
     #[inline(never)]
@@ -350,6 +369,8 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
     ) -> Evaluation<R> {
-        self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates).evaluation(self, rod, y, rates)
+        let mut inertia = Inertia::default();
+        let motion = self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates, &mut inertia);
+        motion.evaluation(&inertia, self, rod, y, rates)
     }
 }

@@ -16,6 +16,7 @@ use super::inertial_load::InertialLoad;
 use super::kinematics::{Arms, BodyRotations, JointPoints, PointMotion};
 use super::loads::Loads;
 use super::modal::BentRod;
+use super::part::part;
 use super::plane::{Vec2, cross, perp};
 use super::rod::{Arrays, Chord, CompiledCounts, Inertia, Modes, Rod, Shape};
 use super::scalar::Scalar;
@@ -66,13 +67,12 @@ pub(super) struct Configuration<R> {
     pub closing: IdealMotion<R>,
 }
 
-/// A mechanism with a flexible rod at one instant, in arrays of `K` modes.
+/// A mechanism with a flexible rod at one instant, in arrays of `K` modes; the rod's [`Inertia`] is separate.
 pub(super) struct FlexibleMotion<R, const K: usize> {
     configuration: Configuration<R>,
     chord: Chord<R>,
     /// ∂L/∂η.
     chord_slope: [R; K],
-    inertia: Inertia<R, K>,
     loads: Loads<R>,
     accelerations: Accelerations<R>,
 }
@@ -155,8 +155,10 @@ impl Mechanism {
     }
 
     /// Writes the rates of the state `y` at `t` for a flexible rod, in arrays of `K` modes and `F` functions along the
-    /// rod, with counts `C` that may be known at compile time. Returns the motion.
+    /// rod, with counts `C` that may be known at compile time. Writes the rod's inertia into `inertia`, which must be
+    /// zero, and returns the motion.
     #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "inlined")]
     pub(super) fn flexible_rates<R: Scalar, C: CompiledCounts, const K: usize, const F: usize>(
         &self,
         of: &Structure,
@@ -165,35 +167,31 @@ impl Mechanism {
         t: R,
         y: &[R],
         rates: &mut [R],
+        inertia: &mut Inertia<R, K>,
     ) -> FlexibleMotion<R, K> {
         let modes: Arrays<'_, K, F> = rod.modes.arrays();
         let rigid = of.positions;
         let p = rigid + C::COUNTS.unwrap_or(modes.counts).modes();
         let (positions, speeds) = (&y[..p], &y[p..2 * p]);
         let (eta, rate) = (&positions[rigid..], &speeds[rigid..]);
-        let shape = modes.shape::<R, C>(eta, rate);
-        let configuration = self.flexible_configuration(of, t, positions, speeds, &shape);
+        let shape = part!(R, C, modes.shape::<R, C>(eta, rate));
+        let configuration = part!(R, C, self.flexible_configuration(of, t, positions, speeds, &shape));
         let (moving, bristle_rates) = rates.split_at_mut(2 * p);
         let (velocities, forced) = moving.split_at_mut(p);
-        let loads = self.loads(of, conditions, t, &y[2 * p..], &configuration.pose, bristle_rates);
         let Configuration { pose, arms, closing } = &configuration;
-        let inertia = modes.inertia::<R, C>(&shape, eta, rate, pose.rotations.speed[ROD]);
-        let bent = BentRod { modes, chain: rod.chain, shape: &shape, inertia: &inertia, eta, rate };
-        let accelerations = bent.accelerate::<C>(
-            of,
-            &self.augmented,
-            self.gravity,
-            &pose.rotations,
-            arms,
-            closing,
-            &loads,
-            &mut forced[rigid..],
-        );
+        let bristles = &y[2 * p..];
+        let loads = part!(R, C, self.loads(of, conditions, t, bristles, pose, bristle_rates));
+        let speed = pose.rotations.speed[ROD];
+        part!(R, C, modes.inertia::<R, C>(&shape, eta, rate, speed, inertia));
+        let bent = BentRod { modes, chain: rod.chain, shape: &shape, inertia, eta, rate };
+        let (bodies, gravity, modal) = (&self.augmented, self.gravity, &mut forced[rigid..]);
+        let accelerations =
+            part!(R, C, bent.accelerate::<C>(of, bodies, gravity, &pose.rotations, arms, closing, &loads, modal));
         velocities.copy_from_slice(speeds);
         of.set_roots(&accelerations.roots, forced);
         of.set_angles(accelerations.angle, forced);
         let Shape { chord, chord_slope, .. } = shape;
-        FlexibleMotion { configuration, chord, chord_slope, inertia, loads, accelerations }
+        FlexibleMotion { configuration, chord, chord_slope, loads, accelerations }
     }
 
     /// The configuration with a rigid rod, computed outwards.
@@ -350,8 +348,16 @@ impl Mechanism {
 
 impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
     /// The evaluation of the instant of the state `y` whose rates are `rates`.
-    pub fn evaluation(&self, mechanism: &Mechanism, rod: &FlexibleRod, y: &[R], rates: &[R]) -> Evaluation<R> {
-        let Self { configuration: Configuration { pose, arms, .. }, chord, inertia, loads, accelerations, .. } = self;
+    #[inline(never)]
+    pub fn evaluation(
+        &self,
+        inertia: &Inertia<R, K>,
+        mechanism: &Mechanism,
+        rod: &FlexibleRod,
+        y: &[R],
+        rates: &[R],
+    ) -> Evaluation<R> {
+        let Self { configuration: Configuration { pose, arms, .. }, chord, loads, accelerations, .. } = self;
         let (of, p) = (&mechanism.structure, mechanism.positions());
         let modal = of.positions..p;
         let (eta, rate) = (&y[modal.clone()], &y[p + modal.start..2 * p]);

@@ -47,14 +47,22 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     /// Writes the rates with derivatives.
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);
 
-    /// [`MechanismModel::rates_and_evaluation`] and [`MechanismModel::contact_energy`] with derivatives.
+    /// [`MechanismModel::rates_and_evaluation`] with derivatives.
     fn tangent_evaluation(
         &self,
         conditions: &Conditions,
         t: Tangent,
         y: &[Tangent],
         rates: &mut [Tangent],
-    ) -> (Evaluation<Tangent>, ContactEnergy<Tangent>);
+    ) -> Evaluation<Tangent>;
+
+    /// [`MechanismModel::contact_energy`] with derivatives.
+    fn tangent_contact_energy(
+        &self,
+        contacts: &Contacts,
+        pose: &Pose<Tangent>,
+        y: &[Tangent],
+    ) -> ContactEnergy<Tangent>;
 
     /// Energies, works and losses; all 0 without an audit.
     fn energies(&self, _: &Contacts, _: &Evaluation, _: &[f64]) -> EnergyOutputs {

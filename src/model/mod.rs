@@ -31,6 +31,7 @@ pub mod mechanism;
 pub mod mechanism_model;
 mod modal;
 pub mod outputs;
+mod part;
 pub mod plane;
 pub mod reactions;
 pub mod rod;

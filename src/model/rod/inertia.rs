@@ -13,7 +13,7 @@ use crate::model::plane::{Vec2, perp};
 
 /// Inertia of the rod in its own frame, for the accelerations of the frame's origin, of its angle and of the modal
 /// coordinates η, and the forces that the motion requires at zero accelerations.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Inertia<R, const K: usize> {
     /// [kg·m] First moment D = ∫ρ dm about the frame's origin.
     pub first: Vec2<R>,
@@ -33,56 +33,11 @@ pub struct Inertia<R, const K: usize> {
     pub modal_force: [R; K],
 }
 
-impl<const K: usize, const F: usize> Arrays<'_, K, F> {
-    /// The inertia of a `shape` with modal coordinates `eta` [m] and their rates `rate` [m/s], in a frame that rotates
-    /// at `speed` [rad/s].
+impl<R: Real, const K: usize> Default for Inertia<R, K> {
     #[inline(always)]
-    pub fn inertia<R: Real, C: CompiledCounts>(
-        &self,
-        shape: &Shape<R, K, F>,
-        eta: &[R],
-        rate: &[R],
-        speed: R,
-    ) -> Inertia<R, K> {
-        const { assert!(F.is_multiple_of(LANES) && F > K) };
-        let counts = C::COUNTS.unwrap_or(self.counts);
-        let Counts { bending: n, axial, shortening } = counts;
-        let (q, dq) = (&eta[..n], &rate[..n]);
-        let Shape { xi, xi_rate, xi_bias, .. } = shape;
-        let (functions, pairs, none) = (counts.functions(), 1 + axial..counts.functions(), [R::ZERO; F]);
-        let (square, twice) = (speed * speed, speed * 2.0);
-        let mut twist = none;
-        unroll!(C::KNOWN, i < shortening, C::MODES => {
-            let first = counts.twists(i);
-            unroll!(C::KNOWN, j < i, C::MODES => {
-                twist[first + j] = q[j].multiply_add(dq[i], -(q[i] * dq[j]));
-            });
-        });
-        let TableView { second, with_modes, placing, moving, twisting, products, shifting, .. } = self.tables;
-        let columns = n + 1;
-        let (mut place, mut bias, mut moved, mut first_slope) = (none, none, none, none);
-        add_rows::<R, FunctionsToModes<C>, _, _>([&mut place], placing, 0..functions, [xi], columns);
-        add_rows::<R, FunctionsToModes<C>, _, _>([&mut bias], with_modes, pairs.clone(), [xi_bias], columns);
-        add_rows::<R, FunctionsToModes<C>, _, _>([&mut moved], moving, 1..functions, [xi_rate], columns);
-        add_rows::<R, FunctionsToModes<C>, _, _>(
-            [&mut moved],
-            twisting,
-            0..counts.twists(shortening),
-            [&twist],
-            columns,
-        );
-        add_rows::<R, ModesToModes<C>, _, _>([&mut first_slope], shifting, 0..shortening, [q], columns);
-        let (mut spread, mut asked, mut product) = (none, none, none);
-        add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut spread], second, 0..functions, [xi], functions);
-        add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut asked], second, pairs.clone(), [xi_bias], functions);
-        add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut product], products, pairs, [xi], counts.pairs());
-        // The acceleration along x at q̈ = 0 has a centrifugal part.
-        unroll!(C::KNOWN, k in 1..functions, C::FUNCTIONS => {
-            asked[k] = (-square).multiply_add(spread[k], asked[k]);
-        });
-
-        let mut inertia = Inertia {
-            first: Vec2::new(place[n], R::ZERO),
+    fn default() -> Self {
+        Self {
+            first: Vec2::ZERO,
             about_origin: R::ZERO,
             first_slope: Vec2::new([R::ZERO; K], [R::ZERO; K]),
             with_angle: [R::ZERO; K],
@@ -90,13 +45,92 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             force: Vec2::ZERO,
             couple: R::ZERO,
             modal_force: [R::ZERO; K],
-        };
-        let mut first_rate = Vec2::new(moved[n], R::ZERO);
+        }
+    }
+}
+
+impl<const K: usize, const F: usize> Arrays<'_, K, F> {
+    /// Writes the inertia of a `shape` with modal coordinates `eta` [m] and their rates `rate` [m/s], in a frame that
+    /// rotates at `speed` [rad/s]; `inertia` must be zero. The lists of sums exist one after the other and share memory.
+    #[inline(always)]
+    pub fn inertia<R: Real, C: CompiledCounts>(
+        &self,
+        shape: &Shape<R, K, F>,
+        eta: &[R],
+        rate: &[R],
+        speed: R,
+        inertia: &mut Inertia<R, K>,
+    ) {
+        const { assert!(F.is_multiple_of(LANES) && F > K) };
+        let counts = C::COUNTS.unwrap_or(self.counts);
+        let Counts { bending: n, axial, shortening } = counts;
+        let (q, dq) = (&eta[..n], &rate[..n]);
+        let Shape { xi, xi_rate, xi_bias, .. } = shape;
+        let (functions, pairs) = (counts.functions(), 1 + axial..counts.functions());
+        let zeros = || [R::ZERO; F];
+        let (square, twice) = (speed * speed, speed * 2.0);
+        let TableView { second, with_modes, placing, moving, twisting, products, shifting, .. } = self.tables;
+        let columns = n + 1;
+        {
+            let mut place = zeros();
+            add_rows::<R, FunctionsToModes<C>, _, _>([&mut place], placing, 0..functions, [xi], columns);
+            inertia.first.x = place[n];
+            unroll!(C::KNOWN, i < n, C::MODES => {
+                inertia.with_angle[i] = place[i];
+            });
+        }
+        {
+            let mut bias = zeros();
+            add_rows::<R, FunctionsToModes<C>, _, _>([&mut bias], with_modes, pairs.clone(), [xi_bias], columns);
+            inertia.force.x = bias[n];
+            unroll!(C::KNOWN, i < n, C::MODES => {
+                inertia.couple = (-q[i]).multiply_add(bias[i], inertia.couple);
+            });
+        }
+        let mut first_rate = Vec2::<R>::ZERO;
+        {
+            let (mut twist, mut moved) = (zeros(), zeros());
+            unroll!(C::KNOWN, i < shortening, C::MODES => {
+                let first = counts.twists(i);
+                unroll!(C::KNOWN, j < i, C::MODES => {
+                    twist[first + j] = q[j].multiply_add(dq[i], -(q[i] * dq[j]));
+                });
+            });
+            add_rows::<R, FunctionsToModes<C>, _, _>([&mut moved], moving, 1..functions, [xi_rate], columns);
+            add_rows::<R, FunctionsToModes<C>, _, _>(
+                [&mut moved],
+                twisting,
+                0..counts.twists(shortening),
+                [&twist],
+                columns,
+            );
+            first_rate.x = moved[n];
+            unroll!(C::KNOWN, i < n, C::MODES => {
+                inertia.modal_force[i] = twice.multiply_add(moved[i], -(square * (q[i] * self.modal_mass[i])));
+            });
+        }
+        {
+            let mut first_slope = zeros();
+            add_rows::<R, ModesToModes<C>, _, _>([&mut first_slope], shifting, 0..shortening, [q], columns);
+            unroll!(C::KNOWN, i < n, C::MODES => {
+                inertia.first_slope.x[i] = first_slope[i];
+            });
+        }
         let mut spreading = R::ZERO;
-        unroll!(C::KNOWN, k < functions, C::FUNCTIONS => {
-            inertia.about_origin = xi[k].multiply_add(spread[k], inertia.about_origin);
-            spreading = xi_rate[k].multiply_add(spread[k], spreading);
-        });
+        let mut asked = zeros();
+        {
+            let mut spread = zeros();
+            add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut spread], second, 0..functions, [xi], functions);
+            add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut asked], second, pairs.clone(), [xi_bias], functions);
+            // The acceleration along x at q̈ = 0 has a centrifugal part.
+            unroll!(C::KNOWN, k in 1..functions, C::FUNCTIONS => {
+                asked[k] = (-square).multiply_add(spread[k], asked[k]);
+            });
+            unroll!(C::KNOWN, k < functions, C::FUNCTIONS => {
+                inertia.about_origin = xi[k].multiply_add(spread[k], inertia.about_origin);
+                spreading = xi_rate[k].multiply_add(spread[k], spreading);
+            });
+        }
         unroll!(C::KNOWN, i < n, C::MODES => {
             let (m, moment) = (self.modal_mass[i], self.moment[i]);
             let weighted = q[i] * m;
@@ -104,11 +138,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             first_rate.y = dq[i].multiply_add(moment, first_rate.y);
             inertia.about_origin = weighted.multiply_add(q[i], inertia.about_origin);
             spreading = weighted.multiply_add(dq[i], spreading);
-            inertia.couple = (-q[i]).multiply_add(bias[i], inertia.couple);
-            inertia.first_slope.x[i] = first_slope[i];
             inertia.first_slope.y[i] = R::constant(moment);
-            inertia.with_angle[i] = place[i];
-            inertia.modal_force[i] = twice.multiply_add(moved[i], -(square * weighted));
             inertia.modal[i][i] = R::constant(m);
         });
         unroll!(C::KNOWN, j < axial, C::MODES => {
@@ -131,6 +161,8 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 inertia.modal[a][n + i] = R::constant(second[function][1 + i]);
             });
         });
+        let mut product = zeros();
+        add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut product], products, pairs, [xi], counts.pairs());
         unroll!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
             unroll!(C::KNOWN, further < shortening - i, C::MODES => {
@@ -144,7 +176,6 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             });
         });
         inertia.couple += twice * spreading;
-        inertia.force = Vec2::new(bias[n], R::ZERO) - square * inertia.first + twice * perp(first_rate);
-        inertia
+        inertia.force = inertia.force - square * inertia.first + twice * perp(first_rate);
     }
 }
