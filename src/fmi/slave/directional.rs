@@ -88,6 +88,8 @@ impl Slave {
         for (&unknown, &seed) in unknowns.iter().zip(seeds) {
             finite(self.unknown(permission, unknown)?.0, seed)?;
         }
+        // A refusal comes before the mechanism is looked at.
+        knowns.iter().try_for_each(|known| self.direction(permission, &[*known], &[1.0]).map(drop))?;
         let mut column = vec![0.0; unknowns.len()];
         let mut sums = Vec::with_capacity(knowns.len());
         for &known in knowns {
