@@ -79,7 +79,7 @@ pub fn arguments(call: Call, stage: &Stage) -> Vec<Argument> {
         SetContinuousStates => {
             let faulty = |number: f64| {
                 let mut states = vec![1.0; states()];
-                states.pop().map(|_| states.push(number));
+                states.last_mut().into_iter().for_each(|last| *last = number);
                 states
             };
             let faulty = if states() == 0 {

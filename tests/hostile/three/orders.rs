@@ -83,7 +83,8 @@ fn perform(stage: &mut Stage, Act { call, odd }: &Act, endings: &Endings) {
     }
     stage.memory.clear();
     let (before, was) = (stage.bytes(), content(stage));
-    let endless = call == Call::DoStep && was.settings.experiment.stop != Some(STOP) && choice[2] != 0;
+    let stops = was.settings.experiment.stop == Some(STOP) && stage.now > 0.0;
+    let endless = call == Call::DoStep && !stops && choice[2] != 0;
     if call == Call::FreeInstance && choice[0] == 0 || endless {
         return;
     }
