@@ -28,7 +28,7 @@ pub use phase::{Phase, PhaseScales};
 pub use side::Side;
 pub use system::System;
 
-use crate::integrator::{IntegrationError, MAX_STATES, Reader};
+use crate::integrator::{IntegrationError, MAX_STATES, Reader, WorkLimit};
 use crate::math::PORTABLE;
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
@@ -46,6 +46,19 @@ pub struct Simulation {
     /// As the scene has it.
     tolerance: f64,
     side: Side,
+    work_limit: WorkLimit,
+    allowance: Allowance,
+}
+
+/// Work that an advance by single steps may take, as much as one that does not stop.
+#[derive(Clone, Copy, Default)]
+struct Allowance {
+    /// [s] Where it ends.
+    until: f64,
+    /// Evaluations of the rates when it began.
+    from: u64,
+    /// Evaluations from there on.
+    most: u64,
 }
 
 /// Message for the only dead end of a mechanism's equations of motion.
@@ -60,7 +73,8 @@ impl Simulation {
     pub fn start(scene: &Scene, inputs: Inputs) -> Result<Self, SimulationError> {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
         let (motion, tolerance) = (start::start(scene, inputs)?, scene.solver.tolerance);
-        Ok(Self { motion, time: 0.0, tolerance, side: Side::After })
+        let (work_limit, allowance) = (settings::settings(scene).effort, Allowance::default());
+        Ok(Self { motion, time: 0.0, tolerance, side: Side::After, work_limit, allowance })
     }
 
     /// [s] The communication point reached, relative to the start.
@@ -115,7 +129,7 @@ impl Simulation {
         self.side = Side::After;
         let after = self.time;
         let next = after.next_up().min(time);
-        let moved = self.motion.advance(next).and_then(|()| {
+        let moved = self.check_work(time).and_then(|()| self.motion.advance(next)).and_then(|()| {
             let reached = self.motion.front_time().min(time);
             Ok((reached, self.motion.advance_to_event(after, reached)?))
         });
@@ -126,6 +140,19 @@ impl Simulation {
             }
             Err(error) => Err(self.failed(error)),
         }
+    }
+
+    /// Refuses a single step on the way to `time` if those before took more work than an advance to there may take.
+    fn check_work(&mut self, time: f64) -> Result<(), IntegrationError> {
+        let now = self.motion.evaluations();
+        if self.time >= self.allowance.until || time > self.allowance.until {
+            self.allowance = Allowance { until: time, from: now, most: self.work_limit.over(time - self.time) };
+        }
+        let evaluations = now - self.allowance.from;
+        if evaluations > self.allowance.most {
+            return Err(IntegrationError::TooMuchWork { time: self.time, evaluations });
+        }
+        Ok(())
     }
 
     /// Looks from now on at this side of the events at the communication point, until time moves.

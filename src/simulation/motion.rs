@@ -44,6 +44,8 @@ pub trait Motion: Send {
     fn differentiate(&self, times: usize);
     /// Time [s] at the start of the next step.
     fn front_time(&self) -> f64;
+    /// Evaluations of the rates up to the start of the next step.
+    fn evaluations(&self) -> u64;
     /// Time [s] and states at the start of the next step.
     fn front(&self) -> (f64, Vec<f64>);
     /// Rates of `states` at `time` [s] under the conditions at the start of the next step.

@@ -175,6 +175,10 @@ impl Motion for TimeStepping {
         self.integrator.state().front().t
     }
 
+    fn evaluations(&self) -> u64 {
+        self.integrator.state().statistics.evaluations
+    }
+
     fn front(&self) -> (f64, Vec<f64>) {
         let StepPoint { t, y, .. } = self.integrator.state().front();
         (*t, y.clone())

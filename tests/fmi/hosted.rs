@@ -3,7 +3,7 @@
 
 use crate::host::vr;
 use slidercrank::fmi::slave::states::exchange;
-use slidercrank::fmi::slave::{Permission, Slave, ValueType};
+use slidercrank::fmi::slave::{Error, Permission, Slave, ValueType};
 use slidercrank::model_description::exchange::{FIRST_DERIVATIVE, FIRST_STATE};
 use slidercrank::scene::{FrictionLaw, JointModel, Method, Scene, Surface};
 
@@ -220,7 +220,9 @@ fn derivatives_along_states_are_differences_and_declared() {
         for (known, reference) in (0..n).zip(FIRST_STATE..) {
             host.place(t, &y);
             let mut along = vec![0.0; n];
-            host.slave.exchange_derivative(&rates, &[reference], &[1.0], &mut along).expect("derivatives");
+            host.slave
+                .directional_derivative(EVERYTHING, &rates, &[reference], &[1.0], &mut along)
+                .expect("derivatives");
             let half = 1e-3 * nominals[known];
             let at = |host: &mut Host, step: f64| {
                 let mut moved = y.clone();
@@ -245,12 +247,73 @@ fn derivatives_along_states_are_differences_and_declared() {
             }
         }
         let mut by_load = vec![0.0; n];
-        host.slave.exchange_derivative(&rates, &[vr("slider.load")], &[1.0], &mut by_load).expect("derivatives");
+        host.slave
+            .directional_derivative(EVERYTHING, &rates, &[vr("slider.load")], &[1.0], &mut by_load)
+            .expect("derivatives");
         for (by_load, state) in by_load.iter().zip(&exchange.states) {
             assert!(*by_load == 0.0 || state.feels_inputs, "{name}: {}", state.name);
         }
     }
     assert!(compared > 300, "{compared} derivatives that are not 0: nothing was tried");
+}
+
+/// Numbers of a mechanism at its start, with a parameter set.
+fn at_start(scene: &Scene, unknowns: &[u32], known: &str, value: f64) -> Vec<f64> {
+    let mut slave = Slave::for_exchange(scene.clone()).expect("equations for another integrator");
+    slave.set(ValueType::Real, EVERYTHING, &[vr(known)], &[value], |value| value).expect("a legal value");
+    let mut values = vec![0.0; unknowns.len()];
+    slave.get(ValueType::Real, EVERYTHING, unknowns, &mut values, |value| value).expect("numbers");
+    values
+}
+
+/// Outputs, states and their derivatives by start values and by inputs, in initialization mode.
+#[test]
+fn derivatives_by_start_values_are_differences() {
+    let knowns = [
+        "crank.speed_start",
+        "crank.angle_start",
+        "crank.length",
+        "rod.mass",
+        "slider.inertia",
+        "gravity",
+        "slider.load",
+    ];
+    let (mut compared, mut jumps) = (0, 0);
+    for (name, scene) in scenes() {
+        let states = exchange(&scene).expect("model exchange").states.len() as u32;
+        let places = (FIRST_STATE..).take(states as usize).chain((FIRST_DERIVATIVE..).take(states as usize));
+        let unknowns: Vec<u32> = places.chain(["slider.v", "slider.a", "joint.C.force.x"].map(vr)).collect();
+        let mut slaves = [
+            Slave::for_exchange(scene.clone()).expect("equations for another integrator"),
+            Slave::new(scene.clone(), None),
+        ];
+        for known in knowns {
+            let here = get(&mut slaves[0], known);
+            let half = 1e-5 * here.abs().max(0.1);
+            let [before, after] = [here - half, here + half].map(|value| at_start(&scene, &unknowns, known, value));
+            let mut along = [vec![0.0; unknowns.len()], vec![0.0; unknowns.len()]];
+            for (slave, along) in slaves.iter_mut().zip(&mut along) {
+                match slave.directional_derivative(EVERYTHING, &unknowns, &[vr(known)], &[1.0], along) {
+                    Err(Error::NoDerivative(_)) => along.fill(f64::NAN),
+                    outcome => outcome.unwrap_or_else(|error| panic!("{name}, {known}: {error}")),
+                }
+            }
+            if along[0][0].is_nan() {
+                jumps += 1;
+                continue;
+            }
+            for (at, reference) in unknowns.iter().enumerate() {
+                let difference = (after[at] - before[at]) / (2.0 * half);
+                let bound = 1e-4 * difference.abs() + 1e-9 * (before[at].abs() + 1.0) / half;
+                for along in &along {
+                    let error = (along[at] - difference).abs();
+                    assert!(error <= bound, "{name}: {reference} by {known}: {} {difference}", along[at]);
+                }
+                compared += usize::from(along[0][at] != 0.0);
+            }
+        }
+    }
+    assert!(compared > 500 && jumps < 20, "{compared} derivatives that are not 0, {jumps} jumps");
 }
 
 #[test]

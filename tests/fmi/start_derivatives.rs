@@ -2,6 +2,7 @@
 
 use crate::host::{Slave, vr};
 use slidercrank::fmi::v2::Status;
+use slidercrank::model_description::exchange::{FIRST_DERIVATIVE, FIRST_STATE};
 
 /// Lengths, angle, speed and torque of a mechanism whose motion has a closed form.
 const R: f64 = 0.05;
@@ -13,7 +14,17 @@ const SPEED: f64 = 30.0;
 const DIGITS: f64 = 1e-10;
 
 fn ideal() -> Slave {
-    let slave = Slave::initializing();
+    start(Slave::initializing())
+}
+
+/// The same for an importer that integrates.
+fn exchanging() -> Slave {
+    let slave = Slave::exchanging();
+    assert_eq!((slave.setup_raw(0, 0.0, 0.0, 0, 0.0), slave.enter()), (Status::Ok, Status::Ok));
+    start(slave)
+}
+
+fn start(slave: Slave) -> Slave {
     let starts = [("guide.offset", H), ("crank.angle_start", ANGLE), ("crank.speed_start", SPEED)];
     for (name, value) in starts {
         assert_eq!(slave.set(name, value), Status::Ok);
@@ -142,4 +153,58 @@ fn they_are_for_initialization_mode_and_leave_the_run_alone() {
     assert_eq!(lost.set("guide.offset", 0.3), Status::Ok);
     assert_eq!(lost.sensitivity("slider.x", "rod.length", 1.0), Err(Status::Error));
     assert!(lost.log.only().text.contains("rod.length = 0.12 is not allowed"));
+}
+
+/// Of several unknowns along one known, by their references.
+fn of(slave: &Slave, unknowns: &[u32], known: u32) -> Result<Vec<f64>, Status> {
+    let (count, mut values) = (unknowns.len(), vec![f64::NAN; unknowns.len()]);
+    // SAFETY: a live component, arrays of the lengths said.
+    let status = unsafe {
+        (slave.api.GetDirectionalDerivative)(slave.c, unknowns.as_ptr(), count, &known, 1, &1.0, values.as_mut_ptr())
+    };
+    if status == Status::Ok { Ok(values) } else { Err(status) }
+}
+
+#[test]
+fn in_model_exchange_they_are_those_of_co_simulation() {
+    let (exchange, stepping) = (exchanging(), ideal());
+    let unknowns = ["slider.x", "slider.v", "slider.a", "crank.acceleration", "joint.C.force.x", "accuracy.velocity"];
+    for known in ["crank.length", "rod.mass", "slider.mass", "guide.offset", "crank.speed_start", "crank.torque"] {
+        let [here, there] = [&exchange, &stepping].map(|slave| along(slave, &unknowns, &[(known, 1.5)]).expect("some"));
+        for (at, (here, there)) in here.iter().zip(&there).enumerate() {
+            // One difference is as good as the other.
+            assert!((here - there).abs() <= 1e-9 * there.abs() + 1e-12, "{} by {known}: {here} {there}", unknowns[at]);
+        }
+    }
+    assert_eq!(exchange.exit(), Status::Ok);
+    assert_eq!(exchange.sensitivity("slider.a", "rod.mass", 1.0), Err(Status::Error));
+    assert!(exchange.log.only().text.contains("rod.mass is not a real input or a continuous state"));
+}
+
+#[test]
+fn states_and_their_derivatives_follow_start_values_in_either_interface() {
+    let (angle, speed) = (FIRST_STATE, FIRST_STATE + 1);
+    let unknowns = [angle, speed, FIRST_DERIVATIVE, FIRST_DERIVATIVE + 1, vr("crank.acceleration")];
+    for slave in [exchanging(), ideal()] {
+        let by = |known: &str| of(&slave, &unknowns, vr(known)).expect("derivatives");
+        for (known, starts) in [
+            ("crank.angle_start", [1.0, 0.0, 0.0]),
+            ("crank.speed_start", [0.0, 1.0, 1.0]),
+            ("rod.mass", [0.0; 3]),
+            ("crank.torque", [0.0; 3]),
+        ] {
+            let found = by(known);
+            // The angle's derivative is the speed, and that of the speed an output.
+            for (found, exact) in found.iter().zip(starts) {
+                assert!((found - exact).abs() < DIGITS, "{known}: {found} {exact}");
+            }
+            assert!(found[3] != 0.0 && (found[3] - found[4]).abs() < 1e-9 * found[4].abs(), "{known}: {found:?}");
+        }
+        assert_eq!(slave.exit(), Status::Ok);
+        assert_eq!(of(&slave, &[angle], vr("crank.torque")), Err(Status::Error));
+        assert!(slave.log.only().text.contains("nor a state"));
+        // A state that the scene does not have.
+        assert_eq!(of(&slave, &[FIRST_DERIVATIVE + 2], vr("crank.torque")), Err(Status::Error));
+        slave.log.only();
+    }
 }

@@ -6,14 +6,6 @@ use slidercrank::fmi::v3::abi::functions::bodies::*;
 use slidercrank::fmi::v3::abi::types::*;
 
 impl Handle {
-    /// First time derivative of an output.
-    pub fn rate(&self, name: &str) -> Result<f64, Status> {
-        let mut rate = f64::NAN;
-        // SAFETY: live instance, arrays of one entry.
-        let status = unsafe { fmi3GetOutputDerivatives(self.0, &vr(name), 1, &1, &mut rate, 1) };
-        if status == Status::Ok { Ok(rate) } else { Err(status) }
-    }
-
     /// The independent variable.
     pub fn time(&self) -> f64 {
         let reference = slidercrank::fmi::v3::variables::time_reference();

@@ -174,3 +174,50 @@ fn a_saved_state_goes_on_in_another_instance_of_the_same_kind_only() {
     assert!(stepping.line().text.contains("the other kind of interface"));
     assert_eq!(other.deserialize(&stepping.bytes_of(stepping.save())), Err(Status::Error));
 }
+
+#[test]
+fn in_initialization_mode_the_adjoint_is_the_transpose_along_start_values() {
+    let slave = Slave::exchanging();
+    assert_eq!(slave.enter(), Status::Ok);
+    assert_eq!((slave.set("crank.speed_start", 100.0), slave.set("crank.angle_start", 0.5)), (Status::Ok, Status::Ok));
+    let unknowns = [FIRST_STATE + 1, FIRST_DERIVATIVE, FIRST_DERIVATIVE + 1, vr("slider.v")];
+    let knowns = ["crank.speed_start", "rod.mass", "crank.torque"].map(vr);
+    let column = |known: u32| {
+        let mut column = [f64::NAN; 4];
+        // SAFETY: live instance, arrays of the lengths said.
+        let status = unsafe {
+            fmi3GetDirectionalDerivative(slave.0, unknowns.as_ptr(), 4, &known, 1, &1.0, 1, column.as_mut_ptr(), 4)
+        };
+        assert_eq!(status, Status::Ok, "{:?}", slave.lines());
+        column
+    };
+    let columns = knowns.map(column);
+    assert!(columns[0][..2].iter().all(|one| (one - 1.0).abs() < 1e-10) && columns[1][2] != 0.0, "{columns:?}");
+    for unknown in 0..4 {
+        let (mut seed, mut row) = ([0.0; 4], [f64::NAN; 3]);
+        seed[unknown] = 1.0;
+        // SAFETY: live instance, arrays of the lengths said.
+        let status = unsafe {
+            let (of, by, seed) = (unknowns.as_ptr(), knowns.as_ptr(), seed.as_ptr());
+            fmi3GetAdjointDerivative(slave.0, of, 4, by, 3, seed, 4, row.as_mut_ptr(), 3)
+        };
+        assert_eq!((status, row), (Status::Ok, columns.map(|column| column[unknown])));
+    }
+}
+
+#[test]
+fn seeds_that_are_no_numbers_and_sums_beyond_all_numbers_are_told() {
+    let slave = running();
+    let adjoint = |seed: f64| {
+        let (unknown, known, mut answer) = (FIRST_DERIVATIVE + 1, vr("crank.torque"), 7.0);
+        // SAFETY: live instance, arrays of one entry.
+        let status = unsafe { fmi3GetAdjointDerivative(slave.0, &unknown, 1, &known, 1, &seed, 1, &mut answer, 1) };
+        (status, answer)
+    };
+    for seed in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_eq!(adjoint(seed), (Status::Error, 7.0));
+        assert!(slave.line().text.contains("is not a finite number"));
+    }
+    assert_eq!(adjoint(f64::MAX), (Status::Discard, 7.0));
+    assert!(slave.line().text.contains("crank.torque = inf is not a finite number"));
+}

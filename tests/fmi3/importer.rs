@@ -1,4 +1,5 @@
 //! A small importer of FMI 3.0: one instance with its log and its callback, every call a method.
+#![allow(dead_code, reason = "each test binary needs a part of it")]
 
 pub use crate::host::vr;
 use slidercrank::fmi::v3::Status;
@@ -298,6 +299,14 @@ impl Handle {
 
     pub fn step(&self, point: f64, size: f64) -> Told {
         self.try_step(point, size).unwrap_or_else(|status| panic!("{status:?} at {point}"))
+    }
+
+    /// First time derivative of an output.
+    pub fn rate(&self, name: &str) -> Result<f64, Status> {
+        let mut rate = f64::NAN;
+        // SAFETY: live instance, arrays of one entry.
+        let status = unsafe { fmi3GetOutputDerivatives(self.0, &vr(name), 1, &1, &mut rate, 1) };
+        if status == Status::Ok { Ok(rate) } else { Err(status) }
     }
 
     /// Penetration of each corner of the slider, and whether the corner touches.

@@ -1,8 +1,13 @@
 //! Intermediate updates: values at every accepted step, inputs from there on, early return.
 
-use crate::importer::{Callback, Handle, Options, Slave};
-use slidercrank::fmi::v3::Status;
+use crate::importer::{Callback, Handle, Options, Slave, vr};
+use slidercrank::fmi::slave::Interface;
+use slidercrank::fmi::slave::log::Silent;
 use slidercrank::fmi::v3::abi::functions::bodies::*;
+use slidercrank::fmi::v3::instance::{Request, StepRequest};
+use slidercrank::fmi::v3::lifecycle::State;
+use slidercrank::fmi::v3::step::Stage;
+use slidercrank::fmi::v3::{Error, Instance, Status};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -146,4 +151,36 @@ fn a_callback_and_its_variables_go_together() {
         let text = refused(Options { intermediate: &[odd], update: update(), ..Options::default() });
         assert!(text.contains("requiredIntermediateVariables"), "{text}");
     }
+}
+
+#[test]
+fn a_step_has_the_same_bound_on_its_work_with_updates_as_without() {
+    for updates in [false, true] {
+        let update = updates.then(|| Box::new(|_: &Handle, _, _| None) as Callback);
+        let slave = Slave::worn_pin(Options { logging: true, update, ..Options::default() });
+        assert_eq!(slave.set_integer("solver.max_evaluations", 20_000), Status::Ok);
+        slave.ready(false);
+        assert_eq!(slave.try_step(0.0, 1e3), Err(Status::Error));
+        assert!(slave.line().text.contains("solver.max_evaluations"));
+    }
+}
+
+/// What no importer can bring about: a fault of the library while the callback runs.
+#[test]
+fn an_instance_that_is_given_up_within_a_step_is_neither_freed_there_nor_goes_on() {
+    let token = crate::host::guid();
+    let steps = StepRequest { has_callback: true, ..StepRequest::default() };
+    let (name, token, interface) = (Some(c"x"), Some(token.as_c_str()), Interface::CoSimulation);
+    let request = Request { interface, name, token, logging_on: false, steps };
+    let mut instance = Instance::instantiate(&request, Box::new(Silent), None).expect("an instance");
+    instance.set_float64(&[vr("crank.speed_start")], &[500.0]).expect("a start value");
+    instance.enter_initialization_mode(None, 0.0, None).expect("a start");
+    instance.exit_initialization_mode().expect("a mechanism");
+    instance.begin_step(0.0, 0.1).expect("a step");
+    assert!(matches!(instance.go_on(), Ok(Stage::Update(_))));
+    instance.give_up();
+    assert!(instance.check_free().is_err());
+    instance.end_update(None);
+    assert_eq!(instance.go_on(), Err(Error::CallOrder(State::Fatal)));
+    assert_eq!(instance.check_free(), Ok(()));
 }

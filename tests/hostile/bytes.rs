@@ -1,8 +1,8 @@
 //! Saved states as bytes, cut, damaged and of others: refused in one line each, and nothing changed.
 
-use crate::brief;
-use crate::host::Slave;
-use crate::scenes::MECHANISMS;
+use crate::face::Face;
+use crate::scenes::{MECHANISMS, hosted};
+use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;
 
 /// What the magic and the format's version take, and the digest of the declaration after them.
@@ -13,25 +13,26 @@ const DIGEST: std::ops::Range<usize> = 12..44;
 pub const HEADER: usize = 48;
 
 /// A run that has begun, and its bytes.
-fn begun(mechanism: usize) -> (Slave, Vec<u8>) {
-    let slave = MECHANISMS[mechanism].running();
+fn begun<F: Face>(mechanism: usize) -> (F, Vec<u8>) {
+    let slave: F = MECHANISMS[mechanism].running();
     let point = slave.steps(0.0, 1e-4, 5);
     assert_eq!(slave.set("slider.load", 3.0), Status::Ok);
     slave.steps(point, 1e-4, 1);
-    let bytes = slave.bytes_of(slave.save());
+    let bytes = slave.memory();
     (slave, bytes)
 }
 
-/// All mechanisms, or the first.
-pub fn some() -> std::ops::Range<usize> {
-    0..if brief() { 1 } else { MECHANISMS.len() }
+/// A run that has begun of a mechanism that can be hosted so, and its bytes.
+fn any<F: Face>() -> (F, Vec<u8>) {
+    begun(hosted::<F>()[0])
 }
 
 /// The bytes are refused in one line with these words.
-fn refused(slave: &Slave, bytes: &[u8], words: &str, what: &str) {
+fn refused<F: Face>(slave: &F, bytes: &[u8], words: &str, what: &str) {
     assert_eq!(slave.deserialize(bytes), Err(Status::Error), "{what}");
-    let line = slave.log.only();
-    assert!(line.text.starts_with("fmi2DeSerializeFMUstate: ") && line.text.contains(words), "{what}: {line:?}");
+    let line = slave.only();
+    let named = line.text.starts_with(&format!("{}: ", F::DESERIALIZE));
+    assert!(named && line.text.contains(words), "{what}: {line:?}");
 }
 
 /// With its checksum mended.
@@ -43,22 +44,20 @@ pub fn resealed(bytes: &[u8], change: impl FnOnce(&mut [u8])) -> Vec<u8> {
     [&sealed[..], &checksum].concat()
 }
 
-#[test]
-fn bytes_cut_at_any_length_are_refused() {
-    for mechanism in some() {
-        let (slave, bytes) = begun(mechanism);
+fn bytes_cut_at_any_length_are_refused<F: Face>() {
+    for mechanism in hosted::<F>() {
+        let (slave, bytes) = begun::<F>(mechanism);
         for length in 0..bytes.len() {
             let words = if length < VERSION.start { "not a state of this FMU" } else { "instead of" };
             refused(&slave, &bytes[..length], words, &format!("{length} bytes"));
         }
-        assert_eq!(slave.bytes_of(slave.save()), bytes);
+        assert_eq!(slave.memory(), bytes);
     }
 }
 
-#[test]
-fn a_damaged_byte_anywhere_is_refused() {
-    for mechanism in some() {
-        let (slave, bytes) = begun(mechanism);
+fn a_damaged_byte_anywhere_is_refused<F: Face>() {
+    for mechanism in hosted::<F>() {
+        let (slave, bytes) = begun::<F>(mechanism);
         for at in 0..bytes.len() {
             for pattern in [1 << (at % 8), 0x80, 0xff] {
                 let mut damaged = bytes.clone();
@@ -66,13 +65,12 @@ fn a_damaged_byte_anywhere_is_refused() {
                 refused(&slave, &damaged, "state", &format!("byte {at} by {pattern:#x}"));
             }
         }
-        assert_eq!(slave.bytes_of(slave.save()), bytes);
+        assert_eq!(slave.memory(), bytes);
     }
 }
 
-#[test]
-fn another_version_and_another_declaration_are_told_from_damage() {
-    let (slave, bytes) = begun(0);
+fn another_version_and_another_declaration_are_told_from_damage<F: Face>() {
+    let (slave, bytes) = any::<F>();
     for bit in 0..32 {
         let other = resealed(&bytes, |sealed| sealed[VERSION.start + bit / 8] ^= 1 << (bit % 8));
         refused(&slave, &other, "format version", &format!("bit {bit}"));
@@ -83,9 +81,8 @@ fn another_version_and_another_declaration_are_told_from_damage() {
     }
 }
 
-#[test]
-fn what_follows_a_state_is_zeros_or_the_state_is_refused() {
-    let (slave, bytes) = begun(0);
+fn what_follows_a_state_is_zeros_or_the_state_is_refused<F: Face>() {
+    let (slave, bytes) = any::<F>();
     for spare in [1, 2, 100] {
         let mut longer = [&bytes[..], &vec![0; spare]].concat();
         assert!(slave.deserialize(&longer).is_ok());
@@ -95,18 +92,30 @@ fn what_follows_a_state_is_zeros_or_the_state_is_refused() {
     refused(&slave, &[&bytes[..], &bytes[..]].concat(), "instead of", "twice the state");
 }
 
-#[test]
-fn each_kind_of_damage_is_told_in_words_of_its_own() {
-    let (slave, bytes) = begun(0);
-    let told = |change: fn(&mut Vec<u8>), words: &str| {
+fn each_kind_of_damage_is_told_in_words_of_its_own<F: Face>() {
+    let (slave, bytes) = any::<F>();
+    let told = |change: &dyn Fn(&mut Vec<u8>), words: &str| {
         let mut damaged = bytes.clone();
         change(&mut damaged);
         refused(&slave, &damaged, words, words);
     };
-    told(|bytes| bytes[0] = b'X', "not a state of this FMU");
-    told(|bytes| bytes[8] += 1, "version 10; this FMU reads version 9");
-    told(|bytes| bytes[8] = 1, "version 1; this FMU reads version 9");
-    told(|bytes| bytes.truncate(bytes.len() - 1), "instead of");
-    told(|bytes| *bytes.last_mut().expect("bytes") ^= 1, "checksum");
-    told(|bytes| *bytes = resealed(bytes, |sealed| sealed[HEADER] = 99), "contradicts itself");
+    let known = F::Content::FORMAT;
+    let of_version = |found: u32| {
+        let words = format!("version {found}; this FMU reads version {known}");
+        told(&|bytes| bytes[VERSION].copy_from_slice(&found.to_le_bytes()), &words);
+    };
+    told(&|bytes| bytes[0] = b'X', "not a state of this FMU");
+    of_version(known + 1);
+    of_version(1);
+    told(&|bytes| bytes.truncate(bytes.len() - 1), "instead of");
+    told(&|bytes| *bytes.last_mut().expect("bytes") ^= 1, "checksum");
+    told(&|bytes| *bytes = resealed(bytes, |sealed| sealed[HEADER] = 99), "contradicts itself");
+}
+
+on_each_face! {
+    bytes_cut_at_any_length_are_refused
+    a_damaged_byte_anywhere_is_refused
+    another_version_and_another_declaration_are_told_from_damage
+    what_follows_a_state_is_zeros_or_the_state_is_refused
+    each_kind_of_damage_is_told_in_words_of_its_own
 }

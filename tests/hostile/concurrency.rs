@@ -1,8 +1,9 @@
 //! Many instances in many threads, and many threads in one instance.
 
 use crate::brief;
-use crate::host::Slave;
-use crate::scenes::MECHANISMS;
+use crate::face::Face;
+use crate::scenes::{MECHANISMS, hosted};
+use crate::{three, two};
 use slidercrank::fmi::v2::Status;
 use std::sync::Barrier;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,15 +14,16 @@ const THREADS: usize = 8;
 const H: f64 = 1e-4;
 
 /// The instance of this number, at time 0: each of its own.
-fn nth(number: usize) -> Slave {
-    let slave = MECHANISMS[number % MECHANISMS.len()].initializing();
+fn nth<F: Face>(number: usize) -> F {
+    let mechanisms = hosted::<F>();
+    let slave: F = MECHANISMS[mechanisms[number % mechanisms.len()]].initializing();
     assert_eq!(slave.set("crank.speed_start", 100.0 + number as f64), Status::Ok);
-    assert_eq!(slave.exit(), Status::Ok);
+    assert_eq!(slave.begin(), Status::Ok);
     slave
 }
 
 /// Marches instances side by side, with inputs set on the way; what each is in the end, bit for bit.
-fn march(slaves: &[(usize, Slave)]) -> Vec<Vec<u8>> {
+fn march<F: Face>(slaves: &[(usize, F)]) -> Vec<Vec<u8>> {
     let mut point = 0.0;
     for step in 0..if brief() { 3 } else { 30 } {
         for (number, slave) in slaves {
@@ -29,20 +31,19 @@ fn march(slaves: &[(usize, Slave)]) -> Vec<Vec<u8>> {
             slave.steps(point, H, 1);
             slave.get("slider.a");
         }
-        point += H;
+        point += H * F::pace();
     }
-    slaves.iter().map(|(_, slave)| slave.bytes_of(slave.save())).collect()
+    slaves.iter().map(|(_, slave)| slave.memory()).collect()
 }
 
-#[test]
-fn sixty_four_instances_in_eight_threads_are_what_each_is_alone() {
+fn sixty_four_instances_in_eight_threads_are_what_each_is_alone<F: Face>() {
     let each = if brief() { 2 } else { 8 };
     let start = Barrier::new(THREADS);
     let mine = |thread: usize| (0..each).map(move |i| i * THREADS + thread);
     let together = |thread: usize| {
         start.wait();
         // Made, run and freed while all the others are.
-        march(&mine(thread).map(|number| (number, nth(number))).collect::<Vec<_>>())
+        march(&mine(thread).map(|number| (number, nth::<F>(number))).collect::<Vec<_>>())
     };
     let states: Vec<Vec<Vec<u8>>> = thread::scope(|scope| {
         let threads: Vec<_> = (0..THREADS).map(|thread| scope.spawn(move || together(thread))).collect();
@@ -50,20 +51,20 @@ fn sixty_four_instances_in_eight_threads_are_what_each_is_alone() {
     });
     for (thread, together) in states.iter().enumerate() {
         for (number, bytes) in mine(thread).zip(together) {
-            assert_eq!(&march(&[(number, nth(number))])[0], bytes, "instance {number}");
+            assert_eq!(&march(&[(number, nth::<F>(number))])[0], bytes, "instance {number}");
         }
     }
 }
 
 /// The same instance for several threads at once, which no host may do.
-struct Shared(Slave);
+struct Shared<F>(F);
 
 // SAFETY: the component refuses a call while another is under way.
-unsafe impl Sync for Shared {}
+unsafe impl<F> Sync for Shared<F> {}
 
-#[test]
-fn a_second_thread_in_an_instance_is_refused_or_waits_for_no_one() {
-    let shared = Shared(nth(0));
+/// In hosts whose step is one call.
+fn a_second_thread_in_an_instance_is_refused_or_waits_for_no_one<F: Face>() {
+    let shared = Shared(nth::<F>(0));
     let over = AtomicBool::new(false);
     let (mut taken, mut refused) = (0, 0);
     thread::scope(|scope| {
@@ -91,8 +92,18 @@ fn a_second_thread_in_an_instance_is_refused_or_waits_for_no_one() {
         over.store(true, Ordering::Relaxed);
         (taken, refused) = intruder.join().expect("no crash");
     });
-    let alone = nth(0);
+    let alone = nth::<F>(0);
     alone.steps(0.0, H, if brief() { 5 } else { 200 });
-    assert_eq!(shared.0.picture(), alone.picture(), "{taken} calls let in, {refused} refused");
-    assert_eq!(shared.0.log.take(), []);
+    assert_eq!(shared.0.everything(), alone.everything(), "{taken} calls let in, {refused} refused");
+    assert_eq!(shared.0.lines(), []);
+}
+
+#[test]
+fn a_second_thread_in_an_instance_of_either_version_is_refused_or_waits_for_no_one() {
+    a_second_thread_in_an_instance_is_refused_or_waits_for_no_one::<two::Stepping>();
+    a_second_thread_in_an_instance_is_refused_or_waits_for_no_one::<three::Stepping>();
+}
+
+on_each_face! {
+    sixty_four_instances_in_eight_threads_are_what_each_is_alone
 }

@@ -1,16 +1,14 @@
 //! States with a sound checksum and any content: refused, or as harmless as any other state.
 
 use crate::brief;
-use crate::bytes::{HEADER, resealed, some};
-use crate::host::{Slave, vr};
-use crate::scenes::MECHANISMS;
+use crate::bytes::{HEADER, resealed};
+use crate::face::{Face, Pieces};
+use crate::scenes::{MECHANISMS, hosted};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use slidercrank::fmi::slave::saved_states::Saved;
-use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::fmi::v2::Status;
-use slidercrank::fmi::v2::fmu_state::FmuState;
 use slidercrank::simulation::Snapshot;
 use std::ops::Range;
 
@@ -30,60 +28,42 @@ pub enum Fate {
     Works,
 }
 
-/// No status but these, and no number that is none.
-fn look(host: &Slave, told: &mut bool) {
-    for (variable, reference) in VARIABLES.iter().zip(0..) {
-        if !matches!(variable.access, Access::RealOutput(_) | Access::Input { .. }) {
-            continue;
-        }
-        let mut value = f64::NAN;
-        // SAFETY: live component, arrays of one entry.
-        match unsafe { (host.api.GetReal)(host.c, &reference, 1, &mut value) } {
-            Status::Ok => assert!(value.is_finite(), "{} = {value}", variable.name),
-            Status::Discard | Status::Error => *told = true,
-            other => panic!("{}: {other:?} {:?}", variable.name, host.log.take()),
-        }
-    }
-    // SAFETY: live component, arrays of one entry.
-    let rate = unsafe { (host.api.GetRealOutputDerivatives)(host.c, &vr("slider.x"), 1, &1, &mut 0.0) };
-    assert!(rate < Status::Fatal);
-}
-
 /// Tries whether a host can go on from these bytes.
-pub fn fate(host: &Slave, bytes: &[u8]) -> Fate {
+pub fn fate<F: Face>(host: &F, bytes: &[u8]) -> Fate {
     let outcome = host.deserialize(bytes).and_then(|mut state| {
-        let status = host.set_state(state);
-        assert_eq!(host.free(&mut state), Status::Ok);
+        let status = host.restore(state);
+        assert_eq!(host.forget(&mut state), Status::Ok);
         if status == Status::Ok { Ok(()) } else { Err(status) }
     });
     if let Err(status) = outcome {
         assert_eq!(status, Status::Error);
-        host.log.only();
+        host.only();
         return Fate::Refused;
     }
-    let mut told = false;
-    look(host, &mut told);
-    for status in [host.enter(), host.exit()] {
-        assert!(matches!(status, Status::Ok | Status::Error), "{status:?}");
+    let mut told = !host.look("forged");
+    for status in host.press_on() {
+        assert!(status < Status::Fatal, "{status:?}, {:?}", host.lines());
     }
-    let mut time = f64::NAN;
-    // SAFETY: live component, one place.
-    let status = unsafe { (host.api.GetRealStatus)(host.c, 2, &mut time) };
-    assert!(status != Status::Ok || time.is_finite(), "at {time} s");
+    host.lines();
+    let time = host.time();
+    assert!(time.is_err() || time.is_ok_and(f64::is_finite), "at {time:?}");
+    let time = time.unwrap_or(f64::NAN);
     for point in [time, time + H] {
         let status = host.step(point, H);
-        assert!(status < Status::Fatal, "{:?}", host.log.take());
+        assert!(status < Status::Fatal, "{:?}", host.lines());
         told |= status != Status::Ok;
+        host.lines();
         if status == Status::Ok {
-            look(host, &mut told);
+            told |= !host.look("after a step from a forged state");
         }
     }
+    host.lines();
     let mut own = host.save();
-    let again = host.set_state(own);
+    let again = host.restore(own);
     // What works can be saved and restored.
-    assert!(again == Status::Ok || told && again == Status::Error, "{:?}", host.log.take());
-    assert_eq!(host.free(&mut own), Status::Ok);
-    host.log.take();
+    assert!(again == Status::Ok || told && again == Status::Error, "{:?}", host.lines());
+    assert_eq!(host.forget(&mut own), Status::Ok);
+    host.lines();
     if told { Fate::Told } else { Fate::Works }
 }
 
@@ -106,23 +86,23 @@ impl Fates {
 }
 
 /// A run of this mechanism that has begun: its bytes.
-pub fn begun(mechanism: usize) -> Vec<u8> {
-    let slave = MECHANISMS[mechanism].running_from(START);
+pub fn begun<F: Face>(mechanism: usize) -> Vec<u8> {
+    let slave: F = MECHANISMS[mechanism].running_from(START);
     let point = slave.steps(START, 1e-4, 5);
-    assert_eq!(slave.set_rate("slider.load", 1, 30.0), Status::Ok);
+    assert_eq!(slave.set_slope("slider.load", 30.0).unwrap_or(Status::Ok), Status::Ok);
     slave.steps(point, 1e-4, 2);
     assert_eq!(slave.set("crank.torque", 0.5), Status::Ok);
-    slave.bytes_of(slave.save())
+    slave.memory()
 }
 
 /// Tries `change` at every place of the content.
-fn everywhere(width: usize, change: impl Fn(usize, &mut [u8])) -> Fates {
+fn everywhere<F: Face>(width: usize, change: impl Fn(usize, &mut [u8])) -> Fates {
     let mut fates = Fates::default();
-    for mechanism in some() {
-        let bytes = begun(mechanism);
-        let host = Slave::new();
+    for mechanism in hosted::<F>() {
+        let bytes = begun::<F>(mechanism);
+        let host = F::new();
         let content: Range<usize> = HEADER..bytes.len() - 4 - width;
-        for at in content {
+        for at in content.step_by(F::ONE_IN) {
             let forged = resealed(&bytes, |sealed| change(at, &mut sealed[at..at + width]));
             fates.count(fate(&host, &forged));
         }
@@ -130,28 +110,28 @@ fn everywhere(width: usize, change: impl Fn(usize, &mut [u8])) -> Fates {
     fates
 }
 
-#[test]
-fn a_changed_byte_under_a_sound_checksum_does_no_harm() {
-    // Every place meets one of these.
+fn a_changed_byte_under_a_sound_checksum_does_no_harm<F: Face>() {
+    // Every place that is tried meets one of these.
     let patterns = [0x01, 0x10, 0x80, 0xff];
-    let fates = everywhere(1, |at, bytes| bytes[0] ^= patterns[at % patterns.len()]);
+    let fates = everywhere::<F>(1, |at, bytes| bytes[0] ^= patterns[at / F::ONE_IN % patterns.len()]);
+    println!("{fates:?}");
     assert!(fates.refused > 0 && fates.works > 0, "{fates:?}");
 }
 
-#[test]
-fn absurd_numbers_anywhere_do_no_harm() {
-    // Every place meets one of these.
+fn absurd_numbers_anywhere_do_no_harm<F: Face>() {
+    // Every place that is tried meets one of these.
     let absurd = [f64::NAN, f64::INFINITY, f64::MAX, -1e300, 1e39, -1e20, 1e9, 0.0, -5e-324];
-    let fates = everywhere(8, |at, bytes| bytes.copy_from_slice(&absurd[at % absurd.len()].to_le_bytes()));
+    let fates =
+        everywhere::<F>(8, |at, bytes| bytes.copy_from_slice(&absurd[at / F::ONE_IN % absurd.len()].to_le_bytes()));
+    println!("{fates:?}");
     assert!(fates.refused > 0, "{fates:?}");
 }
 
-#[test]
-fn several_numbers_changed_at_once_do_no_harm() {
-    let cases = if brief() { 50 } else { 20_000 };
+fn several_numbers_changed_at_once_do_no_harm<F: Face>() {
+    let cases = if brief() { 50 } else { 20_000 / F::ONE_IN as u32 };
     let config = Config { cases, rng_seed: RngSeed::Fixed(0xBAD), failure_persistence: None, ..Config::default() };
-    let sound: Vec<_> = some().map(begun).collect();
-    let host = Slave::new();
+    let sound: Vec<_> = hosted::<F>().into_iter().map(begun::<F>).collect();
+    let host = F::new();
     let number = prop_oneof![any::<u64>(), any::<f64>().prop_map(f64::to_bits), (0..300_u64)];
     let changes = prop::collection::vec((any::<Index>(), 1..=8_usize, number), 1..6);
     let outcome = TestRunner::new(config).run(&(0..sound.len(), changes), |(mechanism, changes)| {
@@ -167,14 +147,14 @@ fn several_numbers_changed_at_once_do_no_harm() {
     outcome.unwrap_or_else(|failure| panic!("{failure}"));
 }
 
-#[test]
-fn absurd_counters_and_lists_of_any_length_do_no_harm() {
-    for mechanism in some() {
-        let host = Slave::new();
-        let state = FmuState::from_bytes(&begun(mechanism)).expect("a sound state");
-        let whole = state.snapshot.clone().expect("a run");
+fn absurd_counters_and_lists_of_any_length_do_no_harm<F: Face>() {
+    for mechanism in hosted::<F>() {
+        let host = F::new();
+        let state = F::Content::from_bytes(&begun::<F>(mechanism)).expect("a sound state");
+        let whole = state.snapshot().clone().expect("a run");
         let try_with = |snapshot: Snapshot| {
-            let forged = FmuState { snapshot: Some(snapshot), ..state.clone() };
+            let mut forged = state.clone();
+            forged.set_snapshot(snapshot);
             fate(&host, &forged.to_bytes().expect("bytes"))
         };
         for at in 0..whole.integers.len() {
@@ -198,4 +178,11 @@ fn absurd_counters_and_lists_of_any_length_do_no_harm() {
         }
         assert_eq!(try_with(whole), Fate::Works);
     }
+}
+
+on_each_face! {
+    a_changed_byte_under_a_sound_checksum_does_no_harm
+    absurd_numbers_anywhere_do_no_harm
+    several_numbers_changed_at_once_do_no_harm
+    absurd_counters_and_lists_of_any_length_do_no_harm
 }

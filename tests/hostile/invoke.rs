@@ -1,10 +1,9 @@
 //! Any function of the standard with any arguments: the words of a call, made into its types.
 
-use crate::host::api::{Api, C, S};
+use crate::host::api::Api;
 use slidercrank::fmi::v2::Status;
-use slidercrank::fmi::v2::abi::types::*;
 use slidercrank::fmi::v2::lifecycle::Call;
-use std::ffi::{c_char, c_void};
+use std::ffi::c_void;
 
 /// One argument.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +11,8 @@ pub enum Word {
     Pointer(*mut c_void),
     Size(usize),
     Integer(i32),
+    Reference(u32),
+    Byte(u8),
     Real(f64),
 }
 
@@ -19,7 +20,7 @@ pub enum Word {
 pub const NULL: Word = Word::Pointer(std::ptr::null_mut());
 
 /// A type that arguments have.
-trait Argument {
+pub trait Argument {
     fn of(word: Word) -> Self;
 }
 
@@ -45,10 +46,10 @@ macro_rules! arguments {
     };
 }
 
-arguments!(Size(usize), Integer(i32), Real(f64));
+arguments!(Size(usize), Integer(i32), Reference(u32), Byte(u8), Real(f64));
 
 /// A type that answers have.
-trait Answer {
+pub trait Answer {
     fn status(self) -> Option<Status>;
 }
 
@@ -76,21 +77,42 @@ impl<T> Answer for *mut T {
     }
 }
 
+/// A function of C.
+pub trait Function {
+    /// Calls it with these words; its status, if it has one.
+    ///
+    /// # Safety
+    /// As the function's.
+    unsafe fn call(self, words: &[Word]) -> Option<Status>;
+}
+
+macro_rules! function {
+    ($(($($argument:ident)*))+) => {
+        $(impl<R: Answer $(, $argument: Argument)*> Function for unsafe extern "C" fn($($argument),*) -> R {
+            #[allow(unused_mut, unused_variables, reason = "some functions have no arguments")]
+            unsafe fn call(self, words: &[Word]) -> Option<Status> {
+                let mut words = words.iter().copied();
+                // SAFETY: the caller's.
+                unsafe { self($($argument::of(words.next().expect("an argument"))),*) }.status()
+            }
+        })+
+    };
+}
+
+function! {
+    () (A) (A B) (A B D) (A B D E) (A B D E F) (A B D E F G) (A B D E F G H) (A B D E F G H I) (A B D E F G H I J)
+}
+
 macro_rules! invoke {
-    ($($name:ident = $place:path: fn($($argument:ty),*) -> $answer:ty;)+) => {
+    ($($name:ident = $place:path: $type:ty;)+) => {
         /// Calls a function with these words; its status, if it has one.
         ///
         /// # Safety
         /// As the function's.
         pub unsafe fn invoke(api: &Api, call: Call, words: &[Word]) -> Option<Status> {
-            #[allow(unused_mut, unused_variables, reason = "two functions have no arguments")]
-            let mut words = words.iter().copied();
             match call {
                 // SAFETY: the caller's.
-                $(Call::$name => unsafe {
-                    let answer: $answer = (api.$name)($(<$argument>::of(words.next().expect("an argument"))),*);
-                    answer.status()
-                },)+
+                $(Call::$name => unsafe { Function::call(api.$name, words) },)+
             }
         }
     };

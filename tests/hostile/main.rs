@@ -16,12 +16,19 @@
 #[macro_use]
 #[path = "../host/mod.rs"]
 mod host;
+#[path = "../fmi3/importer.rs"]
+mod importer;
+#[macro_use]
+mod face;
 
 mod arguments;
 mod bytes;
 mod concurrency;
+mod exchange_of_all;
+mod exchanged;
 mod extremes;
 mod forged;
+mod importers_memory;
 mod instantiate;
 mod invalid_arguments;
 mod invoke;
@@ -33,6 +40,8 @@ mod references;
 mod reload;
 mod scenes;
 mod stage;
+mod three;
+mod two;
 
 /// Whether a part of every product is enough.
 fn brief() -> bool {

@@ -1,10 +1,12 @@
 //! What instances leave behind in memory: nothing, but for hosts that never free.
 
 use crate::brief;
-use crate::host::Slave;
-use crate::scenes::MECHANISMS;
+use crate::face::Face;
+use crate::scenes::{MECHANISMS, hosted};
+use crate::{three, two};
 use slidercrank::fmi::v2::Status;
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::any::Any;
 use std::cell::Cell;
 use std::process::Command;
 
@@ -35,48 +37,61 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 /// What a host does with one instance before it frees it, if it does.
-type Life = fn() -> Slave;
+type Life = fn() -> Box<dyn Any>;
 
-fn made() -> Slave {
-    Slave::new()
+fn made<F: Face + 'static>() -> Box<dyn Any> {
+    Box::new(F::new())
 }
 
-fn run() -> Slave {
-    let slave = MECHANISMS[0].running();
+fn run<F: Face + 'static>() -> Box<dyn Any> {
+    let slave: F = MECHANISMS[hosted::<F>()[0]].running();
     slave.steps(0.0, 1e-4, 1);
     let mut state = slave.save();
-    assert_eq!(slave.set_state(state), Status::Ok);
-    assert_eq!(slave.free(&mut state), Status::Ok);
-    slave
+    assert_eq!(slave.restore(state), Status::Ok);
+    assert_eq!(slave.forget(&mut state), Status::Ok);
+    Box::new(slave)
 }
 
 /// Saves each step and frees no state.
-fn hoarder() -> Slave {
-    let slave = MECHANISMS[4].running();
+fn hoarder<F: Face + 'static>() -> Box<dyn Any> {
+    let mechanisms = hosted::<F>();
+    // Four plays, if there is a choice.
+    let slave: F = MECHANISMS[*mechanisms.get(4).unwrap_or(&mechanisms[0])].running();
     let mut point = 0.0;
     for _ in 0..5 {
-        let state = slave.deserialize(&slave.bytes_of(slave.save())).expect("sound bytes");
-        assert_eq!(slave.set_state(state), Status::Ok);
+        let state = slave.deserialize(&slave.bytes(slave.save())).expect("sound bytes");
+        assert_eq!(slave.restore(state), Status::Ok);
         point = slave.steps(point, 1e-5, 1);
     }
-    slave
+    Box::new(slave)
 }
 
 /// Is refused again and again.
-fn blunderer() -> Slave {
-    let slave = Slave::new();
+fn blunderer<F: Face + 'static>() -> Box<dyn Any> {
+    let slave = F::new();
     let state = slave.save();
-    let bytes = slave.bytes_of(state);
+    let bytes = slave.bytes(state);
     for length in [0, 50, bytes.len() - 1] {
         assert!(slave.deserialize(&bytes[..length]).is_err());
     }
     assert_eq!(slave.step(0.0, 1.0), Status::Error);
     assert_eq!(slave.set("slider.load", f64::NAN), Status::Error);
-    slave
+    Box::new(slave)
 }
 
-const LIVES: [(&str, Life); 4] =
-    [("made and freed", made), ("run", run), ("hoarder of states", hoarder), ("blunderer", blunderer)];
+/// The lives of an instance of each kind.
+macro_rules! lives {
+    ($($version:literal $face:ty),+) => {
+        &[$(
+            (concat!($version, ", made and freed"), made::<$face> as Life),
+            (concat!($version, ", run"), run::<$face>),
+            (concat!($version, ", hoarder of states"), hoarder::<$face>),
+            (concat!($version, ", blunderer"), blunderer::<$face>),
+        )+]
+    };
+}
+
+const LIVES: &[(&str, Life)] = lives!("FMI 2.0" two::Stepping, "FMI 3.0" three::Stepping, "events" three::Events, "model exchange" three::Exchange);
 
 #[test]
 fn an_instance_gives_back_every_byte() {
@@ -105,7 +120,7 @@ fn alone(test: &str, life: &str) {
 
 fn chosen() -> Option<Life> {
     let wanted = std::env::var(LIFE).ok()?;
-    LIVES.into_iter().find(|(name, _)| *name == wanted).map(|(_, life)| life)
+    LIVES.iter().find(|(name, _)| *name == wanted).map(|(_, life)| *life)
 }
 
 #[test]

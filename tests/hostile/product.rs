@@ -1,46 +1,59 @@
 //! Every function in every state with every value of every argument: what is not possible is refused, told in one
 //! line that names function and cause, and changes neither the instance nor the importer's memory.
 
-use crate::arguments::{Argument, Fault, arguments};
+use crate::arguments::{Argument, Fault, Value};
 use crate::brief;
 use crate::host::{Slave, log::Line};
-use crate::invoke::{Word, invoke};
+use crate::importers_memory::ImportersMemory;
+use crate::invoke::Word;
 use crate::stage::{STATES, Stage};
-use slidercrank::fmi::slave::Interface;
 use slidercrank::fmi::v2::Status;
-use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
-use slidercrank::fmi::v2::lifecycle::{Call, State};
+
+/// An instance of either version in some state, and memory for the arguments of calls.
+pub trait Staged {
+    type Call: Copy;
+
+    /// Every function that takes an instance.
+    fn calls() -> Vec<Self::Call>;
+    fn name(call: Self::Call) -> &'static str;
+    /// Why a call is refused here whatever its arguments are, if it is.
+    fn refusal(&self, call: Self::Call) -> Option<String>;
+    /// Whether a call ends the instance.
+    fn frees(call: Self::Call) -> bool;
+    /// The arguments of a function here, one list of values each, the instance first.
+    fn arguments(&self, call: Self::Call) -> Vec<Argument>;
+    /// Calls a function with these words; its status, if it has one.
+    ///
+    /// # Safety
+    /// As the function's.
+    unsafe fn invoke(&self, call: Self::Call, words: &[Word]) -> Option<Status>;
+    fn memory(&self) -> &ImportersMemory;
+    /// All that the instance is.
+    fn bytes(&self) -> Vec<u8>;
+    /// The log's lines since the last look.
+    fn lines(&self) -> Vec<Line>;
+}
 
 /// What a call must answer.
-struct Verdict {
-    status: Status,
+#[derive(Debug)]
+pub struct Verdict {
+    pub status: Status,
     /// Words of which the line of the log has some; without any there is no line.
     words: Vec<String>,
 }
 
 impl Verdict {
-    fn refused(words: &[&str]) -> Self {
-        Self { status: Status::Error, words: words.iter().map(ToString::to_string).collect() }
+    fn refused(words: Vec<String>) -> Self {
+        Self { status: Status::Error, words }
     }
 
-    /// On a call with these faults in its arguments, the component's first.
-    fn on(call: Call, state: State, faults: &[Option<Fault>]) -> Self {
+    /// On a call with these faults in its arguments, the instance's first.
+    fn on<S: Staged>(stage: &S, call: S::Call, faults: &[Option<Fault>]) -> Self {
         if faults.first().is_some_and(Option::is_some) {
-            return Self::refused(&[]);
+            return Self::refused(vec![]);
         }
-        // Instances in states of both kinds are for co-simulation here.
-        let kind = state.interface().unwrap_or(Interface::CoSimulation);
-        match call.interface() {
-            Some(Interface::ModelExchange) if kind == Interface::CoSimulation => {
-                return Self::refused(&["of model exchange"]);
-            }
-            Some(Interface::CoSimulation) if kind == Interface::ModelExchange => {
-                return Self::refused(&["of co-simulation"]);
-            }
-            _ => {}
-        }
-        if !call.allowed(state) {
-            return Self::refused(&[&format!("not allowed in state '{state}'")]);
+        if let Some(refusal) = stage.refusal(call) {
+            return Self::refused(vec![refusal]);
         }
         let faults = faults.iter().flatten();
         let status = faults.clone().map(|fault| fault.status).max().unwrap_or(Status::Ok);
@@ -48,7 +61,7 @@ impl Verdict {
     }
 
     /// What is wrong with an answer and what the log says of it.
-    fn objection(&self, call: Call, answer: Status, lines: &[Line]) -> Option<&'static str> {
+    pub fn objection(&self, name: &str, answer: Status, lines: &[Line]) -> Option<&'static str> {
         if answer != self.status {
             return Some("the status");
         }
@@ -56,7 +69,7 @@ impl Verdict {
             [] if self.words.is_empty() => None,
             [line] if !self.words.is_empty() => {
                 let category = self.status.category().map(|category| category.name());
-                let named = line.text.starts_with(&format!("{}: ", call.name()));
+                let named = line.text.starts_with(&format!("{name}: "));
                 let told = self.words.iter().any(|words| line.text.contains(words));
                 let filed = category == Some(&line.category) && line.status == self.status as i32;
                 (!named || !told || !filed || line.instance != "slave").then_some("the words")
@@ -67,7 +80,7 @@ impl Verdict {
 }
 
 /// Which value of each argument.
-type Choice = Vec<usize>;
+pub type Choice = Vec<usize>;
 
 /// Sound values but for one argument, or for two.
 fn choices(list: &[Argument], pairs: bool) -> Vec<Choice> {
@@ -90,59 +103,66 @@ fn choices(list: &[Argument], pairs: bool) -> Vec<Choice> {
     all
 }
 
-/// Makes one call and judges the answer; whether the call was refused.
-fn judge(call: Call, stage: &Stage, choice: &Choice) -> bool {
-    let list = arguments(call, stage);
+/// What a call came to.
+pub struct Outcome {
+    pub answer: Option<Status>,
+    pub lines: Vec<Line>,
+    /// What had to be answered, unless sound arguments lead further than can be foreseen.
+    pub verdict: Verdict,
+    pub words: Vec<Word>,
+    /// The importer's memory has changed.
+    pub written: bool,
+}
+
+/// Makes one call.
+pub fn make<S: Staged>(call: S::Call, stage: &S, choice: &Choice) -> Outcome {
+    let list = stage.arguments(call);
     let words: Vec<Word> = list.iter().zip(choice).map(|(argument, &value)| argument.values[value].word).collect();
     let unread = |argument: &Argument| {
         let count = argument.counted_by.map(|place| words[place]);
-        matches!(count, Some(Word::Size(0) | Word::Integer(0)))
+        matches!(count, Some(Word::Size(0) | Word::Integer(0) | Word::Byte(0)))
     };
-    let fault = |(argument, &value): (&Argument, &usize)| match &argument.values[value].fault {
-        Some(fault) if !unread(argument) => Some(fault.clone()),
+    let fault = |(argument, &value): (&Argument, &usize)| match (&argument.values[value], argument.equals) {
+        (Value { word, .. }, Some(place)) if *word != words[place] => Some(Fault::needed()),
+        (Value { fault: Some(fault), .. }, _) if !unread(argument) => Some(fault.clone()),
         _ => None,
     };
     let faults: Vec<_> = list.iter().zip(choice).map(fault).collect();
-    let (before, memory) = (stage.bytes(), stage.memory());
-    // SAFETY: a component is live, NULL or misaligned; an array that is looked at has as many entries as are told.
-    let answer = unsafe { invoke(&stage.slave.api, call, &words) };
-    let lines = stage.slave.log.take();
-    let verdict = Verdict::on(call, stage.state, &faults);
-    let objection = answer.and_then(|answer| verdict.objection(call, answer, &lines));
+    let (verdict, image) = (Verdict::on(stage, call, &faults), stage.memory().image());
+    // SAFETY: an instance is live, NULL or misaligned; an array that is looked at has as many entries as are told.
+    let answer = unsafe { stage.invoke(call, &words) };
+    Outcome { answer, lines: stage.lines(), verdict, words, written: stage.memory().image() != image }
+}
+
+/// Makes one call and judges the answer; whether the call was refused.
+fn judge<S: Staged>(call: S::Call, stage: &S, choice: &Choice) -> bool {
+    let before = stage.bytes();
+    let Outcome { answer, lines, verdict, words, written } = make(call, stage, choice);
+    let objection = answer.and_then(|answer| verdict.objection(S::name(call), answer, &lines));
     let refused = answer.is_none_or(|answer| answer >= Status::Discard);
     let objection = objection.or((refused && stage.bytes() != before).then_some("what it did to the instance"));
-    let objection =
-        objection.or((refused && stage.memory() != memory).then_some("what it did to the importer's memory"));
+    let objection = objection.or((refused && written).then_some("what it did to the importer's memory"));
     if let Some(objection) = objection {
-        let Verdict { status, words: told } = verdict;
-        panic!(
-            "{objection}: {} in '{}' with {words:?} answers {answer:?}, {lines:?}, not {status:?}, {told:?}",
-            call.name(),
-            stage.state
-        );
+        panic!("{objection}: {} with {words:?} answers {answer:?}, {lines:?}, not {verdict:?}", S::name(call));
     }
     refused
 }
 
-/// A call that ends the instance.
-fn ends(call: Call, choice: &Choice) -> bool {
-    call == Call::FreeInstance && choice[0] == 0
-}
-
-fn walk(state: State, theirs: fmi2FMUstate) -> usize {
+/// Makes every call with every choice of arguments on an instance that `reach` brings to some state; how many.
+pub fn walk<S: Staged>(reach: impl Fn() -> S) -> usize {
     let mut cases = 0;
-    for &call in Call::ALL.iter().filter(|&&call| call != Call::Instantiate) {
-        let mut stage = Stage::reach(state, theirs);
-        let list = arguments(call, &stage);
-        for choice in choices(&list, call.allowed(state) && !brief()) {
-            if ends(call, &choice) {
+    for call in S::calls() {
+        let mut stage = reach();
+        let list = stage.arguments(call);
+        for choice in choices(&list, stage.refusal(call).is_none() && !brief()) {
+            if S::frees(call) && choice[0] == 0 {
                 continue;
             }
             cases += 1;
             if judge(call, &stage, &choice) {
-                stage.clear();
+                stage.memory().clear();
             } else {
-                stage = Stage::reach(state, theirs);
+                stage = reach();
             }
         }
     }
@@ -153,7 +173,7 @@ fn walk(state: State, theirs: fmi2FMUstate) -> usize {
 fn whatever_is_not_possible_is_refused_in_one_line_and_changes_nothing() {
     let other = Slave::new();
     let theirs = other.save();
-    let cases: usize = STATES.iter().map(|&state| walk(state, theirs)).sum();
+    let cases: usize = STATES.iter().map(|&state| walk(|| Stage::reach(state, theirs))).sum();
     println!("{cases} calls");
     assert!(cases > if brief() { 2_000 } else { 10_000 }, "{cases}");
     assert_eq!(other.set_state(theirs), Status::Ok);

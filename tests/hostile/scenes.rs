@@ -1,7 +1,11 @@
 //! Mechanisms that differ in all that a saved state holds.
 
-use crate::host::Slave;
+use crate::brief;
+use crate::face::Face;
+use slidercrank::fmi::slave::Interface;
 use slidercrank::fmi::v2::Status;
+use slidercrank::scene::parameter::Parameter;
+use slidercrank::scene::{Scene, slot};
 
 /// A mechanism, by what its start values differ in.
 pub struct Mechanism {
@@ -15,6 +19,9 @@ pub struct Mechanism {
 const TURNING: [(&str, f64); 2] = [("crank.speed_start", 500.0), ("crank.angle_start", 1.0)];
 
 const CLEARANCE: i32 = 2;
+
+/// Place of the mechanism whose states are those of the declared start values.
+const IDEAL: usize = 1;
 
 pub const MECHANISMS: [Mechanism; 6] = [
     Mechanism { name: "worn pin", integers: &[("joint.C.model", CLEARANCE)], reals: &TURNING, audit: false },
@@ -50,35 +57,60 @@ pub const MECHANISMS: [Mechanism; 6] = [
 ];
 
 impl Mechanism {
+    /// Start values in which it differs from the declared ones.
+    fn starts(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let integers = self.integers.iter().map(|(name, value)| (*name, f64::from(*value)));
+        integers.chain(self.reals.iter().copied()).chain([("energy.audit", f64::from(u8::from(self.audit)))])
+    }
+
+    /// As a library is packaged with it.
+    pub fn scene(&self) -> Scene {
+        let mut scene = Scene::default();
+        for (name, value) in self.starts() {
+            Parameter::named(name).expect("a parameter").write(&mut scene, value).expect("a legal value");
+        }
+        scene
+    }
+
     /// An instance in initialization mode.
-    pub fn initializing(&self) -> Slave {
+    pub fn initializing<F: Face>(&self) -> F {
         self.initializing_from(0.0)
     }
 
     /// The same, with the start time `start` [s].
-    pub fn initializing_from(&self, start: f64) -> Slave {
-        let slave = Slave::new();
-        assert_eq!(slave.setup_raw(0, 0.0, start, 0, 0.0), Status::Ok);
-        assert_eq!(slave.enter(), Status::Ok);
-        for (name, value) in self.integers {
-            assert_eq!(slave.set_integer(name, *value), Status::Ok, "{name}");
+    pub fn initializing_from<F: Face>(&self, start: f64) -> F {
+        let slave = F::new();
+        assert_eq!(slave.enter_from(start), Status::Ok);
+        for (name, value) in self.starts() {
+            assert_eq!(slave.set(name, value), Status::Ok, "{name}: {:?}", slave.lines());
         }
-        for (name, value) in self.reals {
-            assert_eq!(slave.set(name, *value), Status::Ok, "{name}");
-        }
-        assert_eq!(slave.set_boolean("energy.audit", i32::from(self.audit)), Status::Ok);
         slave
     }
 
     /// An instance at time 0.
-    pub fn running(&self) -> Slave {
+    pub fn running<F: Face>(&self) -> F {
         self.running_from(0.0)
     }
 
     /// An instance at the time `start` [s].
-    pub fn running_from(&self, start: f64) -> Slave {
-        let slave = self.initializing_from(start);
-        assert_eq!(slave.exit(), Status::Ok, "{}: {:?}", self.name, slave.log.take());
+    pub fn running_from<F: Face>(&self, start: f64) -> F {
+        let slave = self.initializing_from::<F>(start);
+        assert_eq!(slave.begin(), Status::Ok, "{}: {:?}", self.name, slave.lines());
         slave
+    }
+}
+
+/// The mechanism that the linked library is packaged with, which is the only one for model exchange.
+pub fn packaged() -> usize {
+    let scene = slot::read().expect("a readable slot").0;
+    MECHANISMS.iter().position(|mechanism| mechanism.scene() == scene).unwrap_or(IDEAL)
+}
+
+/// The mechanisms that can be hosted so, or the first of them.
+pub fn hosted<F: Face>() -> Vec<usize> {
+    match F::INTERFACE {
+        Interface::ModelExchange => vec![packaged()],
+        Interface::CoSimulation if brief() => vec![0],
+        Interface::CoSimulation => (0..MECHANISMS.len()).collect(),
     }
 }

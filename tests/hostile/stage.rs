@@ -1,16 +1,17 @@
-//! Instances in every state of the lifecycle, and memory for a call's arguments.
+//! Instances of FMI 2.0 in every state of the lifecycle.
 
+use crate::arguments::{Argument, arguments};
 use crate::host::Slave;
-use crate::invoke::{NULL, Word};
+use crate::host::log::Line;
+use crate::importers_memory::ImportersMemory;
+use crate::invoke::{Word, invoke};
+use crate::product::Staged;
 use slidercrank::fmi::slave::Interface;
 use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::abi::types::fmi2FMUstate;
 use slidercrank::fmi::v2::fmu_state::FmuState;
-use slidercrank::fmi::v2::lifecycle::State;
-use std::any::Any;
-use std::cell::RefCell;
-use std::ffi::CString;
+use slidercrank::fmi::v2::lifecycle::{Call, State};
 
 /// Every state in which a call can meet an instance but the fatal one, which needs a fault of the library.
 pub const STATES: [State; 9] = [
@@ -38,15 +39,7 @@ pub struct Stage {
     pub saved: fmi2FMUstate,
     /// A saved state of another instance.
     pub theirs: fmi2FMUstate,
-    held: RefCell<Vec<Held>>,
-}
-
-/// An array of the importer's.
-struct Held {
-    /// Keeps it.
-    _entries: Box<dyn Any>,
-    start: *const u8,
-    length: usize,
+    pub memory: ImportersMemory,
 }
 
 impl Stage {
@@ -63,7 +56,7 @@ impl Stage {
         // Away from the dead centre, where no load could turn the crank.
         assert_eq!(slave.set("crank.angle_start", 1.0), Status::Ok);
         let saved = slave.save();
-        let mut stage = Self { slave, state, now: 0.0, saved, theirs, held: RefCell::default() };
+        let mut stage = Self { slave, state, now: 0.0, saved, theirs, memory: ImportersMemory::default() };
         stage.lead();
         stage.slave.log.take();
         stage
@@ -112,37 +105,52 @@ impl Stage {
         assert_eq!(self.slave.free(&mut state), Status::Ok);
         bytes
     }
-
-    /// Forgets all arrays.
-    pub fn clear(&mut self) {
-        self.held.get_mut().clear();
-    }
-
-    /// An array that lives as long as the stage.
-    pub fn array<T: Copy + 'static>(&self, entries: Vec<T>) -> Word {
-        let mut entries = entries.into_boxed_slice();
-        let (start, length) = (entries.as_mut_ptr().cast::<u8>(), size_of_val(&*entries));
-        self.held.borrow_mut().push(Held { _entries: Box::new(entries), start, length });
-        Word::Pointer(start.cast())
-    }
-
-    /// The bytes of all arrays.
-    pub fn memory(&self) -> Vec<u8> {
-        let held = self.held.borrow();
-        // SAFETY: the entries are kept, and they are numbers and pointers without padding.
-        held.iter().flat_map(|held| unsafe { std::slice::from_raw_parts(held.start, held.length) }).copied().collect()
-    }
-
-    /// Text that lives as long as the stage.
-    pub fn text(&self, text: &[u8]) -> Word {
-        self.array(CString::new(text).expect("no zero").into_bytes_with_nul())
-    }
 }
 
-/// Where no datum of more than a byte can lie.
-pub fn odd(word: Word) -> Word {
-    match word {
-        Word::Pointer(pointer) => Word::Pointer(pointer.cast::<u8>().wrapping_add(1).cast()),
-        _ => NULL,
+impl Staged for Stage {
+    type Call = Call;
+
+    fn calls() -> Vec<Call> {
+        Call::ALL.iter().copied().filter(|&call| call != Call::Instantiate).collect()
+    }
+
+    fn name(call: Call) -> &'static str {
+        call.name()
+    }
+
+    fn refusal(&self, call: Call) -> Option<String> {
+        // Instances in states of both kinds are for co-simulation here.
+        let kind = self.state.interface().unwrap_or(Interface::CoSimulation);
+        match call.interface() {
+            Some(Interface::ModelExchange) if kind == Interface::CoSimulation => Some("of model exchange".into()),
+            Some(Interface::CoSimulation) if kind == Interface::ModelExchange => Some("of co-simulation".into()),
+            _ if !call.allowed(self.state) => Some(format!("not allowed in state '{}'", self.state)),
+            _ => None,
+        }
+    }
+
+    fn frees(call: Call) -> bool {
+        call == Call::FreeInstance
+    }
+
+    fn arguments(&self, call: Call) -> Vec<Argument> {
+        arguments(call, self)
+    }
+
+    unsafe fn invoke(&self, call: Call, words: &[Word]) -> Option<Status> {
+        // SAFETY: the caller's.
+        unsafe { invoke(&self.slave.api, call, words) }
+    }
+
+    fn memory(&self) -> &ImportersMemory {
+        &self.memory
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        self.bytes()
+    }
+
+    fn lines(&self) -> Vec<Line> {
+        self.slave.log.take()
     }
 }

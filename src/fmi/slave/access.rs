@@ -147,18 +147,9 @@ pub struct RealInput {
 
 /// How a real input is read and written.
 pub fn real_input(variable: &Variable) -> Result<RealInput, VariableError> {
-    input(variable, "a real input")
-}
-
-/// The input of directional derivatives, where parameters are not allowed.
-pub fn known_input(variable: &Variable) -> Result<RealInput, VariableError> {
-    input(variable, "a real input, nor a real parameter in initialization mode")
-}
-
-fn input(variable: &Variable, wanted: &'static str) -> Result<RealInput, VariableError> {
     match variable.access {
         Access::Input { get, set, .. } => Ok(RealInput { get, set }),
-        _ => Err(VariableError::Kind(variable.name, wanted)),
+        _ => Err(VariableError::Kind(variable.name, "a real input")),
     }
 }
 

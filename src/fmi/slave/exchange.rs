@@ -1,16 +1,15 @@
-//! Model exchange: the functions of a slave for an importer that integrates. Only directional derivatives allocate.
+//! Model exchange: the functions of a slave for an importer that integrates. None of them allocates.
 
 use super::Slave;
-use super::access::{Permission, finite, finite_output, real_input, real_output, variable};
+use super::access::{Permission, finite, finite_number, finite_output};
 use super::course::{Course, Interface};
 use super::engine::Engine;
 use super::error::{Error, TimeError, VariableError};
 use super::states::{can_be_exchanged, check_structure};
 use super::variables::{Access, DERIVATIVES, STATES, Variable};
-use crate::integrator::MAX_STATES;
-use crate::model::signals::{Inputs, Outputs};
+use crate::integrator::{MAX_EVENTS, MAX_STATES};
 use crate::scene::Scene;
-use crate::simulation::{Direction, HostedMechanism, Update};
+use crate::simulation::{HostedMechanism, Update};
 
 impl Slave {
     /// A slave of this kind of interface, with the start values of the packaged scene.
@@ -54,8 +53,12 @@ impl Slave {
         if !time.is_finite() {
             return Err(TimeError::NotFinite("time", time).into());
         }
-        let start = self.settings.experiment.start;
-        self.hosted()?.set_time(time - start);
+        // A time that lies further from the start than any number tells cannot be counted from there.
+        let elapsed = time - self.settings.experiment.start;
+        if !elapsed.is_finite() {
+            return Err(TimeError::NotFinite("time since the start", elapsed).into());
+        }
+        self.hosted()?.set_time(elapsed);
         self.outputs = None;
         Ok(())
     }
@@ -101,10 +104,14 @@ impl Slave {
         }
     }
 
-    /// Writes the continuous states.
+    /// Writes the continuous states; none if one is not finite, as it may be in a state that was not saved but made up.
     pub fn write_states(&mut self, states: &mut [f64]) -> Result<(), Error> {
         self.check_states(states.len())?;
-        states.copy_from_slice(self.hosted()?.states());
+        let now = self.hosted()?.states();
+        for (variable, state) in STATES.iter().zip(now) {
+            finite_output(variable, *state)?;
+        }
+        states.copy_from_slice(now);
         Ok(())
     }
 
@@ -128,10 +135,14 @@ impl Slave {
         Ok(())
     }
 
-    /// Writes the event indicators.
+    /// Writes the event indicators; none if one is not finite.
     pub fn write_indicators(&mut self, indicators: &mut [f64]) -> Result<(), Error> {
         check_count("event indicators", indicators.len(), self.indicator_count()?)?;
-        self.hosted()?.write_indicators(indicators);
+        let mut found = [0.0; MAX_EVENTS];
+        let found = &mut found[..indicators.len()];
+        self.hosted()?.write_indicators(found);
+        found.iter().try_for_each(|indicator| finite_number("an event indicator", *indicator).map(drop))?;
+        indicators.copy_from_slice(found);
         Ok(())
     }
 
@@ -145,61 +156,6 @@ impl Slave {
     /// Whether [`Slave::update_discrete_states`] would change a contact.
     pub fn update_is_due(&mut self) -> Result<bool, Error> {
         Ok(self.hosted()?.update_is_due())
-    }
-
-    /// Derivatives of real outputs and of derivatives of states along a direction of real inputs and states. A variable
-    /// named twice counts twice.
-    pub fn exchange_derivative(
-        &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seeds: &[f64],
-        values: &mut [f64],
-    ) -> Result<(), Error> {
-        let states = self.state_count()?;
-        let mut direction = Direction { states: vec![0.0; states], inputs: Inputs::default() };
-        for (&known, &seed) in knowns.iter().zip(seeds) {
-            let variable = variable(known)?;
-            finite(variable, seed)?;
-            match variable.access {
-                Access::State(place) => {
-                    *direction.states.get_mut(place).ok_or(VariableError::Absent(variable.name))? += seed
-                }
-                Access::Input { .. } => {
-                    let input = real_input(variable)?;
-                    let sum = (input.get)(&direction.inputs) + seed;
-                    (input.set)(&mut direction.inputs, sum);
-                }
-                _ => return Err(VariableError::Kind(variable.name, "a real input or a continuous state").into()),
-            }
-        }
-        let (mut of_outputs, mut of_rates) = (false, false);
-        for &unknown in unknowns {
-            let variable = variable(unknown)?;
-            match variable.access {
-                Access::Derivative(place) if place < states => of_rates = true,
-                Access::Derivative(_) => return Err(VariableError::Absent(variable.name).into()),
-                Access::RealOutput(_) => of_outputs = true,
-                _ => return Err(VariableError::Kind(variable.name, "a real output or a state's derivative").into()),
-            }
-        }
-        let mechanism = self.hosted()?;
-        let outputs = if of_outputs { mechanism.outputs_along(&direction) } else { Outputs::default() };
-        let mut rates = [0.0; MAX_STATES];
-        if of_rates {
-            mechanism.write_rates_along(&direction, &mut rates[..states]);
-        }
-        for (&unknown, value) in unknowns.iter().zip(values) {
-            let variable = variable(unknown)?;
-            *value = finite_output(
-                variable,
-                match variable.access {
-                    Access::Derivative(place) => rates[place],
-                    _ => real_output(variable)?(&outputs),
-                },
-            )?;
-        }
-        Ok(())
     }
 
     fn check_states(&mut self, given: usize) -> Result<(), Error> {

@@ -12,9 +12,9 @@
 //! A refused call changes nothing: values that are set together are all applied, or none of them.
 
 pub mod access;
-mod adjoint;
 pub mod course;
 pub mod difference;
+mod directional;
 pub mod engine;
 pub mod error;
 mod exchange;
@@ -37,19 +37,15 @@ pub use settings::Settings;
 pub use severity::Severity;
 
 use crate::integrator::MAX_STATES;
-use crate::model::signals::{Inputs, Outputs};
+use crate::model::signals::Outputs;
 use crate::scene::Scene;
 use crate::simulation::Snapshot;
-use access::{
-    RealInput, check_first_order, finite, finite_output, known_input, real_input, real_output, real_parameter, typed,
-    variable,
-};
+use access::{RealInput, check_first_order, finite, finite_output, real_input, real_output, typed, variable};
 use course::{Course, StateValues};
 use engine::{Engine, Own};
 use error::VariableError;
 use experiment::{Experiment, LeftAside, Limit};
 use inputs::are_finite;
-use start_sensitivity::{Rate, Reading, along};
 use variables::{Access, VARIABLES};
 
 /// Name of the parameter that takes precedence over the experiment's tolerance if an importer has set it.
@@ -134,6 +130,9 @@ impl Slave {
             permission.check_read(variable)?;
             match variable.access {
                 Access::Input { .. } | Access::Parameter(_) => {}
+                Access::State(place) | Access::Derivative(place) if !self.has_state(place) => {
+                    return Err(VariableError::Absent(variable.name).into());
+                }
                 Access::State(_) | Access::Derivative(_) => states = true,
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => outputs = true,
             }
@@ -252,63 +251,6 @@ impl Slave {
         fill(references, &rates, values)
     }
 
-    /// Derivatives of real outputs along a direction of real inputs and, while the permission lets parameters be set, of
-    /// real parameters. In model exchange of derivatives of states and along states, too, but not along parameters. A
-    /// variable named twice counts twice.
-    pub fn directional_derivative(
-        &mut self,
-        permission: Permission,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seeds: &[f64],
-        values: &mut [f64],
-    ) -> Result<(), Error> {
-        if self.interface == Interface::ModelExchange {
-            return self.exchange_derivative(unknowns, knowns, seeds, values);
-        }
-        let (mut inputs, mut starts) = (Inputs::default(), Vec::<Rate>::new());
-        for (&known, &seed) in knowns.iter().zip(seeds) {
-            let variable = variable(known)?;
-            let seed = |variable| finite(variable, seed);
-            if let (Some(parameter), true) = (real_parameter(variable), permission.parameters) {
-                let seed = seed(variable)?;
-                match starts.iter_mut().find(|(known, _)| known.name == parameter.name) {
-                    Some((_, rate)) => *rate += seed,
-                    None => starts.push((parameter, seed)),
-                }
-            } else {
-                let RealInput { get, set } = known_input(variable)?;
-                let sum = get(&inputs) + seed(variable)?;
-                set(&mut inputs, sum);
-            }
-        }
-        for &unknown in unknowns {
-            real_output(variable(unknown)?)?;
-        }
-        let sensitivity = self.live()?.output_sensitivity(inputs);
-        if starts.is_empty() {
-            return fill(unknowns, &sensitivity, values);
-        }
-        let by_starts = self.start_sensitivity(&starts, unknowns)?;
-        for ((&unknown, by_starts), value) in unknowns.iter().zip(by_starts).zip(values) {
-            let variable = variable(unknown)?;
-            *value = finite_output(variable, real_output(variable)?(&sensitivity) + by_starts)?;
-        }
-        Ok(())
-    }
-
-    /// Derivatives of real outputs along a direction of start values.
-    fn start_sensitivity(&self, direction: &[Rate], unknowns: &[u32]) -> Result<Vec<f64>, Error> {
-        let reading = |&unknown: &u32| -> Result<Reading, VariableError> {
-            let variable = variable(unknown)?;
-            Ok((variable.name, real_output(variable)?))
-        };
-        let outputs = unknowns.iter().map(reading).collect::<Result<Vec<_>, _>>()?;
-        along(direction, &self.settings, &outputs, |mut settings| {
-            Ok(started(self.interface, self.newer, &mut settings)?.outputs())
-        })
-    }
-
     /// [s] Where a step of `size` from the importer's `point` ends, counted from the start. A refusal changes nothing.
     pub fn step_end(&self, point: f64, size: f64) -> Result<f64, Error> {
         let end = self.settings.experiment.step_end(self.elapsed(), point, size)?;
@@ -369,8 +311,11 @@ impl Slave {
 
     fn drop_what_followed_from_settings(&mut self) {
         self.outputs = None;
-        if !self.initialized {
-            self.course = None;
+        match &mut self.course {
+            _ if !self.initialized => self.course = None,
+            // A mechanism that the importer moves has its inputs at once, so that looking at it leaves no trace.
+            Some(course @ Course::Hosted(_)) => course.take(&mut self.settings.inputs),
+            _ => {}
         }
     }
 }

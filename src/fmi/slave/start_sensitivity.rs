@@ -1,13 +1,12 @@
-//! Derivatives of outputs with respect to start values, while start values may be set.
+//! Derivatives of a mechanism's numbers with respect to start values, while start values may be set.
 //!
 //! A mechanism is assembled from numbers without derivatives. Therefore it is assembled anew with start values a little
-//! smaller and larger, and the differences of outputs are extrapolated (see [`difference`](super::difference)).
+//! smaller and larger, and the differences are extrapolated (see [`difference`](super::difference)).
 
 use super::access::finite_number;
 use super::difference::{Estimate, derivatives};
 use super::error::Error;
 use super::settings::Settings;
-use crate::model::signals::Outputs;
 use crate::scene::parameter::{Kind, Parameter};
 
 /// A real parameter and its component of the direction.
@@ -21,25 +20,23 @@ const SHARE_OF_RANGE: f64 = 1e-3;
 const MOST: f64 = 0.1;
 /// A derivative is rejected if its error may be larger than this share of it, …
 const DOUBTFUL: f64 = 1e-3;
-/// … unless the error times the longest step is less than this share of the output.
+/// … unless the error times the longest step is less than this share of the number.
 const NOTICEABLE: f64 = 1e-6;
 
-/// Name of an output, and the function that reads it.
-pub type Reading = (&'static str, fn(&Outputs) -> f64);
-
-/// Derivatives of `outputs` along a direction of the start values. `assembled` returns the outputs for settings.
+/// Derivatives of numbers with these names along a direction of the start values. `assembled` returns the numbers for
+/// settings.
 ///
 /// # Errors
-/// `NoDerivative` if an output jumps; the error of the settings if they cannot be changed in either direction.
+/// `NoDerivative` if a number jumps; the error of the settings if they cannot be changed in either direction.
 pub fn along(
     direction: &[Rate],
     settings: &Settings,
-    outputs: &[Reading],
-    mut assembled: impl FnMut(Settings) -> Result<Outputs, Error>,
+    names: &[&'static str],
+    mut assembled: impl FnMut(Settings) -> Result<Vec<f64>, Error>,
 ) -> Result<Vec<f64>, Error> {
     let largest = direction.iter().fold(0.0, |largest: f64, (_, rate)| largest.max(rate.abs()));
     if largest == 0.0 {
-        return Ok(vec![0.0; outputs.len()]);
+        return Ok(vec![0.0; names.len()]);
     }
     // The largest component of the direction becomes 1, so that no step overflows.
     let reach = |(parameter, rate): &Rate| scale(parameter, settings) / (rate / largest).abs();
@@ -50,16 +47,15 @@ pub fn along(
             let value = parameter.value(&changed.scene) + step * (rate / largest);
             parameter.write(&mut changed.scene, value)?;
         }
-        let found = assembled(changed)?;
-        let values = outputs.iter().map(|(name, get)| finite_number(name, get(&found)));
+        let values = names.iter().zip(assembled(changed)?).map(|(name, value)| finite_number(name, value));
         values.collect::<Result<Vec<_>, Error>>()
     })?;
-    let accepted = |(&(name, _), estimate): (&Reading, Estimate)| {
+    let accepted = |(&name, estimate): (&&'static str, Estimate)| {
         let Estimate { value, error, size } = estimate;
         let sure = error <= DOUBTFUL * value.abs() || error * longest <= NOTICEABLE * size;
         if sure { Ok(value * largest) } else { Err(Error::NoDerivative(name)) }
     };
-    outputs.iter().zip(estimates).map(accepted).collect()
+    names.iter().zip(estimates).map(accepted).collect()
 }
 
 /// Longest step of a parameter.

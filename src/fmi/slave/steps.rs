@@ -80,8 +80,9 @@ impl Slave {
     /// An event indicator, whichever side integrates.
     pub fn indicator(&mut self, place: usize) -> Result<f64, Error> {
         let name = "event indicator of this number";
-        let count = event_count(&self.settings.scene);
-        let indicator = self.contacts()?.indicators[..count].get(place).copied();
-        finite_number(name, indicator.ok_or(VariableError::Absent(name))?)
+        if place >= event_count(&self.settings.scene) {
+            return Err(VariableError::Absent(name).into());
+        }
+        finite_number("an event indicator", self.contacts()?.indicators[place])
     }
 }

@@ -4,7 +4,8 @@ use super::error::{Error, InstantiateError};
 use super::fmu_state::FmuState;
 use super::lifecycle::{Call, State};
 use super::step::{Done, Ends, IntermediateUpdate, Stage};
-use super::variables::{CLOCK, Meaning, are_neutral, check_type, has_intermediate_values, type_name};
+use super::variables::{CLOCK, Meaning, TIME, are_neutral, check_type, has_intermediate_values, type_name};
+use crate::fmi::slave::access::finite_number;
 use crate::fmi::slave::engine::{Engine, Stops};
 use crate::fmi::slave::error::{SavedStateError, VariableError};
 use crate::fmi::slave::log::{Host, Logger};
@@ -56,6 +57,8 @@ pub struct Instance {
     intermediate: Option<Vec<u32>>,
     /// Of the step under way.
     ends: Ends,
+    /// Whether the importer's callback runs, whose step comes back to this instance.
+    updating: bool,
     saved: SavedStates<FmuState>,
     logger: Logger,
 }
@@ -90,6 +93,7 @@ impl Instance {
             early_return_allowed,
             intermediate: has_callback.then(|| intermediate.to_vec()),
             ends: Ends::default(),
+            updating: false,
             saved: SavedStates::default(),
             logger: Logger::new(host, CString::from(name), logging_on),
         })
@@ -118,6 +122,11 @@ impl Instance {
             (state, _) if call.allowed(state) => Ok(()),
             (state, _) => Err(call.not_provided().map_or(Error::CallOrder(state), Error::NotProvided)),
         }
+    }
+
+    /// Refuses to free an instance within an intermediate update, even one that was given up there: the step comes back.
+    pub fn check_free(&self) -> Result<(), Error> {
+        if self.updating { Err(Error::CallOrder(self.state)) } else { Ok(()) }
     }
 
     /// Gives the instance up after a fault of ours.
@@ -235,7 +244,6 @@ impl Instance {
             Interface::CoSimulation => self.side == Side::After,
             Interface::ModelExchange => self.state != State::EventMode,
         };
-        let changes = self.slave.contacts()?.changes;
         let contacts: Result<Vec<usize>, VariableError> = references
             .iter()
             .map(|reference| match Meaning::of(*reference)? {
@@ -243,7 +251,9 @@ impl Instance {
                 _ => Err(VariableError::Absent("contact of this clock")),
             })
             .collect();
-        for (value, contact) in values.iter_mut().zip(contacts?) {
+        let contacts = contacts?;
+        let changes = self.slave.contacts()?.changes;
+        for (value, contact) in values.iter_mut().zip(contacts) {
             *value = (!handled && changes[contact]).into();
         }
         Ok(())
@@ -321,7 +331,7 @@ impl Instance {
                 self.slave.get(asked, permission, &[reference], &mut value, |value| value)?;
                 read.extend(value);
             }
-            Meaning::Time => read.push(self.slave.time()),
+            Meaning::Time => read.push(finite_number(TIME, self.slave.time())?),
             Meaning::Indicator(_) | Meaning::Clock(_) | Meaning::CornerPenetrations | Meaning::CornerContacts => {
                 permission.check_output(meaning.name(), "local variable")?;
                 match meaning {
@@ -396,6 +406,9 @@ impl Instance {
     /// Goes on with the step under way, up to its end, an event, or the next intermediate update. What cannot go on
     /// terminates the instance.
     pub fn go_on(&mut self) -> Result<Stage, Error> {
+        if self.state == State::Fatal {
+            return Err(Error::CallOrder(State::Fatal));
+        }
         let Ends { asked, at } = self.ends;
         let handles_events = self.event_mode_used && self.early_return_allowed;
         let stops = match handles_events {
@@ -414,15 +427,19 @@ impl Instance {
             return Ok(Stage::Done(Done { event: true, early: reached < asked, time }));
         }
         if reached < at {
-            self.state = State::IntermediateUpdateMode;
+            (self.state, self.updating) = (State::IntermediateUpdateMode, true);
             return Ok(Stage::Update(IntermediateUpdate { time, can_return_early: self.early_return_allowed }));
         }
         Ok(Stage::Done(Done { event: false, early: reached < asked, time }))
     }
 
     /// Takes the importer's answer to an intermediate update: [s] when to return, if it wants to before the end.
-    /// [`Instance::go_on`] has to follow.
+    /// [`Instance::go_on`] has to follow. An instance that was given up in the update stays so.
     pub fn end_update(&mut self, return_at: Option<f64>) {
+        self.updating = false;
+        if self.state != State::IntermediateUpdateMode {
+            return;
+        }
         self.state = State::StepMode;
         if let Some(time) = return_at.filter(|_| self.early_return_allowed) {
             // NaN means now.
@@ -470,6 +487,10 @@ impl Instance {
         let saved = FmuState::from_bytes(bytes)?;
         if saved.interface != self.slave.interface() {
             return Err(SavedStateError::Interface.into());
+        }
+        let of_events = matches!(saved.state, State::EventMode | State::EventPending);
+        if of_events && self.slave.interface() == Interface::CoSimulation && !self.event_mode_used {
+            return Err(Error::NoEventMode);
         }
         Ok(self.saved.keep(handle, saved)?)
     }

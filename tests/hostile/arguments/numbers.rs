@@ -1,8 +1,8 @@
 //! Times, step sizes and tolerances.
 
-use super::{Argument, Fault, Value, bad, flag, good};
+use super::{Argument, Fault, Value, bad, good};
 use crate::invoke::Word;
-use crate::stage::{STOP, Stage};
+use crate::stage::STOP;
 use slidercrank::fmi::v2::Status;
 
 /// No times.
@@ -15,8 +15,8 @@ fn number(sound: &[f64], refused: &[f64], name: &str) -> Argument {
     sound.chain(refused).collect::<Vec<_>>().into()
 }
 
-/// Of `fmi2SetupExperiment`.
-pub fn experiment() -> Vec<Argument> {
+/// Tolerance and times of an experiment.
+pub fn experiment(flag: &Argument) -> Vec<Argument> {
     let mut tolerance = number(&[1e-6], &[0.0, -0.0, -1e-6, f64::MIN], "tolerance");
     for beyond in [f64::MAX, f64::MIN_POSITIVE, 5e-324] {
         let fault = Fault { status: Status::Warning, words: vec!["tolerance".into()] };
@@ -24,17 +24,16 @@ pub fn experiment() -> Vec<Argument> {
     }
     let start = number(&[0.0, -0.0, 1.0, -1e308, 5e-324], &[], "startTime");
     let stop = number(&[STOP, 1e308, f64::MAX], &[-1.5e308, f64::MIN], "stopTime");
-    vec![flag(1), tolerance.counted_by(1), start, flag(1), stop.counted_by(4)]
+    vec![flag.clone(), tolerance.counted_by(1), start, flag.clone(), stop.counted_by(4)]
 }
 
-/// Of `fmi2SetTime`; an integrator's trial may lie anywhere.
+/// A time; an integrator's trial may lie anywhere.
 pub fn time() -> Argument {
     number(&[0.0, -1.0, STOP, 1e300, 5e-324], &[], "time")
 }
 
-/// Of `fmi2DoStep`.
-pub fn communication(stage: &Stage) -> Vec<Argument> {
-    let now = stage.now;
+/// Communication point and size of a step, for an instance that is at `now` [s].
+pub fn communication(now: f64) -> Vec<Argument> {
     let elsewhere = [now + 1.0, now - 1.0, now + 1e-6, -1e300, 1e300, f64::MAX, f64::MIN];
     let point = number(&[now, now.next_up()], &elsewhere, "currentCommunicationPoint");
     let mut size = number(
@@ -43,5 +42,5 @@ pub fn communication(stage: &Stage) -> Vec<Argument> {
         "communicationStepSize",
     );
     size.values.extend([STOP, 1e300, f64::MAX].map(|beyond| bad(Word::Real(beyond), "stopTime")));
-    vec![point, size, flag(1)]
+    vec![point, size]
 }

@@ -3,6 +3,7 @@
 use super::numbers::NOT_FINITE;
 use super::{Argument, array, bad, count, good};
 use crate::host::vr;
+use crate::importers_memory::ImportersMemory;
 use crate::invoke::NULL;
 use crate::stage::Stage;
 use slidercrank::fmi::slave::variables::VARIABLES;
@@ -15,26 +16,36 @@ pub struct References<'a> {
     stage: &'a Stage,
 }
 
+/// Two references by name: sound ones, then others, then unknown ones. An empty word stands for no fault.
+pub fn pair(
+    memory: &ImportersMemory,
+    argument: &str,
+    sound: [&str; 2],
+    others: &[([&str; 2], &str)],
+    unknown: &[u32],
+) -> Argument {
+    let references = |names: [&str; 2]| names.map(vr).to_vec();
+    let mut list = array(memory, argument, references(sound), vec![]);
+    for (names, words) in others {
+        let word = memory.array(references(*names));
+        list.values.push(if words.is_empty() { good(word) } else { bad(word, *words) });
+    }
+    for &unknown in unknown {
+        for references in [[unknown, vr(sound[1])], [vr(sound[0]), unknown]] {
+            list.values.push(bad(memory.array(references.to_vec()), format!("value reference {unknown}")));
+        }
+    }
+    list
+}
+
 impl<'a> References<'a> {
     pub fn of(call: Call, stage: &'a Stage) -> Self {
         Self { call, stage }
     }
 
-    /// Two references by name: sound ones, then others. An empty word stands for no fault.
     fn list(&self, argument: &str, sound: [&str; 2], others: &[([&str; 2], &str)]) -> Argument {
-        let references = |names: [&str; 2]| names.map(vr).to_vec();
-        let mut list = array(self.stage, argument, references(sound), vec![]);
-        for (names, words) in others {
-            let word = self.stage.array(references(*names));
-            list.values.push(if words.is_empty() { good(word) } else { bad(word, *words) });
-        }
         let length = u32::try_from(VARIABLES.len()).expect("few variables");
-        for unknown in [length, u32::MAX] {
-            for references in [[unknown, vr(sound[1])], [vr(sound[0]), unknown]] {
-                list.values.push(bad(self.stage.array(references.to_vec()), format!("value reference {unknown}")));
-            }
-        }
-        list
+        pair(&self.stage.memory, argument, sound, others, &[length, u32::MAX])
     }
 
     /// `words` unless variables may be touched so in the stage's state.
@@ -56,7 +67,7 @@ impl<'a> References<'a> {
                     (["joint.C.contact", "gravity"], "joint.C.contact is of type Boolean, not Real"),
                     (["gravity", "drive.mode"], "drive.mode is of type Enumeration, not Real"),
                 ];
-                let values = array(self.stage, "value", vec![0.0; 2], vec![]);
+                let values = array(&self.stage.memory, "value", vec![0.0; 2], vec![]);
                 (self.list("vr", ["gravity", "crank.torque"], &others), values)
             }
             GetInteger => {
@@ -65,7 +76,7 @@ impl<'a> References<'a> {
                     (["drive.mode", "slider.x"], "slider.x is of type Real, not Integer"),
                     (["energy.audit", "drive.mode"], "energy.audit is of type Boolean, not Integer"),
                 ];
-                let values = array(self.stage, "value", vec![0_i32; 2], vec![]);
+                let values = array(&self.stage.memory, "value", vec![0_i32; 2], vec![]);
                 (self.list("vr", ["drive.mode", "rod.flexible.bending_modes"], &others), values)
             }
             GetBoolean => {
@@ -74,7 +85,7 @@ impl<'a> References<'a> {
                     (["energy.audit", "slider.load"], "slider.load is of type Real, not Boolean"),
                     (["drive.mode", "energy.audit"], "drive.mode is of type Enumeration, not Boolean"),
                 ];
-                let values = array(self.stage, "value", vec![0_i32; 2], vec![]);
+                let values = array(&self.stage.memory, "value", vec![0_i32; 2], vec![]);
                 (self.list("vr", ["energy.audit", "rod.flexible.geometric_stiffness"], &others), values)
             }
             _ => return self.text(),
@@ -95,9 +106,9 @@ impl<'a> References<'a> {
                 ];
                 let references = self.list("vr", ["slider.load", "crank.torque"], &others);
                 let faulty = NOT_FINITE.map(|number| (vec![1.0, number], "is not a finite number"));
-                let mut values = array(self.stage, "value", vec![1.0, 2.0], faulty.to_vec());
+                let mut values = array(&self.stage.memory, "value", vec![1.0, 2.0], faulty.to_vec());
                 for extreme in [f64::MAX, f64::MIN, 5e-324] {
-                    values.values.push(good(self.stage.array(vec![extreme, 2.0])));
+                    values.values.push(good(self.stage.memory.array(vec![extreme, 2.0])));
                 }
                 (references, values)
             }
@@ -110,7 +121,7 @@ impl<'a> References<'a> {
                 let references = self.list("vr", ["drive.mode", "rod.flexible.bending_modes"], &others);
                 let faulty = [[0, 1], [3, 1], [i32::MIN, 1], [i32::MAX, 1], [2, -1], [2, 9], [2, i32::MAX]];
                 let faulty = faulty.map(|numbers| (numbers.to_vec(), "is out of range; allowed: "));
-                let values = array(self.stage, "value", vec![2_i32, 1], faulty.to_vec());
+                let values = array(&self.stage.memory, "value", vec![2_i32, 1], faulty.to_vec());
                 (self.settable(references, "drive.mode (fixed parameter) cannot be set"), values)
             }
             SetBoolean => {
@@ -120,9 +131,9 @@ impl<'a> References<'a> {
                     (["drive.mode", "energy.audit"], "drive.mode is of type Enumeration, not Boolean"),
                 ];
                 let references = self.list("vr", ["energy.audit", "rod.flexible.geometric_stiffness"], &others);
-                let mut values = array(self.stage, "value", vec![1_i32, 0], vec![]);
+                let mut values = array(&self.stage.memory, "value", vec![1_i32, 0], vec![]);
                 for any in [-1, i32::MIN, i32::MAX] {
-                    values.values.push(good(self.stage.array(vec![any, any])));
+                    values.values.push(good(self.stage.memory.array(vec![any, any])));
                 }
                 (self.settable(references, "energy.audit (fixed parameter) cannot be set"), values)
             }
@@ -140,7 +151,7 @@ impl<'a> References<'a> {
     fn text(&self) -> Vec<Argument> {
         let references = self.list("vr", ["slider.x", "slider.load"], &[]);
         let references = references.refused_as("slider.x is of type Real, not String");
-        let values = vec![good(self.stage.array(vec![0_usize; 2])), good(NULL)];
+        let values = vec![good(self.stage.memory.array(vec![0_usize; 2])), good(NULL)];
         vec![references.counted_by(2), count(2), values.into()]
     }
 
@@ -152,8 +163,8 @@ impl<'a> References<'a> {
                 (["slider.load", "solver.steps"], "solver.steps is not a real input"),
             ];
             let faulty = NOT_FINITE.map(|number| (vec![number, 1.0], "is not a finite number"));
-            let mut values = array(self.stage, "value", vec![1.0, 2.0], faulty.to_vec());
-            values.values.push(good(self.stage.array(vec![f64::MAX, f64::MIN])));
+            let mut values = array(&self.stage.memory, "value", vec![1.0, 2.0], faulty.to_vec());
+            values.values.push(good(self.stage.memory.array(vec![f64::MAX, f64::MIN])));
             (self.list("vr", ["slider.load", "crank.torque"], &others), values)
         } else {
             let others = [
@@ -162,11 +173,11 @@ impl<'a> References<'a> {
                 (["slider.x", "solver.steps"], "solver.steps is not a real output"),
                 (["joint.C.contact", "slider.x"], "joint.C.contact is not a real output"),
             ];
-            let values = array(self.stage, "value", vec![0.0; 2], vec![]);
+            let values = array(&self.stage.memory, "value", vec![0.0; 2], vec![]);
             (self.list("vr", ["slider.x", "crank.angle"], &others), values)
         };
         let faulty = [0, 2, -1, i32::MIN, i32::MAX].map(|order| (vec![1, order], "only order 1 is known"));
-        let orders = array(self.stage, "order", vec![1_i32, 1], faulty.to_vec());
+        let orders = array(&self.stage.memory, "order", vec![1_i32, 1], faulty.to_vec());
         vec![references.counted_by(2), count(2), orders.counted_by(2), values.counted_by(2)]
     }
 
@@ -188,8 +199,8 @@ impl<'a> References<'a> {
         let unknown = self.list("vUnknown_ref", ["slider.x", "slider.a"], &outputs);
         let known = self.list("vKnown_ref", ["slider.load", "crank.torque"], &inputs);
         let faulty = NOT_FINITE.map(|number| (vec![1.0, number], "is not a finite number"));
-        let seeds = array(self.stage, "dvKnown", vec![1.0, 2.0], faulty.to_vec());
-        let answers = array(self.stage, "dvUnknown", vec![0.0; 2], vec![]);
+        let seeds = array(&self.stage.memory, "dvKnown", vec![1.0, 2.0], faulty.to_vec());
+        let answers = array(&self.stage.memory, "dvUnknown", vec![0.0; 2], vec![]);
         vec![unknown.counted_by(2), count(2), known.counted_by(4), count(2), seeds.counted_by(4), answers.counted_by(2)]
     }
 }

@@ -64,7 +64,7 @@ pub fn answer<S: Into<Status>>(
 /// As [`take_back`].
 pub unsafe fn free(instance: fmi3Instance) {
     // SAFETY: the caller vouches for the pointer.
-    let admitted = unsafe { call(instance, Call::FreeInstance, |_| Ok(())) };
+    let admitted = unsafe { call(instance, Call::FreeInstance, |instance| instance.check_free()) };
     if admitted == Status::Ok {
         // SAFETY: as above.
         let hosted = unsafe { take_back::<Hosted>(instance) };
