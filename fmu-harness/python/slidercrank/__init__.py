@@ -2,7 +2,8 @@
 
 Nothing here knows mechanics. Packaging and studies are done by the program in the source tree, runs by the
 packaged FMU in FMPy. `slidercrank.distributed` runs a study on a Dask cluster, `slidercrank.sensitivity` and
-`slidercrank.optimise` ask what a study's parameters do, `slidercrank.plots` draws.
+`slidercrank.optimise` ask what a study's parameters do, `slidercrank.durability` counts load cycles,
+`slidercrank.plots` draws.
 """
 
 from .simulation import simulate

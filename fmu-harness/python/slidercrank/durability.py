@@ -1,0 +1,74 @@
+"""Load spectra of a run: rainflow cycles of joint forces, counts per class, extremes of every stroke.
+
+Cycles are counted by the library `rainflow` (ASTM E 1049-85, 5.4.4). A cycle between two communication points is missed:
+ask for short steps, or read `joint.J.force.peak`, which an FMU with `joint.J.peak.audit` finds within the integrator's
+steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy
+import pandas
+import rainflow
+
+JOINTS = ("A", "B", "C", "T")
+TURN = 2.0 * numpy.pi
+
+
+def force(run: pandas.DataFrame, joint: str) -> pandas.Series:
+    """Magnitude [N] of a joint's force over time; `run` has both of its components."""
+    x, y = (run[f"joint.{joint}.force.{axis}"] for axis in "xy")
+    return pandas.Series(numpy.hypot(x, y), index=run.index, name=f"joint.{joint}.force")
+
+
+def cycles(series: pandas.Series) -> pandas.DataFrame:
+    """Rainflow cycles of a series over time: range and mean in its unit, count (0.5 or 1), first and last time."""
+    time = series.index.to_numpy()
+    found = [
+        (span, mean, count, time[first], time[last])
+        for span, mean, count, first, last in rainflow.extract_cycles(series.to_numpy())
+    ]
+    return pandas.DataFrame(found, columns=["range", "mean", "count", "from", "to"])
+
+
+def equivalent(counted: pandas.DataFrame, exponent: float, repetitions: float = 1.0) -> float:
+    """The range whose `repetitions` do the damage of all counted cycles together.
+
+    Palmgren and Miner's sum with a Wöhler curve of slope `exponent`: (Σ count·range^m / repetitions)^(1/m).
+    """
+    if exponent <= 0.0 or repetitions <= 0.0:
+        raise ValueError(f"exponent {exponent} and repetitions {repetitions} must be above 0")
+    damage = (counted["count"] * counted["range"] ** exponent).sum()
+    return float((damage / repetitions) ** (1.0 / exponent))
+
+
+def spectrum(run: pandas.DataFrame, joints: Iterable[str] = JOINTS, classes: int = 32) -> pandas.DataFrame:
+    """Load spectrum of joint forces: cycles by class of their range [N], of equal width up to the largest.
+
+    A row is a class, its index the upper bound of the range. For each joint there is a column with the cycles in the
+    class, and a column `J.exceeding` with the cycles of this class and all above it.
+    """
+    counted = {joint: cycles(force(run, joint)) for joint in joints}
+    largest = max((frame["range"].max() for frame in counted.values() if len(frame)), default=0.0)
+    bounds = numpy.linspace(0.0, largest or 1.0, classes + 1)
+    table = pandas.DataFrame(index=pandas.Index(bounds[1:], name="range"))
+    for joint, frame in counted.items():
+        table[joint], _ = numpy.histogram(frame["range"], bins=bounds, weights=frame["count"])
+        table[f"{joint}.exceeding"] = table[joint][::-1].cumsum()[::-1]
+    return table
+
+
+def strokes(run: pandas.DataFrame, of: Iterable[str]) -> pandas.DataFrame:
+    """Smallest, mean and largest value of outputs in every whole stroke: a turn of the crank from its start.
+
+    A row is a stroke, its index the number. The columns are pairs of an output and `min`, `mean` or `max`.
+    """
+    outputs = list(of)
+    angle = run["crank.angle"].to_numpy()
+    turned = numpy.abs(angle - angle[0]) / TURN
+    number = pandas.Series(numpy.floor(turned).astype(int), index=run.index, name="stroke")
+    whole = int(numpy.floor(turned[-1]))
+    grouped = run.loc[number < whole, outputs].groupby(number[number < whole])
+    return grouped.agg(["min", "mean", "max"])
