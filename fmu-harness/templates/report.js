@@ -86,6 +86,19 @@ const crank = draw(world, "line", { id: "crank" }, "stroke:#4a586b;stroke-width:
 const journals = REVOLUTE.map((joint) => draw(world, "circle", { id: `journal${joint}` }, joint === "C" ? STEEL : CRANK));
 const arrows = ["A", "B", "C", "T"].map((joint) => draw(world, "path", { id: `arrow${joint}` }, `fill:none;stroke:${RED};stroke-width:2.5;stroke-linejoin:round`));
 
+// Which way is down, in the upper corner on the right.
+if (value("gravity")) {
+  const size = 0.35 * r * Math.sign(value("gravity")), angle = value("gravity.angle");
+  const [x, y] = [size * Math.cos(angle), size * Math.sin(angle)];
+  const [fromX, fromY] = [right - 0.6 * r - x / 2, up - 0.3 * r - y / 2];
+  const barb = (side) => [fromX + 0.7 * x - side * 0.2 * y, fromY + 0.7 * y + side * 0.2 * x].map(mm).join(" ");
+  const tip = [fromX + x, fromY + y].map(mm).join(" ");
+  const path = `M${[fromX, fromY].map(mm).join(" ")}L${tip}M${barb(1)}L${tip}L${barb(-1)}`;
+  draw(world, "path", { id: "gravity", d: path }, "fill:none;stroke:#5d6878;stroke-width:2.5;stroke-linejoin:round");
+  const label = { x: mm(fromX + 0.5 * x + 0.18 * r), y: -mm(fromY + 0.5 * y - 0.05 * r), "font-size": mm(0.2 * r), fill: "#5d6878" };
+  draw(drawing, "text", label).textContent = "g";
+}
+
 /// A close look at each journal with play: the circle is what is free to its centre.
 const looks = REVOLUTE.filter(clearance).map((joint) => {
   const svg = document.createElementNS(SVG, "svg");

@@ -100,6 +100,19 @@ impl<D: Copy> Integrator<D> {
     /// # Errors
     /// See [`IntegrationError`]; the state at the error's time is intact.
     pub fn advance(&mut self, system: &dyn System<Discrete = D>, t: f64) -> Result<(), IntegrationError> {
+        self.advance_watched(system, t, &mut |_| ())
+    }
+
+    /// As [`advance`](Self::advance); `watch` sees each step that was accepted.
+    ///
+    /// # Errors
+    /// As [`Integrator::advance`].
+    pub fn advance_watched(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        t: f64,
+        watch: &mut dyn FnMut(&mut Self),
+    ) -> Result<(), IntegrationError> {
         // Most communication points lie within the last step.
         let Stepper { settings, properties, state, .. } = &self.stepper;
         if t <= state.front().t {
@@ -108,7 +121,7 @@ impl<D: Copy> Integrator<D> {
         let longest = system.longest_step();
         let longest = if properties.adaptive { longest } else { settings.fixed_step.min(longest) };
         settings.effort.check(state.front().t, t, longest)?;
-        self.march(system, t, None)
+        self.march(system, t, None, watch)
     }
 
     /// Steps until `t` lies within the last step, or until a step has ended with an event later than `after`.
@@ -122,7 +135,21 @@ impl<D: Copy> Integrator<D> {
         after: f64,
         t: f64,
     ) -> Result<Option<f64>, IntegrationError> {
-        self.march(system, t, Some(after))?;
+        self.advance_to_event_watched(system, after, t, &mut |_| ())
+    }
+
+    /// As [`advance_to_event`](Self::advance_to_event); `watch` sees each step that was accepted.
+    ///
+    /// # Errors
+    /// As [`Integrator::advance`].
+    pub fn advance_to_event_watched(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        after: f64,
+        t: f64,
+        watch: &mut dyn FnMut(&mut Self),
+    ) -> Result<Option<f64>, IntegrationError> {
+        self.march(system, t, Some(after), watch)?;
         Ok(Some(self.state().front().t).filter(|&event| self.has_crossed(after) && event <= t))
     }
 
@@ -142,7 +169,13 @@ impl<D: Copy> Integrator<D> {
     }
 
     /// Steps until `t` lies within the last step, or until a step has ended with an event after the time `after`.
-    fn march(&mut self, system: &dyn System<Discrete = D>, t: f64, after: Option<f64>) -> Result<(), IntegrationError> {
+    fn march(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        t: f64,
+        after: Option<f64>,
+        watch: &mut dyn FnMut(&mut Self),
+    ) -> Result<(), IntegrationError> {
         let mut stalled_steps = 0;
         let before = self.state().statistics.evaluations;
         let work_limit = self.stepper.settings.effort.over(t - self.state().front().t);
@@ -154,6 +187,7 @@ impl<D: Copy> Integrator<D> {
             }
             event_location::settle(&mut self.stepper, system)?;
             self.step(system)?;
+            watch(self);
             stalled_steps = if self.state().front().t > front { 0 } else { stalled_steps + 1 };
             if stalled_steps == event_location::MAX_EVENTS_AT_ONE_TIME {
                 let events = &self.stepper.events[..system.event_count()];
@@ -241,6 +275,11 @@ impl<D: Copy> Integrator<D> {
     /// Shortens the last step so that it ends at `t`, by a new step.
     pub fn truncate(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         truncate::truncate(&mut self.stepper, system, t);
+    }
+
+    /// Changes the discrete state at the ends of the last step, in parts that have no influence on the motion.
+    pub fn for_each_discrete(&mut self, change: impl FnMut(&mut D)) {
+        self.stepper.state.for_each_discrete(change);
     }
 
     /// Replaces the discrete state at the front; rates and event functions are computed again.

@@ -158,6 +158,11 @@ impl<D: Copy> SolverState<D> {
         &mut self.points[self.front]
     }
 
+    /// Changes the discrete state of start, end and front of the last step.
+    pub fn for_each_discrete(&mut self, mut change: impl FnMut(&mut D)) {
+        self.points.iter_mut().for_each(|point| change(&mut point.discrete));
+    }
+
     /// Makes the front the start of the next step.
     #[inline]
     pub fn begin_step(&mut self) {

@@ -2,7 +2,7 @@
 
 use super::bristles::bristled_contacts;
 use super::compiled::Compiled;
-use super::contact::ContactEnergy;
+use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
@@ -13,7 +13,7 @@ use super::rod::{Modes, RodCapacity};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;
-use super::state::{Conditions, Contacts, Evaluation, Pose};
+use super::state::{CONTACTS, Conditions, Contacts, Evaluation, Pose};
 use super::unilateral::StepForces;
 use crate::integrator::complementarity::MAX_CONTACTS;
 use crate::integrator::{
@@ -174,9 +174,7 @@ impl Events for Model {
         }
         let pose = self.mechanism.pose(t, y);
         let bristles = &mut y[2 * self.mechanism.positions()..];
-        let Reset { discrete: contacts, impact } =
-            clearances.cross(structure.play, &conditions.contacts, &pose, triggered, bristles);
-        Reset { discrete: Conditions { contacts, ..*conditions }, impact }
+        clearances.cross(structure.play, conditions, t, &pose, triggered, bristles)
     }
 }
 
@@ -232,6 +230,11 @@ impl MechanismModel for Model {
 
     fn contact_energy(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> ContactEnergy {
         self.mechanism.contact_energy(contacts, pose, y)
+    }
+
+    fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS] {
+        let Mechanism { clearances, structure, .. } = &self.mechanism;
+        clearances.rubbing(structure.play, contacts, pose, &y[2 * self.mechanism.positions()..])
     }
 
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {

@@ -1,7 +1,7 @@
 //! The energy audit: works and losses, integrated with the motion.
 //!
 //! An audited mechanism has seven additional first-order states: the works of the torque, the load and the normal
-//! forces; the losses of friction, viscous damping and modal damping; and the initial energy, which is constant. They
+//! forces; the losses of friction, viscous damping with oil films, and modal damping; and the initial energy, which is constant. They
 //! depend on the motion and are not in the error norm: an audit changes no bit of the motion.
 //!
 //! The loss of contacts is the work of normal forces less the elastic energy stored in the contacts. The power of
@@ -10,17 +10,20 @@
 
 use super::bodies::bodies;
 use super::body::Bodies;
-use super::contact::ContactEnergy;
+use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
+use super::films::Films;
+use super::gravity::free_fall;
 use super::jacobian::differentiate;
 use super::joint::rectangle::CORNERS;
+use super::kinematics::BodyRotations;
 use super::mechanism_model::MechanismModel;
-use super::plane::perp;
+use super::plane::{Vec2, perp};
 use super::reactions::reactions;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
-use super::state::{Conditions, Contacts, Evaluation, Pose};
+use super::state::{CONTACTS, Conditions, Contacts, Evaluation, Pose};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::integrator::{
     Discontinuities, EventFunctions, Events, Jacobian, Linearizable, MAX_STATES, Ode, Reset, SeveralInstants,
@@ -41,8 +44,11 @@ pub struct Audited {
     scales: Vec<f64>,
     topology: Topology,
     bodies: Bodies,
-    gravity: f64,
+    gravity: Vec2,
+    /// [m] Distance of the slider load from the pin, across the guide.
+    load_offset: f64,
     viscous: Viscous,
+    films: Films,
 }
 
 /// Coefficients of viscous friction of all joints.
@@ -82,7 +88,9 @@ impl Audited {
             scales,
             topology: Topology::of(scene),
             bodies: bodies(scene),
-            gravity: scene.gravity,
+            gravity: free_fall(scene),
+            load_offset: scene.slider.load_offset,
+            films: Films::new(scene),
             viscous: Viscous { revolute: [joint.a.damping, joint.b.damping, joint.c.damping], guide: joint.t.damping },
         }
     }
@@ -92,15 +100,15 @@ impl Audited {
         self.model.layout().states
     }
 
-    /// [J] Kinetic energy, and potential energy of gravity Σ m·g·y.
+    /// [J] Kinetic energy, and potential energy of gravity −Σ m·g·r, zero at the origin.
     fn mechanical(&self, evaluation: &Evaluation) -> (f64, f64) {
         let Pose { rotations, place, velocity, .. } = &evaluation.pose;
         let points = [(place.crank, velocity.crank), (place.big_end, velocity.big_end), (place.pin, velocity.pin)];
-        let (mut kinetic, mut moment) = (0.0, 0.0);
+        let (mut kinetic, mut moment) = (0.0, Vec2::ZERO);
         for k in [CRANK, ROD, SLIDER] {
             if let (ROD, Some(flexible)) = (k, &evaluation.flexible) {
                 kinetic += flexible.kinetic;
-                moment += flexible.mass_height;
+                moment += flexible.mass_moment;
                 continue;
             }
             let body = &self.bodies[k];
@@ -108,9 +116,9 @@ impl Audited {
             let speed = rotations.speed[k];
             let moving = points[k].1 + speed * perp(arm);
             kinetic += 0.5 * (body.mass * moving.norm_squared() + body.inertia * speed * speed);
-            moment += body.mass * (points[k].0.y + arm.y);
+            moment += body.mass * (points[k].0 + arm);
         }
-        (kinetic, self.gravity * moment)
+        (kinetic, -self.gravity.dot(moment))
     }
 
     /// [W] Rates of the audit's states.
@@ -128,12 +136,14 @@ impl Audited {
         } else {
             inputs.at(t).crank_torque
         };
+        let BodyRotations { rotation, speed, .. } = &pose.rotations;
+        let turning = rotation[SLIDER].cos * self.load_offset * speed[SLIDER];
         [
-            torque * pose.rotations.speed[CRANK],
-            loads.slider_load * pose.velocity.pin.x,
+            torque * speed[CRANK],
+            loads.slider_load * (pose.velocity.pin.x - turning),
             contact_energy.normal_power,
             contact_energy.friction_loss,
-            self.viscous.loss(pose),
+            self.viscous.loss(pose) + self.films.loss(pose),
             flexible.map_or(R::ZERO, |flexible| flexible.elastic.modal_loss),
             R::ZERO,
         ]
@@ -253,6 +263,10 @@ impl MechanismModel for Audited {
 
     fn contact_energy(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> ContactEnergy {
         self.model.contact_energy(contacts, pose, &y[..self.first()])
+    }
+
+    fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS] {
+        self.model.rubbing(contacts, pose, &y[..self.first()])
     }
 
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {

@@ -5,15 +5,17 @@
 
 use super::bodies::bodies;
 use super::bristles::bristled_contacts;
-use super::contact::{ContactEnergy, ContactParameters, ContactState};
+use super::contact::{ContactEnergy, ContactParameters, ContactState, Rubbing};
+use super::films::Films;
 use super::joint::guide::{GUIDE_CONTACTS, Guide};
 use super::joint::rectangle::CORNERS;
 use super::joint::revolute::Revolute;
 use super::joint_set::{JointSet, Pin};
 use super::loads::Loads;
 use super::scalar::Scalar;
-use super::state::{CONTACTS, Contacts, Pose};
+use super::state::{CONTACTS, Conditions, Contacts, Pose};
 use super::structure::{CRANK, ROD, SLIDER};
+use super::touches::Touches;
 use crate::integrator::{ContactLaw, Discontinuities, EventFunctions, MAX_EVENTS, Reset, Triggered};
 use crate::scene::{Contact, FrictionLaw, Scene};
 
@@ -22,6 +24,8 @@ use crate::scene::{Contact, FrictionLaw, Scene};
 pub struct Clearances {
     pub(super) revolute: [Revolute; 3],
     pub(super) guide: Guide,
+    /// The oil films of the lubricated joints.
+    films: Films,
     /// [kg] Masses of crank, rod and slider.
     mass: [f64; 3],
     /// The contacts with bristles, by their index among all contacts, in the order of their states.
@@ -55,6 +59,7 @@ impl Clearances {
         Self {
             revolute: [&joint.a, &joint.b, &joint.c].map(Revolute::new),
             guide: Guide::new(scene),
+            films: Films::new(scene),
             mass: bodies(scene).map(|body| body.mass),
             bristle: std::array::from_fn(|contact| bristles.iter().position(|&bristled| bristled == contact)),
             bristles,
@@ -81,6 +86,7 @@ impl Clearances {
         self.add_pin(Pin::MainBearing, play, contacts, pose, deflections, deflection_rates, loads);
         self.add_pin(Pin::CrankPin, play, contacts, pose, deflections, deflection_rates, loads);
         self.add_pin(Pin::SliderPin, play, contacts, pose, deflections, deflection_rates, loads);
+        self.films.add_loads(pose, loads);
         if play.guide {
             let (mut z, mut rates) = ([R::ZERO; GUIDE_CONTACTS], [R::ZERO; GUIDE_CONTACTS]);
             let bristled = self.bristle[3].is_some();
@@ -143,6 +149,29 @@ impl Clearances {
                 self.guide.contact_energy(&contacts[3..], &pose.slider(), &self.guide_deflections(deflections));
         }
         contact_energy
+    }
+
+    /// Sliding and forces of the closed contacts; zero in the open ones.
+    pub fn rubbing(
+        &self,
+        play: JointSet,
+        contacts: &Contacts,
+        pose: &Pose,
+        deflections: &[f64],
+    ) -> [Rubbing; CONTACTS] {
+        let mut all = [Rubbing::default(); CONTACTS];
+        for pin in play.pins() {
+            let state = &contacts[pin as usize];
+            if state.closed {
+                let z = self.bristle[pin as usize].map_or(0.0, |place| deflections[place]);
+                all[pin as usize] = self.revolute[pin as usize].rubbing(state, &pose.journal(pin), z);
+            }
+        }
+        if play.guide {
+            let z = self.guide_deflections(deflections);
+            all[3..].copy_from_slice(&self.guide.rubbing(&contacts[3..], &pose.slider(), &z));
+        }
+        all
     }
 
     /// The bristle deflections [m] of the guide's contacts; 0 without bristles.
@@ -236,25 +265,28 @@ impl Clearances {
                 self.revolute[pin as usize].discontinuities(state, &pose.journal(pin), discontinuities);
             }
         }
+        self.films.discontinuities(pose, discontinuities);
         if play.guide {
             self.guide.discontinuities(&contacts[3..], &pose.slider(), discontinuities);
         }
     }
 
-    /// The contact states after the contacts in `crossed` have closed or opened. The `bristles` of a contact that opens
-    /// are reset to 0. The impact lasts as long as the shortest contact time of the contacts that close.
+    /// The conditions after the contacts in `crossed` have closed or opened at the time `t` [s]. The `bristles` of a
+    /// contact that opens are reset to 0. The impact lasts as long as the shortest contact time of the contacts that close.
     pub fn cross(
         &self,
         play: JointSet,
-        contacts: &Contacts,
+        conditions: &Conditions,
+        t: f64,
         pose: &Pose,
         crossed: &Triggered,
         bristles: &mut [f64],
-    ) -> Reset<Contacts> {
+    ) -> Reset<Conditions> {
         let penetrations = self.penetrations(play, pose);
-        let mut reset = Reset { discrete: *contacts, impact: None };
+        let mut reset = Reset { discrete: *conditions, impact: None };
+        let Conditions { contacts, touches, .. } = &mut reset.discrete;
         let crossed = self.guide.contacts_of(&by_contact(play, crossed));
-        for (index, state) in reset.discrete.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
+        for (index, state) in contacts.iter_mut().enumerate().filter(|(i, _)| crossed[*i]) {
             if state.closed {
                 *state = ContactState::default();
                 for (deflection, _) in bristles.iter_mut().zip(&self.bristles).filter(|(_, c)| **c == index) {
@@ -264,6 +296,7 @@ impl Clearances {
             }
             let contact = self.contact(index);
             *state = ContactState::closing(penetrations[index].1, contact.speed_floor);
+            touches[Touches::joint(index)].add(t, penetrations[index].1);
             let time = contact.contact_time(self.lighter_mass(index), state.approach);
             reset.impact = Some(reset.impact.map_or(time, |shorter: f64| shorter.min(time)));
         }

@@ -164,7 +164,7 @@ fn sums(scene: &Scene) -> impl Iterator<Item = StateVariable> {
         ("load_work", "Work of the load on the slider"),
         ("normal_work", "Work that the normal forces have taken, from the elastic energy of the start on"),
         ("friction_loss", "Lost in friction of contacts"),
-        ("viscous_loss", "Lost in viscous friction"),
+        ("viscous_loss", "Lost in viscous friction and oil films"),
         ("modal_loss", "Lost in the damping of the rod's modes"),
         ("start", "Energy at the start, a constant"),
     ];

@@ -94,7 +94,7 @@ impl<R: Real> Equations<R> {
     pub fn new<C: Copy>(
         of: &Structure,
         bodies: &AugmentedBodies<C>,
-        gravity: f64,
+        gravity: Vec2,
         rotations: &BodyRotations<R>,
         loads: &Loads<R>,
         number: impl Fn(C) -> R,
@@ -120,19 +120,28 @@ impl<R: Real> Equations<R> {
             m.m13 = couple(bodies, 2, [r1, r3], [s1, s3], &mut q1, &mut q3);
         }
 
-        // Weight of the chains that do not float.
+        // Weight of the chains that do not float. Gravity along x turns nothing in a chain that falls along the rail.
         let (mut h1, mut h2) = (Vec2::<R>::ZERO, Vec2::<R>::ZERO);
         if of.weighs[CRANK] {
             h1 = r1.apply(bodies.moment[CRANK]);
-            q1 = h1.x.multiply_add(-gravity, q1);
+            q1 = h1.x.multiply_add(gravity.y, q1);
+            if gravity.x != 0.0 && of.crank != Link::After {
+                q1 = h1.y.multiply_add(-gravity.x, q1);
+            }
         }
         if of.weighs[ROD] {
             h2 = r2.apply(bodies.moment[ROD]);
-            q2 = h2.x.multiply_add(-gravity, q2);
+            q2 = h2.x.multiply_add(gravity.y, q2);
+            if gravity.x != 0.0 && of.rod != Link::After {
+                q2 = h2.y.multiply_add(-gravity.x, q2);
+            }
         }
         if of.weighs[SLIDER] {
             let h3: Vec2<R> = r3.apply(bodies.moment[SLIDER]);
-            q3 = h3.x.multiply_add(-gravity, q3);
+            q3 = h3.x.multiply_add(gravity.y, q3);
+            if gravity.x != 0.0 {
+                q3 = h3.y.multiply_add(-gravity.x, q3);
+            }
         }
         Self { m, q1, q2, q3, h1, h2 }
     }
@@ -195,7 +204,7 @@ impl<R: Real> Equations<R> {
 pub fn accelerate<R: Real>(
     of: &Structure,
     bodies: &AugmentedBodies,
-    gravity: f64,
+    gravity: Vec2,
     rotations: &BodyRotations<R>,
     arms: &Arms<Vec2<R>>,
     closing: &IdealMotion<R>,
@@ -230,7 +239,7 @@ pub fn accelerate<R: Real>(
                 along = h1.y.multiply_add(a1, along);
             }
         }
-        roots.slider.x = along * per_mass;
+        roots.slider.x = along.multiply_add(per_mass, R::constant(gravity.x));
         Accelerations { roots, angle }
     } else if of.closed {
         Accelerations { roots, angle: m.solve_closed(of, closing, [q1, q2]) }
@@ -242,8 +251,8 @@ pub fn accelerate<R: Real>(
 impl<R: Real> AccumulatedForces<R> {
     /// Accelerations of the centres of mass of floating chains.
     #[inline(always)]
-    pub fn fall(&self, of: &Structure, bodies: &AugmentedBodies, gravity: f64) -> Roots<Vec2<R>> {
-        let fall = Vec2::constant(Vec2::new(0.0, -gravity));
+    pub fn fall(&self, of: &Structure, bodies: &AugmentedBodies, gravity: Vec2) -> Roots<Vec2<R>> {
+        let fall = Vec2::constant(gravity);
         let mut roots = Roots::<Vec2<R>>::default();
         if let Link::Free(_) = of.crank {
             roots.crank = self.crank.multiply_add(bodies.per_mass[CRANK], fall);

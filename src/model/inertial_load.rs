@@ -16,10 +16,10 @@ pub struct InertialLoad<R = f64> {
 impl<R: Real> InertialLoad<R> {
     /// The load of a rigid body with this rotation, speed [rad/s] and angular acceleration `alpha` [rad/s²], whose
     /// reference point accelerates with `point` [m/s²].
-    pub fn new(body: &Body, rotation: Rotation<R>, speed: R, alpha: R, point: Vec2<R>, gravity: f64) -> Self {
+    pub fn new(body: &Body, rotation: Rotation<R>, speed: R, alpha: R, point: Vec2<R>, gravity: Vec2) -> Self {
         let com = rotation.apply(body.com);
         let acceleration = point + alpha * perp(com) - speed * speed * com;
-        let force = (acceleration + Vec2::new(0.0, gravity)) * body.mass;
+        let force = (acceleration - gravity) * body.mass;
         Self { force, moment: alpha * body.inertia + cross(com, force) }
     }
 }

@@ -11,6 +11,7 @@ use super::clearances::Clearances;
 use super::contact::ContactEnergy;
 use super::drive::{RotaryDamper, Rotor, add_viscous, rotary_dampers, viscous_guide};
 use super::dynamics::{Accelerations, accelerate};
+use super::gravity::free_fall;
 use super::ideal::{IdealMechanism, IdealMotion};
 use super::inertial_load::InertialLoad;
 use super::kinematics::{Arms, BodyRotations, JointPoints, PointMotion};
@@ -22,7 +23,7 @@ use super::rod::{Arrays, Chord, CompiledCounts, Inertia, Modes, Rod, Shape};
 use super::scalar::Scalar;
 use super::start::StartPose;
 use super::state::{Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
-use super::structure::{CRANK, Link, ROD, Roots, Structure, Topology};
+use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure, Topology};
 use crate::integrator::EventFunctions;
 use crate::math::{self, unroll};
 use crate::scene::Scene;
@@ -33,7 +34,7 @@ pub struct Mechanism {
     /// Topology and coordinates.
     pub structure: Structure,
     pub(super) augmented: AugmentedBodies,
-    pub(super) gravity: f64,
+    pub(super) gravity: Vec2,
     /// Lengths, and the height of an ideal guide.
     pub ideal: IdealMechanism,
     /// The prescribed crank rotation.
@@ -44,6 +45,8 @@ pub struct Mechanism {
     pub clearances: Clearances,
     rotary_dampers: Vec<RotaryDamper>,
     guide_damping: Option<f64>,
+    /// [m] Distance of the slider load from the pin, across the guide.
+    load_offset: f64,
 }
 
 /// A flexible rod in its mechanism.
@@ -86,7 +89,7 @@ impl Mechanism {
         Self {
             structure,
             augmented: AugmentedBodies::new(&bodies, &structure),
-            gravity: scene.gravity,
+            gravity: free_fall(scene),
             ideal: IdealMechanism::new(scene),
             rotor: Rotor::new(scene),
             rod: rod.map(|rod| FlexibleRod {
@@ -97,6 +100,7 @@ impl Mechanism {
             clearances: Clearances::new(scene),
             rotary_dampers: rotary_dampers(scene),
             guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
+            load_offset: scene.slider.load_offset,
         }
     }
 
@@ -285,6 +289,10 @@ impl Mechanism {
         if !of.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
+        if self.load_offset != 0.0 {
+            // The arm turns with the slider, the force does not.
+            loads.slider_couple = slider_load * -self.load_offset * pose.rotations.rotation[SLIDER].cos;
+        }
         // Contact forces are available last and are added last.
         add_viscous(&self.rotary_dampers, &pose.rotations.speed, &pose.section_speed, &mut loads);
         if let Some(damping) = self.guide_damping {
@@ -376,7 +384,7 @@ impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
 
         // Force, and moment about the big end, that the rod's motion requires.
         let (mass, turn) = (rod.rod.mass(), angle[ROD]);
-        let origin = acceleration.big_end + Vec2::new(0.0, mechanism.gravity);
+        let origin = acceleration.big_end - mechanism.gravity;
         let first = rotation.apply(inertia.first);
         let mut force = origin * mass + turn * perp(first) + rotation.apply(inertia.force);
         let mut moment = cross(first, origin) + inertia.about_origin * turn + inertia.couple;
@@ -403,7 +411,7 @@ impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
             demand: InertialLoad { force, moment },
             elastic: rod.rod.elastic(chord.stretch, eta, rate),
             kinetic,
-            mass_height: pose.place.big_end.y * mass + first.y,
+            mass_moment: pose.place.big_end * mass + first,
         };
         let mut pose = *pose;
         if of.closed {

@@ -1,12 +1,12 @@
 //! Interface between a simulation and a mechanism, apart from the integrator's interface.
 
-use super::contact::ContactEnergy;
+use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
 use super::joint::rectangle::CORNERS;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
-use super::state::{Conditions, Contacts, Evaluation, Pose};
+use super::state::{CONTACTS, Conditions, Contacts, Evaluation, Pose};
 use crate::integrator::{Impulses, Unilateral};
 
 /// A mechanism in minimal coordinates.
@@ -43,6 +43,9 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     fn contact_energy(&self, _: &Contacts, _: &Pose, _: &[f64]) -> ContactEnergy {
         ContactEnergy::default()
     }
+
+    /// Sliding and forces of the closed contacts; zero in the open ones.
+    fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS];
 
     /// Writes the rates with derivatives.
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);

@@ -19,7 +19,9 @@ pub mod contact;
 pub mod coordinates;
 pub mod drive;
 pub mod dynamics;
+mod films;
 pub mod friction;
+mod gravity;
 pub mod ideal;
 pub mod inertial_load;
 pub mod jacobian;
@@ -42,6 +44,7 @@ pub mod stages;
 pub mod start;
 pub mod state;
 pub mod structure;
+pub mod touches;
 pub mod unilateral;
 
 pub use assembled::Model;

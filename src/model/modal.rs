@@ -97,6 +97,16 @@ impl Root {
             Self::Free => free,
         }
     }
+
+    /// The part of gravity in the directions in which the root does not move.
+    #[inline(always)]
+    fn held(self, gravity: Vec2) -> Vec2 {
+        match self {
+            Self::Ground => gravity,
+            Self::Rail => Vec2::new(0.0, gravity.y),
+            Self::Free => Vec2::ZERO,
+        }
+    }
 }
 
 impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
@@ -108,7 +118,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
         &self,
         of: &Structure,
         constant: &AugmentedBodies,
-        gravity: f64,
+        gravity: Vec2,
         rotations: &BodyRotations<R>,
         arms: &Arms<Vec2<R>>,
         closing: &IdealMotion<R>,
@@ -213,14 +223,13 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             inwards,
             angles: [turns_crank, !of.closed, with_slider],
             rod: *chain,
-            weight: if of.weighs[ROD] { gravity } else { 0.0 },
             per_mass,
             rotation: r2,
             length,
             first,
             along,
             sliding,
-            resting: hanging + root.part(free),
+            resting: hanging + root.part(free) - root.held(gravity),
             across: perp(arms.throw),
             p1,
             p2,
@@ -249,7 +258,9 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             angle[ROD] = closing.rod_per_length.multiply_add(lengthening, with_crank);
         }
         match of.slider {
-            Link::Rail(_) if !inwards => roots.slider.x = forces.rail.x * constant.per_mass[SLIDER],
+            Link::Rail(_) if !inwards => {
+                roots.slider.x = forces.rail.x.multiply_add(constant.per_mass[SLIDER], R::constant(gravity.x));
+            }
             _ => {}
         }
         if !matches!(root, Root::Ground) {
@@ -263,9 +274,9 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             unroll!(C::KNOWN, a < n, K => {
                 own = Vec2::new(momentum.x[a], momentum.y[a]).multiply_add(-(found[a] * per_mass), own);
             });
-            let falling = own - Vec2::new(0.0, gravity);
+            let falling = own + gravity;
             match (root, of.rod) {
-                (Root::Rail, _) => roots.slider.x = own.x,
+                (Root::Rail, _) => roots.slider.x = falling.x,
                 (_, Link::Free(_)) => roots.rod = falling,
                 _ => roots.crank = falling,
             }
@@ -349,8 +360,6 @@ struct Chain<R> {
     /// Which of the angles of crank, rod and slider are coordinates that the modes are coupled with.
     angles: [bool; 3],
     rod: RodInChain,
-    /// [m/s²] Gravity; 0 if the chain floats.
-    weight: f64,
     /// [1/kg] Inverse mass of the chain.
     per_mass: f64,
     rotation: Rotation<R>,
@@ -362,7 +371,8 @@ struct Chain<R> {
     along: R,
     /// [m/s²] 2·θ̇·L̇.
     sliding: R,
-    /// [m/s²] Acceleration of the joint by which the rod hangs, at zero accelerations of the coordinates.
+    /// [m/s²] Acceleration of the joint by which the rod hangs, at zero accelerations of the coordinates, less the
+    /// part of gravity in whose direction the root cannot fall.
     resting: Vec2<R>,
     /// [m] perp(throw).
     across: Vec2<R>,
@@ -437,7 +447,7 @@ impl<R: Real> Chain<R> {
     fn force(&self, slope: R, own: Vec2<R>, momentum: Vec2<R>, own_force: R) -> R {
         let force = slope.multiply_add(self.by_length, own_force);
         let force = own.x.multiply_add(self.along, own.y * self.sliding).multiply_add(-self.rod.big_end, force);
-        force - (momentum.dot(self.resting) + momentum.y * self.weight)
+        force - momentum.dot(self.resting)
     }
 
     /// [N] Q_a with the rod's angle eliminated in a closed loop; `open` is that of the open chain.

@@ -2,6 +2,8 @@
 
 use super::bodies::bodies;
 use super::body::Bodies;
+use super::films::Films;
+use super::gravity::free_fall;
 use super::ideal::IdealMechanism;
 use super::joint::guide::contact_of_corner;
 use super::joint::rectangle::CORNERS;
@@ -10,18 +12,20 @@ use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};
 use super::rod::Elastic;
 use super::signals::{
-    AccuracyOutputs, CrankOutputs, GuideOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
+    AccuracyOutputs, CrankOutputs, GuideOutputs, IntervalOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
-use super::state::{Contacts, Evaluation};
+use super::state::{Conditions, Contacts, Evaluation};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
+use super::touches::{GUIDE, JOINTS, Touches};
 use crate::scene::{Scene, Surface};
 
 /// Computes the outputs of instants.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Observer {
     topology: Topology,
     bodies: Bodies,
-    gravity: f64,
+    gravity: Vec2,
+    films: Films,
     ideal: IdealMechanism,
     surface: Surface,
 }
@@ -32,7 +36,8 @@ impl Observer {
         Self {
             topology: Topology::of(scene),
             bodies: bodies(scene),
-            gravity: scene.gravity,
+            gravity: free_fall(scene),
+            films: Films::new(scene),
             ideal: IdealMechanism::new(scene),
             surface: scene.joint.t.surface,
         }
@@ -42,21 +47,34 @@ impl Observer {
     pub fn outputs(
         &self,
         evaluation: &Evaluation,
-        contacts: &Contacts,
+        conditions: &Conditions,
         penetration: &[f64; 3 + CORNERS],
         torque_input: f64,
     ) -> Outputs {
+        let Conditions { contacts, touches, .. } = conditions;
         let Evaluation { pose, acceleration, angle_acceleration, .. } = evaluation;
         let rotations = &pose.rotations;
         let r = reactions(self.topology, &self.bodies, self.gravity, evaluation);
         let elastic = evaluation.flexible.map_or(Elastic::default(), |flexible| flexible.elastic);
         let Topology { a, b, c, t, speed } = self.topology;
-        let joint = |pin: Pin, ideal: bool, force: Vec2| RevoluteOutputs {
-            force: force.into(),
-            eccentricity: if ideal { [0.0; 2] } else { pose.journal(pin).eccentricity.into() },
-            penetration: if ideal { 0.0 } else { penetration[pin as usize] },
-            contact: contacts[pin as usize].closed,
+        let interval = |joint: usize| {
+            let Touches { largest, count, .. } = touches[joint];
+            let impacts = i32::try_from(count).unwrap_or(i32::MAX);
+            IntervalOutputs { impact_speed: largest, impacts, ..IntervalOutputs::default() }
         };
+        let joint = |pin: Pin, ideal: bool, force: Vec2| {
+            let film = self.films.load(pin, pose);
+            RevoluteOutputs {
+                force: force.into(),
+                eccentricity: if ideal { [0.0; 2] } else { pose.journal(pin).eccentricity.into() },
+                penetration: if ideal { 0.0 } else { penetration[pin as usize] },
+                film_force: film.force.norm(),
+                film_moment: film.journal_couple,
+                interval: interval(pin as usize),
+                contact: contacts[pin as usize].closed,
+            }
+        };
+        let drive_torque = if speed { r.torque } else { torque_input };
         Outputs {
             slider: SliderOutputs {
                 x: pose.place.pin.x,
@@ -79,11 +97,18 @@ impl Observer {
             joint_a: joint(Pin::MainBearing, a, r.a),
             joint_b: joint(Pin::CrankPin, b, r.b),
             joint_c: joint(Pin::SliderPin, c, r.c),
-            joint_t: self.guide(t, &r, contacts, penetration),
-            drive_torque: if speed { r.torque } else { torque_input },
+            joint_t: GuideOutputs { interval: interval(GUIDE), ..self.guide(t, &r, contacts, penetration) },
+            drive_torque,
+            drive_power: drive_torque * rotations.speed[CRANK],
             accuracy: self.accuracy(evaluation),
             ..Outputs::default()
         }
+    }
+
+    /// [N] Magnitudes of the forces of A, B, C and T.
+    pub fn joint_forces(&self, evaluation: &Evaluation) -> [f64; JOINTS] {
+        let Reactions { a, b, c, t, .. } = reactions(self.topology, &self.bodies, self.gravity, evaluation);
+        [a, b, c, t].map(Vec2::norm)
     }
 
     /// Sets the time derivatives of those outputs whose derivatives the evaluation contains.
@@ -120,6 +145,7 @@ impl Observer {
             moment: r.moment,
             penetration: if ideal { 0.0 } else { deepest },
             contacts: touching.map(|_| 1).sum(),
+            ..GuideOutputs::default()
         }
     }
 

@@ -33,7 +33,7 @@ pub struct Reactions<R = f64> {
 pub fn reactions<R: Real>(
     topology: Topology,
     bodies: &Bodies,
-    gravity: f64,
+    gravity: Vec2,
     evaluation: &Evaluation<R>,
 ) -> Reactions<R> {
     let Evaluation { pose, acceleration, angle_acceleration, loads, flexible } = evaluation;

@@ -34,6 +34,8 @@ pub struct Outputs {
     pub joint_t: GuideOutputs,
     /// [N·m] Torque on the crank: the input, or that of the speed drive.
     pub drive_torque: f64,
+    /// [W] Power of that torque.
+    pub drive_power: f64,
     /// Deviation of the slider from the ideal rigid mechanism at the same crank motion.
     pub accuracy: AccuracyOutputs,
     /// Energies, works and losses with an audit; all 0 without one.
@@ -94,8 +96,32 @@ pub struct RevoluteOutputs {
     pub eccentricity: [f64; 2],
     /// [m] Penetration; negative if open, 0 for an ideal joint.
     pub penetration: f64,
+    /// [N] Force of the oil film's pressure.
+    pub film_force: f64,
+    /// [N·m] Moment of the oil film on the journal's body, about the journal's centre.
+    pub film_moment: f64,
+    /// What happened since the last communication point, and since the start.
+    pub interval: IntervalOutputs,
     /// Whether the contact is closed.
     pub contact: bool,
+}
+
+/// What happened in a joint since the last communication point, and since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct IntervalOutputs {
+    /// [m/s] Largest approach speed at a touch since the last communication point; 0 if there was none.
+    pub impact_speed: f64,
+    /// [N] Largest joint force since the last communication point, if it is asked for; 0 otherwise.
+    pub force_peak: f64,
+    /// [J] Work of friction since the start, if it is asked for; 0 otherwise.
+    pub friction_work: f64,
+    /// [m] Sliding distance in contact since the start, if it is asked for; 0 otherwise.
+    pub sliding: f64,
+    /// [J] Normal force times sliding distance since the start, if it is asked for; 0 otherwise.
+    pub wear_work: f64,
+    /// Number of touches since the start; of the guide those of its corners or faces.
+    pub impacts: i32,
 }
 
 /// State and force of the guide.
@@ -108,6 +134,8 @@ pub struct GuideOutputs {
     pub moment: f64,
     /// [m] Penetration of the deepest corner; negative if open, 0 for an ideal guide.
     pub penetration: f64,
+    /// What happened since the last communication point, and since the start.
+    pub interval: IntervalOutputs,
     /// Number of corners in contact.
     pub contacts: i32,
 }
@@ -152,7 +180,7 @@ pub struct EnergyOutputs {
     pub contact_loss: f64,
     /// Part of `dissipated` from friction of the contacts.
     pub friction_loss: f64,
-    /// Part of `dissipated` from viscous friction.
+    /// Part of `dissipated` from viscous friction and oil films.
     pub viscous_loss: f64,
     /// Part of `dissipated` from modal damping.
     pub modal_loss: f64,
@@ -187,13 +215,34 @@ impl Outputs {
         all.get()
     }
 
+    /// What happened in a joint: A, B, C or T by their index.
+    pub fn interval_mut(&mut self, joint: usize) -> &mut IntervalOutputs {
+        match joint {
+            0 => &mut self.joint_a.interval,
+            1 => &mut self.joint_b.interval,
+            2 => &mut self.joint_c.interval,
+            _ => &mut self.joint_t.interval,
+        }
+    }
+
     /// Applies `combine` to each real output of both; integers and Booleans are 0 and false.
     pub fn combined(&self, other: &Self, combine: impl Fn(f64, f64) -> f64 + Copy) -> Self {
         let pair = |a: [f64; 2], b: [f64; 2]| [combine(a[0], b[0]), combine(a[1], b[1])];
+        let interval = |a: &IntervalOutputs, b: &IntervalOutputs| IntervalOutputs {
+            impact_speed: combine(a.impact_speed, b.impact_speed),
+            force_peak: combine(a.force_peak, b.force_peak),
+            friction_work: combine(a.friction_work, b.friction_work),
+            sliding: combine(a.sliding, b.sliding),
+            wear_work: combine(a.wear_work, b.wear_work),
+            impacts: 0,
+        };
         let revolute = |a: &RevoluteOutputs, b: &RevoluteOutputs| RevoluteOutputs {
             force: pair(a.force, b.force),
             eccentricity: pair(a.eccentricity, b.eccentricity),
             penetration: combine(a.penetration, b.penetration),
+            film_force: combine(a.film_force, b.film_force),
+            film_moment: combine(a.film_moment, b.film_moment),
+            interval: interval(&a.interval, &b.interval),
             contact: false,
         };
         let (a, b) = (self, other);
@@ -223,9 +272,11 @@ impl Outputs {
                 force: pair(a.joint_t.force, b.joint_t.force),
                 moment: combine(a.joint_t.moment, b.joint_t.moment),
                 penetration: combine(a.joint_t.penetration, b.joint_t.penetration),
+                interval: interval(&a.joint_t.interval, &b.joint_t.interval),
                 contacts: 0,
             },
             drive_torque: combine(a.drive_torque, b.drive_torque),
+            drive_power: combine(a.drive_power, b.drive_power),
             accuracy: AccuracyOutputs {
                 position: combine(a.accuracy.position, b.accuracy.position),
                 velocity: combine(a.accuracy.velocity, b.accuracy.velocity),

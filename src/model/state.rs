@@ -8,9 +8,10 @@ use super::joint::revolute::JournalMotion;
 use super::joint_set::Pin;
 use super::kinematics::{BodyRotations, JointVectors};
 use super::loads::Loads;
-use super::plane::Rotation;
+use super::plane::{Rotation, Vec2};
 use super::rod::Elastic;
 use super::structure::{CRANK, ROD, SLIDER, Structure};
+use super::touches::{JOINTS, Touches};
 use crate::math::Real;
 
 /// Number of contacts: joints A, B, C and the guide, which has its four corners, or its two faces and two unused
@@ -27,17 +28,24 @@ pub struct Conditions {
     pub contacts: Contacts,
     /// Inputs as a function of time.
     pub inputs: InputSignal,
+    /// Touches of the joints; they have no influence on the motion.
+    pub touches: [Touches; JOINTS],
 }
 
 impl Conditions {
     /// These contact states, with inputs that are always 0.
     pub fn without_inputs(contacts: Contacts) -> Self {
-        Self { contacts, inputs: InputSignal::default() }
+        Self { contacts, ..Self::default() }
+    }
+
+    /// These contact states under these inputs, without touches before.
+    pub fn new(contacts: Contacts, inputs: InputSignal) -> Self {
+        Self { contacts, inputs, ..Self::default() }
     }
 
     /// These inputs, with all contacts open.
     pub fn without_contacts(inputs: InputSignal) -> Self {
-        Self { contacts: Contacts::default(), inputs }
+        Self { inputs, ..Self::default() }
     }
 }
 
@@ -117,8 +125,8 @@ pub struct FlexibleEvaluation<R = f64> {
     pub elastic: Elastic<R>,
     /// [J] Kinetic energy.
     pub kinetic: R,
-    /// [kg·m] ∫y dm.
-    pub mass_height: R,
+    /// [kg·m] ∫r dm, with r from the origin.
+    pub mass_moment: Vec2<R>,
 }
 
 /// Rotations from `positions` and their `rates` at `t`. A crank whose angle is not a coordinate follows `rotor`. The

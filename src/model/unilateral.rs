@@ -13,6 +13,7 @@ use super::joint_set::{JointSet, Pin};
 use super::kinematics::BodyRotations;
 use super::loads::Loads;
 use super::mechanism::{Mechanism, evaluation, write};
+use super::plane::Vec2;
 use super::state::{CONTACTS, Conditions, Evaluation, Pose};
 use super::structure::Structure;
 use crate::integrator::Relative;
@@ -80,7 +81,7 @@ impl Mechanism {
         let Accelerations { roots, angle } = accelerate(
             &self.structure,
             &self.augmented,
-            0.0,
+            Vec2::ZERO,
             &still,
             &configuration.arms,
             &IdealMotion::default(),

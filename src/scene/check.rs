@@ -1,8 +1,8 @@
 //! Consistency checks between the parameters of a scene.
 
 use super::closure::{rise, rod_sine};
-use super::data::{Contact, Point, Revolute, Scene};
-use super::enumerations::{JointModel, Method, Surface};
+use super::data::{Contact, Point, Revolute, Scene, Slider};
+use super::enumerations::{JointModel, Lubrication, Method, Surface};
 use super::error::{SceneError, rule};
 use super::parameter::{PARAMETERS, Parameter};
 use crate::model_description::number::number;
@@ -48,6 +48,9 @@ impl Scene {
                 check_layer(letter, joint)?;
             }
             check_contact(letter, &joint.contact)?;
+            if joint.lubrication != Lubrication::None {
+                check_oil(letter, joint)?;
+            }
         }
         let guide = &joints.t;
         if guide.model == JointModel::Clearance && compliant {
@@ -57,6 +60,11 @@ impl Scene {
                 "above 0 m for surface foundation, unless joint.T.foundation_stiffness is given".into()
             })?;
             check_contact("T", &guide.contact)?;
+        }
+        let Slider { load_offset: offset, height, .. } = self.slider;
+        if offset.abs() > height {
+            let allowed = format!("at most slider.height = {} m to either side of the pin", number(height));
+            return Err(SceneError::Conflict { name: "slider.load.offset".into(), value: offset, allowed });
         }
         self.check_modes()?;
         self.check_closure()
@@ -100,6 +108,15 @@ fn check_layer(letter: &str, joint: &Revolute) -> Result<(), SceneError> {
     })?;
     rule(poisson <= MAX_POISSON_OF_LAYER, letter, "poisson.bearing", poisson, || {
         format!("0 to {MAX_POISSON_OF_LAYER} for elasticity {law}, unless joint.{letter}.layer.stiffness is given")
+    })
+}
+
+/// A lubricated joint: the length of its bearing and the roughness of its surfaces.
+fn check_oil(letter: &str, joint: &Revolute) -> Result<(), SceneError> {
+    let (width, roughness, most) = (joint.contact.width, joint.roughness, 0.1 * joint.clearance);
+    rule(width > 0.0, letter, "width", width, || "above 0 m for lubrication short_bearing".into())?;
+    rule(roughness > 0.0 && roughness <= most, letter, "roughness", roughness, || {
+        format!("above 0 m, at most {} m, a tenth of joint.{letter}.clearance, with lubrication", number(most))
     })
 }
 
@@ -222,7 +239,7 @@ mod tests {
     #[test]
     fn a_value_outside_its_range_is_refused() {
         let error = refused(|scene| scene.rod.mass = -1.0);
-        assert_eq!(error, "rod.mass = -1 is not allowed: 1e-9 to 1e7 kg");
+        assert_eq!(error, "rod.mass = -1 is not allowed: 1e-12 to 1e7 kg");
         let error = refused(|scene| scene.gravity = f64::NAN);
         assert!(error.starts_with("gravity = NaN is not allowed"), "{error}");
     }

@@ -1,6 +1,6 @@
 //! The data of a scene.
 
-use super::enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method, Surface};
+use super::enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Lubrication, Method, Surface};
 use super::modal::ModalTable;
 use serde::{Deserialize, Serialize};
 
@@ -10,8 +10,10 @@ use serde::{Deserialize, Serialize};
 pub struct Scene {
     /// Drive of the crank.
     pub drive: Drive,
-    /// [m/s²] Gravity, along −y.
+    /// [m/s²] Gravity.
     pub gravity: f64,
+    /// [rad] Direction of gravity, counter-clockwise from +x.
+    pub gravity_angle: f64,
     /// Body 1: crank.
     pub crank: Crank,
     /// Body 2: rod.
@@ -105,6 +107,8 @@ pub struct Slider {
     pub height: f64,
     /// [m] Centre of the rectangle from the pin, in body axes.
     pub centre: Point,
+    /// [m] Point where the load acts: its distance from the pin across the guide, in body axes.
+    pub load_offset: f64,
 }
 
 /// The guide's middle line.
@@ -153,8 +157,25 @@ pub struct Revolute {
     pub elasticity: Elasticity,
     /// Elastic layer on the bearing, if the elastic law has one.
     pub layer: Layer,
+    /// Oil film, if any.
+    pub lubrication: Lubrication,
+    /// [Pa·s] Dynamic viscosity of the oil.
+    pub viscosity: f64,
+    /// [m] Composite (root mean square) height of the roughness of journal and bearing.
+    pub roughness: f64,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
+    /// Whether the largest force between communication points is asked for.
+    pub peak: Audit,
+    /// Whether the integrals over sliding are asked for.
+    pub wear: Audit,
+}
+
+/// Something that is computed beside the motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Audit {
+    /// Whether it is asked for.
+    pub audit: bool,
 }
 
 /// An elastic layer on a bearing.
@@ -185,6 +206,10 @@ pub struct Guide {
     pub foundation_stiffness: f64,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
+    /// Whether the largest force between communication points is asked for.
+    pub peak: Audit,
+    /// Whether the integrals over sliding are asked for.
+    pub wear: Audit,
 }
 
 /// Materials, damping and friction of a contact. For the guide, `bearing` is the guide and

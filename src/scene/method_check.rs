@@ -1,8 +1,8 @@
 //! Checks whether an integration method supports a scene. Rigid contacts do not support flexible rods, bristles,
-//! elastic foundations and energy audits.
+//! elastic foundations, oil films and energy audits.
 
-use super::data::{Point, Scene};
-use super::enumerations::{FrictionLaw, JointModel, Method, Surface};
+use super::data::{Audit, Point, Scene};
+use super::enumerations::{FrictionLaw, JointModel, Lubrication, Method, Surface};
 use super::error::{SceneError, rule};
 use crate::model_description::number::number;
 
@@ -27,9 +27,25 @@ impl Scene {
             }
         }
         let joints = &self.joint;
+        for (letter, [peak, wear]) in [
+            ("A", [joints.a.peak, joints.a.wear]),
+            ("B", [joints.b.peak, joints.b.wear]),
+            ("C", [joints.c.peak, joints.c.wear]),
+            ("T", [joints.t.peak, joints.t.wear]),
+        ] {
+            for (name, Audit { audit }) in [("peak.audit", peak), ("wear.audit", wear)] {
+                rule(!audit, letter, name, f64::from(u8::from(audit)), || {
+                    "false for method moreau, whose impacts take no time".into()
+                })?;
+            }
+        }
         for (letter, joint) in [("A", &joints.a), ("B", &joints.b), ("C", &joints.c)] {
             if joint.model == JointModel::Clearance {
                 check_friction(letter, joint.contact.friction.law)?;
+                let oil = joint.lubrication;
+                rule(oil == Lubrication::None, letter, "lubrication", f64::from(oil.value()), || {
+                    format!("{} (none) for method moreau", Lubrication::None.value())
+                })?;
                 let Point { x, y } = joint.eccentricity_start;
                 rule(libm::hypot(x, y) <= joint.clearance, letter, "eccentricity_start.x", x, || {
                     let (y, clearance) = (number(y), number(joint.clearance));

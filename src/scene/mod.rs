@@ -21,10 +21,10 @@ pub mod units;
 pub mod write;
 
 pub use data::{
-    Contact, Crank, Drive, Energy, Flexible, Friction, Guide, GuideLines, Joints, Pair, Point, Revolute, Rod, Scene,
-    Slider, Solver,
+    Audit, Contact, Crank, Drive, Energy, Flexible, Friction, Guide, GuideLines, Joints, Pair, Point, Revolute, Rod,
+    Scene, Slider, Solver,
 };
-pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Method, Surface};
+pub use enumerations::{DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Lubrication, Method, Surface};
 pub use error::SceneError;
 pub use modal::ModalTable;
 pub use parameter::PARAMETERS;

@@ -74,6 +74,7 @@ impl Default for Scene {
         let mut scene = Self {
             drive: Drive::default(),
             gravity: 0.0,
+            gravity_angle: 0.0,
             crank: Crank::default(),
             rod: Rod::default(),
             slider: Slider::default(),

@@ -3,6 +3,8 @@
 //! ```toml
 //! name = "wornpin"
 //! description = "..."
+//! gravity = 9.81
+//! "gravity.angle" = "0 deg" # in quotes, since `gravity` has a value itself
 //! [run]
 //! turns = 20           # or stop = "0.24 s"
 //! step = "10 us"

@@ -63,6 +63,7 @@ const SYMBOLS: &[(&str, Dimension, f64, f64)] = &[
     ("W", POWER, 1.0, 1.0),
     ("kW", POWER, 1e3, 1.0),
     ("Pa", PRESSURE, 1.0, 1.0),
+    ("mPa", PRESSURE, 1.0, 1e3),
     ("kPa", PRESSURE, 1e3, 1.0),
     ("MPa", PRESSURE, 1e6, 1.0),
     ("GPa", PRESSURE, 1e9, 1.0),

@@ -53,7 +53,9 @@ fn profile(profile: &Profile) -> String {
     }
 }
 
+/// A key behind another key that has a value itself, such as `gravity.angle` behind `gravity`, is quoted.
 fn line(out: &mut String, key: &str, value: &str) {
+    let quote = if ["gravity.", "slider.load."].iter().any(|other| key.starts_with(other)) { "\"" } else { "" };
     // Writing to a String cannot fail.
-    let _ = writeln!(out, "{key} = {value}");
+    let _ = writeln!(out, "{quote}{key}{quote} = {value}");
 }

@@ -79,7 +79,7 @@ impl HostedMechanism {
         let mut states = vec![0.0; model.layout().states];
         model.write_start(&pose, &mut states);
         let inputs = InputSignal { at: 0.0, value: inputs, rate: Inputs::default() };
-        let conditions = Conditions { contacts: model.start_contacts(0.0, &states), inputs };
+        let conditions = Conditions::new(model.start_contacts(0.0, &states), inputs);
         Ok(Self {
             nominals: nominals_of(model.as_ref()),
             observer: Observer::new(scene),
@@ -153,6 +153,7 @@ impl HostedMechanism {
         let before = &mut before[..self.states.len()];
         before.copy_from_slice(&self.states);
         if triggered.contains(&true) {
+            self.conditions.touches.iter_mut().for_each(|touches| touches.begin_interval(self.time));
             self.conditions = self.model.reset(&self.conditions, self.time, &mut self.states, &triggered).discrete;
         }
         Update { states_changed: before != self.states, dead_end }

@@ -6,6 +6,7 @@ mod derivatives;
 mod equations;
 mod error;
 mod hosted;
+mod interval;
 mod linearization;
 mod motion;
 mod observation;
@@ -94,6 +95,7 @@ impl Simulation {
     /// `Integration`; the simulation is then at the last time reached, and its outputs, `snapshot` and `restore` can
     /// still be used.
     pub fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
+        self.begin_interval();
         self.side = Side::After;
         match self.motion.advance(time) {
             Ok(()) => {
@@ -110,6 +112,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance_to`].
     pub fn advance_to_event(&mut self, time: f64) -> Result<bool, SimulationError> {
+        self.begin_interval();
         self.side = Side::After;
         match self.motion.advance_to_event(self.time, time) {
             Ok(event) => {
@@ -118,6 +121,12 @@ impl Simulation {
             }
             Err(error) => Err(self.failed(error)),
         }
+    }
+
+    /// Begins an interval at the communication point, from which outputs such as `joint.C.impact.speed` are counted.
+    /// Only [`Simulation::advance_by_step`] does not begin one itself.
+    pub fn begin_interval(&mut self) {
+        self.motion.begin_interval(self.time);
     }
 
     /// Moves to the end of the next step of the method, or to `time` (≥ the time reached), and tells whether a contact

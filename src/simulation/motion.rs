@@ -16,6 +16,9 @@ pub trait Motion: Send {
     /// Steps until `t` lies within the last step or an event after `after` has happened. Returns the time [s] of that
     /// event.
     fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError>;
+    /// Begins an interval at the communication point `t`, from which outputs such as the largest approach speed are
+    /// counted.
+    fn begin_interval(&mut self, _: f64) {}
     /// The point of phase space at `t` in the last step.
     fn phase(&mut self, t: f64) -> Phase;
     /// Restarts from a point of phase space.

@@ -11,7 +11,7 @@ pub fn observe(model: &dyn MechanismModel, observer: &Observer, conditions: &Con
     let evaluation = model.evaluation(conditions, t, y);
     let penetration = model.penetration(&evaluation.pose);
     let torque = conditions.inputs.at(t).crank_torque;
-    let mut outputs = observer.outputs(&evaluation, &conditions.contacts, &penetration, torque);
+    let mut outputs = observer.outputs(&evaluation, conditions, &penetration, torque);
     outputs.energy = model.energies(&conditions.contacts, &evaluation, y);
     outputs
 }

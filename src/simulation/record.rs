@@ -6,6 +6,7 @@ use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::signals::Inputs;
 use crate::model::state::{CONTACTS, Conditions, Contacts};
+use crate::model::touches::{JOINTS, Touches};
 
 /// The discrete part of a state in a snapshot.
 pub trait Discrete: Copy {
@@ -34,6 +35,11 @@ impl Discrete for Conditions {
         self.inputs.save(states, snapshot);
         snapshot.reals.extend(self.contacts.iter().map(|contact| contact.approach));
         snapshot.integers.extend(self.contacts.iter().map(|contact| u64::from(contact.closed)));
+        for touches in &self.touches {
+            let (reals, count) = touches.parts();
+            snapshot.reals.extend(reals);
+            snapshot.integers.push(u64::from(count));
+        }
     }
 
     fn load(states: usize, reader: &mut Reader<'_>) -> Option<Self> {
@@ -45,7 +51,11 @@ impl Discrete for Conditions {
                 *contact = ContactState::closing(approach, approach);
             }
         }
-        Some(Self { contacts, inputs })
+        let mut touches = [Touches::default(); JOINTS];
+        for touches in &mut touches {
+            *touches = Touches::from_parts(reader.reals()?, reader.integer()?.try_into().ok()?)?;
+        }
+        Some(Self { contacts, inputs, touches })
     }
 }
 

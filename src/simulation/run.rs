@@ -3,6 +3,7 @@
 use super::contacts::{ContactReport, ContactWatch, Instant};
 use super::derivatives::{sensitivity, slopes};
 use super::equations::{EquationSystem, Equations, Size, write};
+use super::interval::{Examined, IntervalAudit};
 use super::linearization::{Linearization, linearization, rates_at};
 use super::motion::Motion;
 use super::observation::{observe, solver_outputs};
@@ -29,6 +30,8 @@ pub struct Run {
     integrator: Integrator<Conditions>,
     observer: Observer,
     watch: ContactWatch,
+    /// The audit of intervals, if it is asked for.
+    audit: Option<Box<IntervalAudit>>,
     /// [m/s] Scale of approach speeds.
     approach_scale: f64,
 }
@@ -40,12 +43,15 @@ impl Run {
         let n = model.layout().states;
         let mut y = vec![0.0; n];
         model.write_start(pose, &mut y);
-        let conditions = Conditions { contacts: model.start_contacts(0.0, &y), inputs };
+        let conditions = Conditions::new(model.start_contacts(0.0, &y), inputs);
         let method = named(scene.solver.method.name(), n).expect("every declared method is implemented");
         let integrator = Integrator::start(model.as_ref(), method, settings, 0.0, &y, conditions);
         let Scale { length, frequency, .. } = Scale::of(scene);
         let (observer, watch) = (Observer::new(scene), ContactWatch::new(scene));
-        Self { model, integrator, observer, watch, approach_scale: length * frequency }
+        let audit = IntervalAudit::new(scene).map(Box::new);
+        let mut run = Self { model, integrator, observer, watch, audit, approach_scale: length * frequency };
+        run.begin_interval(0.0);
+        run
     }
 
     /// Outputs at `t` under other inputs, at constant states.
@@ -72,11 +78,33 @@ fn state_at<'a>(
 
 impl Motion for Run {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
-        self.integrator.advance(self.model.as_ref(), t)
+        let Self { model, integrator, observer, audit, .. } = self;
+        let model = model.as_ref();
+        integrator.advance_watched(model, t, &mut |integrator| {
+            if let Some(audit) = audit {
+                audit.step(&mut Examined { model, observer, integrator });
+            }
+        })
     }
 
     fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError> {
-        self.integrator.advance_to_event(self.model.as_ref(), after, t)
+        let Self { model, integrator, observer, audit, .. } = self;
+        let model = model.as_ref();
+        integrator.advance_to_event_watched(model, after, t, &mut |integrator| {
+            if let Some(audit) = audit {
+                audit.step(&mut Examined { model, observer, integrator });
+            }
+        })
+    }
+
+    fn begin_interval(&mut self, t: f64) {
+        self.integrator.for_each_discrete(|conditions| {
+            conditions.touches.iter_mut().for_each(|touches| touches.begin_interval(t));
+        });
+        let Self { model, integrator, observer, audit, .. } = self;
+        if let Some(audit) = audit {
+            audit.begin(&mut Examined { model: model.as_ref(), observer, integrator }, t);
+        }
     }
 
     fn phase(&mut self, t: f64) -> Phase {
@@ -118,6 +146,10 @@ impl Motion for Run {
         // An instant earlier, the events at the end of the step do not count yet.
         let counted = if side == Side::Before { t.next_down() } else { t };
         outputs.solver = solver_outputs(self.integrator.state().statistics_at(counted));
+        let Self { model, integrator, observer, audit, .. } = self;
+        if let Some(audit) = audit {
+            audit.set_outputs(&mut Examined { model: model.as_ref(), observer, integrator }, t, &mut outputs);
+        }
         outputs
     }
 
@@ -204,11 +236,15 @@ impl Motion for Run {
     fn save(&self, snapshot: &mut Snapshot) {
         record::save(self.integrator.state(), snapshot);
         self.integrator.method().save(snapshot);
+        if let Some(audit) = &self.audit {
+            audit.save(snapshot);
+        }
     }
 
     fn load(&mut self, time: f64, reader: &mut Reader<'_>) -> Option<()> {
         let state = record::load(self.model.as_ref(), time, reader)?;
         self.integrator.set_state(self.model.as_ref(), state);
-        self.integrator.load_method(reader)
+        self.integrator.load_method(reader)?;
+        self.audit.as_mut().map_or(Some(()), |audit| audit.load(reader))
     }
 }

@@ -66,7 +66,7 @@ fn observe(
     let evaluation = model.evaluation_under(impulses, inputs, t, y);
     let penetration = model.penetration(&evaluation.pose);
     let torque = inputs.at(t).crank_torque;
-    observer.outputs(&evaluation, &contacts_of(impulses), &penetration, torque)
+    observer.outputs(&evaluation, &Conditions::new(contacts_of(impulses), *inputs), &penetration, torque)
 }
 
 /// Contacts are closed where an impulse acts.
@@ -136,7 +136,7 @@ impl Motion for TimeStepping {
         let before = if t >= solver.front().t { contacts_of(&solver.start().discrete) } else { after };
         let model = self.model.as_ref();
         let (states, impulses) = self.integrator.state_at(model, t);
-        let conditions = Conditions { contacts: contacts_of(&impulses), inputs };
+        let conditions = Conditions::new(contacts_of(&impulses), inputs);
         self.watch.report(&Instant { model, conditions: &conditions, time: t, states }, &before, &after)
     }
 

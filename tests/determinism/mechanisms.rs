@@ -87,6 +87,12 @@ pub fn bits(outputs: &Outputs) -> String {
     format!("{outputs:?}")
 }
 
+/// Outputs and memory, bit for bit. An interval begins here: what counts from the last communication point is left out.
+pub fn reached(simulation: &mut Simulation) -> (String, (Vec<u64>, Vec<u64>)) {
+    simulation.begin_interval();
+    (bits(&simulation.outputs()), memory(simulation))
+}
+
 /// All that is remembered, bit for bit.
 pub fn memory(simulation: &Simulation) -> (Vec<u64>, Vec<u64>) {
     let Snapshot { reals, integers } = simulation.snapshot();

@@ -185,5 +185,8 @@ fn how_an_interval_is_split_does_not_matter_to_the_bit() {
     // Powers of two, so that both importers' points are the same numbers.
     fine.steps(0.0, 1.0 / 16384.0, 256);
     coarse.steps(0.0, 1.0 / 256.0, 4);
+    // The largest approach speed is that of the last interval, which is therefore the same.
+    fine.steps(1.0 / 64.0, 1.0 / 16384.0, 1);
+    coarse.steps(1.0 / 64.0, 1.0 / 16384.0, 1);
     assert_eq!(fine.picture(), coarse.picture());
 }

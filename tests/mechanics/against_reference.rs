@@ -2,7 +2,7 @@
 
 use crate::chance::drawn;
 use crate::comparison::{Distance, distances, flags};
-use crate::elastic_scenes::{audit_cases, face_cases, flexible_cases, lugre_cases};
+use crate::elastic_scenes::{audit_cases, face_cases, flexible_cases, lugre_cases, oil_cases};
 
 use crate::scenes::{Case, cases};
 use crate::translation::{self, mechanism};
@@ -63,6 +63,11 @@ fn product_agrees_with_the_reference_on_bristles() {
 #[test]
 fn product_agrees_with_the_reference_on_energy() {
     agree_on(audit_cases());
+}
+
+#[test]
+fn product_agrees_with_the_reference_on_oil() {
+    agree_on(oil_cases());
 }
 
 /// Those whose name has the environment's CASE in it.

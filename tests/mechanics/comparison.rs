@@ -15,6 +15,7 @@ pub enum Kind {
     Force,
     Moment,
     Energy,
+    Power,
     /// What should be 0 of the energy that turns over.
     Residual,
 }
@@ -42,6 +43,8 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
         ("joint.T.moment", Kind::Moment, o.joint_t.moment),
         ("joint.T.penetration", Kind::Length, o.joint_t.penetration),
         ("drive.torque", Kind::Moment, o.drive_torque),
+        ("drive.power", Kind::Power, o.drive_power),
+        ("joint.T.impact.speed", Kind::Speed, o.joint_t.interval.impact_speed),
         ("accuracy.position", Kind::Length, o.accuracy.position),
         ("accuracy.velocity", Kind::Speed, o.accuracy.velocity),
         ("accuracy.acceleration", Kind::Acceleration, o.accuracy.acceleration),
@@ -53,6 +56,9 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
             "joint.A.eccentricity.x",
             "joint.A.eccentricity.y",
             "joint.A.penetration",
+            "joint.A.film.force",
+            "joint.A.film.moment",
+            "joint.A.impact.speed",
         ],
         [
             "joint.B.force.x",
@@ -60,6 +66,9 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
             "joint.B.eccentricity.x",
             "joint.B.eccentricity.y",
             "joint.B.penetration",
+            "joint.B.film.force",
+            "joint.B.film.moment",
+            "joint.B.impact.speed",
         ],
         [
             "joint.C.force.x",
@@ -67,6 +76,9 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
             "joint.C.eccentricity.x",
             "joint.C.eccentricity.y",
             "joint.C.penetration",
+            "joint.C.film.force",
+            "joint.C.film.moment",
+            "joint.C.impact.speed",
         ],
     ];
     for (name, joint) in names.into_iter().zip([&o.joint_a, &o.joint_b, &o.joint_c]) {
@@ -76,6 +88,9 @@ pub fn signals(o: &Outputs) -> Vec<Signal> {
             (name[2], Kind::Length, joint.eccentricity[0]),
             (name[3], Kind::Length, joint.eccentricity[1]),
             (name[4], Kind::Length, joint.penetration),
+            (name[5], Kind::Force, joint.film_force),
+            (name[6], Kind::Moment, joint.film_moment),
+            (name[7], Kind::Speed, joint.interval.impact_speed),
         ]);
     }
     all.extend(energies(&o.energy));
@@ -102,10 +117,20 @@ fn energies(e: &EnergyOutputs) -> [Signal; 14] {
     ]
 }
 
-/// Contacts of A, B, C (0 or 1) and the number of corners in contact.
-pub fn flags(o: &Outputs) -> [i32; 4] {
+/// Contacts of A, B, C (0 or 1), the number of corners in contact, and the touches of each joint since the start.
+pub fn flags(o: &Outputs) -> [i32; 8] {
+    let Outputs { joint_a: a, joint_b: b, joint_c: c, joint_t: t, .. } = o;
     let closed = |joint: &RevoluteOutputs| i32::from(joint.contact);
-    [closed(&o.joint_a), closed(&o.joint_b), closed(&o.joint_c), o.joint_t.contacts]
+    [
+        closed(a),
+        closed(b),
+        closed(c),
+        t.contacts,
+        a.interval.impacts,
+        b.interval.impacts,
+        c.interval.impacts,
+        t.interval.impacts,
+    ]
 }
 
 /// The greatest distance of one output over a run.
@@ -163,6 +188,7 @@ fn negligible(kind: Kind, scene: &Scene, run: &[Vec<Signal>]) -> f64 {
         Kind::AngularAcceleration => greatest(&[kind]).max(greatest(&[Kind::Acceleration]) / length),
         Kind::Force => force,
         Kind::Moment => force * length,
+        Kind::Power => greatest(&[Kind::Moment]) * greatest(&[Kind::AngularSpeed]),
         // Without an audit all are 0 on both sides.
         Kind::Energy => greatest(&[kind]).max(1.0),
         Kind::Residual => return greatest(&[Kind::Energy]).max(1.0),

@@ -2,7 +2,7 @@
 
 use crate::scenes::{ALL, C, Case, NONE, Play, T, brisk, case, each_contact, loaded, worn_pin};
 use slidercrank::model::signals::Inputs;
-use slidercrank::scene::{Contact, DampingLaw, DriveMode, FrictionLaw, Point, Scene, Surface};
+use slidercrank::scene::{Contact, DampingLaw, DriveMode, FrictionLaw, Lubrication, Point, Scene, Surface};
 
 const A: Play = [true, false, false, false];
 const B: Play = [false, true, false, false];
@@ -103,6 +103,15 @@ pub fn flexible_cases() -> Vec<Case> {
             changed(|s| {
                 (s.crank.com, s.slider.com) = (Point { x: 0.011, y: 0.006 }, Point { x: -0.007, y: 0.003 });
                 s.rod.com = Point { x: 0.3, y: 0.2 };
+            }),
+        ),
+        each(
+            "falling aslant, loaded off centre",
+            &[NONE, A, B, C, T, AB, BC, CT, ALL],
+            changed(|s| {
+                (s.gravity, s.gravity_angle, s.energy.audit) = (300.0, 0.7, true);
+                (s.crank.com, s.slider.com) = (Point { x: 0.011, y: 0.006 }, Point { x: -0.007, y: 0.003 });
+                s.slider.load_offset = -0.012;
             }),
         ),
         each(
@@ -236,6 +245,45 @@ pub fn lugre_cases() -> Vec<Case> {
             s.joint.c.contact.friction.law = FrictionLaw::Lugre;
             (s.crank.speed_start, s.joint.c.clearance, s.gravity) = (20.0, 2e-5, 9.81);
         }),
+    ]
+    .concat()
+}
+
+/// Journals in thin oil on rough surfaces: films that are neither stiff nor weak beside the contacts.
+pub fn oil_cases() -> Vec<Case> {
+    let oiled = |change: fn(&mut Scene)| {
+        move |s: &mut Scene| {
+            for joint in [&mut s.joint.a, &mut s.joint.b, &mut s.joint.c] {
+                (joint.lubrication, joint.viscosity) = (Lubrication::ShortBearing, 2e-3);
+                joint.roughness = 0.04 * joint.clearance;
+            }
+            s.energy.audit = true;
+            change(s);
+        }
+    };
+    [
+        each("oil", &[A, B, C, BC, ALL], oiled(|_| ())),
+        each("oil and friction", &[C, BC], oiled(|s| each_contact(s, rubbing))),
+        each("oil around a flexible rod", &[B, C, ALL], oiled(|s| flexible(s, 2, 1))),
+        each(
+            "thicker oil, rough surfaces, unbalanced",
+            &[C, ABC],
+            oiled(|s| {
+                for joint in [&mut s.joint.a, &mut s.joint.b, &mut s.joint.c] {
+                    (joint.viscosity, joint.roughness) = (0.02, 0.1 * joint.clearance);
+                }
+                (s.crank.com, s.slider.com) = (Point { x: 0.011, y: 0.006 }, Point { x: -0.007, y: 0.003 });
+            }),
+        ),
+        each(
+            "no viscosity left",
+            &[C],
+            oiled(|s| {
+                for joint in [&mut s.joint.a, &mut s.joint.b, &mut s.joint.c] {
+                    joint.viscosity = 0.0;
+                }
+            }),
+        ),
     ]
     .concat()
 }

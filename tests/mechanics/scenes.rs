@@ -224,6 +224,17 @@ fn loadings() -> Vec<Case> {
     let viscous = |s: &mut Scene| {
         (s.joint.a.damping, s.joint.b.damping, s.joint.c.damping, s.joint.t.damping) = (5e-3, 4e-3, 3e-3, 20.0);
     };
+    let upright = |s: &mut Scene| {
+        (s.gravity, s.gravity_angle, s.energy.audit) = (300.0, 0.0, true);
+        s.crank.com = Point { x: 0.011, y: 0.006 };
+        s.rod.com = Point { x: 0.045, y: -0.004 };
+        s.slider.com = Point { x: -0.007, y: 0.003 };
+    };
+    let aslant = |s: &mut Scene| {
+        upright(s);
+        (s.gravity_angle, s.guide.offset) = (0.7, 0.01);
+    };
+    let off_centre = |s: &mut Scene| (s.slider.load_offset, s.energy.audit) = (0.015, true);
     let ramped = |case| {
         let inputs = Inputs { crank_torque: 30.0, slider_load: 500.0 };
         loaded(case, inputs, Inputs { crank_torque: -8e3, slider_load: -2e5 })
@@ -235,6 +246,17 @@ fn loadings() -> Vec<Case> {
         case("gravity alone, from rest", brisk(DriveMode::Torque, ALL), |s| {
             (s.gravity, s.crank.speed_start) = (500.0, 0.0);
         }),
+        case("falling along the guide, ideal", brisk(DriveMode::Torque, NONE), upright),
+        case("falling along the guide, Speed", brisk(DriveMode::Speed, NONE), upright),
+        case("falling along the guide", brisk(DriveMode::Torque, [false, true, true, false]), upright),
+        case("falling aslant", brisk(DriveMode::Torque, ALL), aslant),
+        case("falling aslant, guide with play", brisk(DriveMode::Torque, T), aslant),
+        case("falling aslant, main bearing with play", brisk(DriveMode::Torque, [true, false, false, false]), aslant),
+        case("falling aslant, crank pin with play", brisk(DriveMode::Speed, [false, true, false, false]), aslant),
+        case("falling aslant, slider pin with play", brisk(DriveMode::Torque, C), aslant),
+        ramped(case("loaded off centre, ideal", brisk(DriveMode::Torque, NONE), off_centre)),
+        ramped(case("loaded off centre, guide with play", brisk(DriveMode::Torque, T), off_centre)),
+        ramped(case("loaded off centre", brisk(DriveMode::Torque, ALL), off_centre)),
         ramped(case("ramped inputs, ideal", brisk(DriveMode::Torque, NONE), |_| ())),
         ramped(case("ramped inputs", brisk(DriveMode::Torque, ALL), |_| ())),
         ramped(case("ramped inputs, Speed", brisk(DriveMode::Speed, C), |_| ())),

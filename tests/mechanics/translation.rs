@@ -3,8 +3,8 @@
 use reference_mechanism::{Mechanism, Outputs as Found, signals};
 use serde::Deserialize;
 use slidercrank::model::signals::{
-    AccuracyOutputs, CrankOutputs, EnergyOutputs, GuideOutputs, Inputs, Outputs, RevoluteOutputs, RodOutputs,
-    SliderOutputs, SolverOutputs,
+    AccuracyOutputs, CrankOutputs, EnergyOutputs, GuideOutputs, Inputs, IntervalOutputs, Outputs, RevoluteOutputs,
+    RodOutputs, SliderOutputs, SolverOutputs,
 };
 use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, Scene};
 
@@ -22,7 +22,8 @@ pub fn inputs(inputs: Inputs) -> signals::Inputs {
 
 /// The solver's counts, which the reference has not, are left at 0.
 pub fn outputs(found: &Found) -> Outputs {
-    let Found { slider, crank, rod, joint_a, joint_b, joint_c, joint_t, drive_torque, accuracy, energy } = *found;
+    let Found { slider, crank, rod, joint_a, joint_b, joint_c, joint_t, drive_torque, drive_power, accuracy, energy } =
+        *found;
     Outputs {
         slider: SliderOutputs { x: slider.x, v: slider.v, a: slider.a, y: slider.y, angle: slider.angle },
         crank: CrankOutputs { angle: crank.angle, speed: crank.speed, acceleration: crank.acceleration },
@@ -34,9 +35,11 @@ pub fn outputs(found: &Found) -> Outputs {
             force: joint_t.force,
             moment: joint_t.moment,
             penetration: joint_t.penetration,
+            interval: interval(joint_t.impact_speed, joint_t.impacts),
             contacts: joint_t.contacts,
         },
         drive_torque,
+        drive_power,
         accuracy: AccuracyOutputs {
             position: accuracy.position,
             velocity: accuracy.velocity,
@@ -48,8 +51,19 @@ pub fn outputs(found: &Found) -> Outputs {
 }
 
 fn revolute(joint: signals::RevoluteOutputs) -> RevoluteOutputs {
-    let signals::RevoluteOutputs { force, eccentricity, penetration, contact } = joint;
-    RevoluteOutputs { force, eccentricity, penetration, contact }
+    RevoluteOutputs {
+        force: joint.force,
+        eccentricity: joint.eccentricity,
+        penetration: joint.penetration,
+        film_force: joint.film_force,
+        film_moment: joint.film_moment,
+        interval: interval(joint.impact_speed, joint.impacts),
+        contact: joint.contact,
+    }
+}
+
+fn interval(impact_speed: f64, impacts: i32) -> IntervalOutputs {
+    IntervalOutputs { impact_speed, impacts, ..IntervalOutputs::default() }
 }
 
 fn energies(energy: signals::EnergyOutputs) -> EnergyOutputs {

@@ -5,11 +5,12 @@ use super::scenes::{
     start, with_play, worst_difference,
 };
 use slidercrank::model::signals::{Inputs, Outputs};
-use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, Scene};
+use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, Lubrication, Scene};
 use slidercrank::simulation::Simulation;
 
 /// Outputs of both over the first impacts, every 50 µs to 6 ms.
-fn side_by_side(one: &mut Simulation, other: &mut Simulation) -> Vec<(Outputs, Outputs)> {
+/// Outputs of two mechanisms at the same times.
+pub fn side_by_side(one: &mut Simulation, other: &mut Simulation) -> Vec<(Outputs, Outputs)> {
     let times = (0..=120).map(|i| 5e-5 * f64::from(i));
     times.map(|t| (at(one, t), at(other, t))).collect()
 }
@@ -152,6 +153,7 @@ fn scaled(scene: &Scene, length: f64, mass: f64, time: f64) -> Scene {
     s.slider.height *= length;
     s.slider.centre.x *= length;
     s.slider.centre.y *= length;
+    s.slider.load_offset *= length;
     s.guide.offset *= length;
     s.joint.t.clearance *= length;
     s.joint.t.corner_radius *= length;
@@ -161,6 +163,8 @@ fn scaled(scene: &Scene, length: f64, mass: f64, time: f64) -> Scene {
         joint.radius *= length;
         joint.clearance *= length;
         joint.layer.thickness *= length;
+        joint.viscosity *= mass / (length * time);
+        joint.roughness *= length;
         joint.layer.stiffness *= force / length.powi(3);
         joint.damping *= inertia / time;
         joint.eccentricity_start.x *= length;
@@ -189,12 +193,17 @@ fn other_units_of_length_mass_and_time_tell_the_same_motion() {
         ("liu", Elasticity::Liu, 1.5),
         ("bai-zhao", Elasticity::BaiZhao, 1.5),
         ("winkler", Elasticity::Winkler, 1.5),
+        ("oil", Elasticity::Hertz, 1.5),
     ] {
         for play in [[true, true, true, true], [false, false, true, false], [false, false, false, true]] {
             let mut scene = rubbing(play);
             for joint in revolutes(&mut scene) {
                 joint.elasticity = elasticity;
                 joint.damping = 1e-3;
+                if what == "oil" {
+                    joint.lubrication = Lubrication::ShortBearing;
+                    (joint.viscosity, joint.roughness) = (2e-3, 0.05 * joint.clearance);
+                }
                 joint.contact.friction.law = FrictionLaw::Stribeck;
                 if exponent != 1.5 {
                     (joint.contact.exponent, joint.contact.stiffness) = (exponent, 1e12);

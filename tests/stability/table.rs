@@ -38,6 +38,7 @@ cases! {
     longsteps: [Energy(1e-6), Depth(2.0), Work(20_000_000), Also(special::any_step_will_do)]
     nanosteps: [Energy(1e-7), Depth(2.0), Work(700), Also(special::any_step_will_do)]
     nearly_equal: [Energy(1e-5), Work(30_000), Also(special::goes_round)]
+    oil_blows: [Energy(1e-6), Work(2_000_000)]
     outer_dead_centre: [Energy(0.0), Work(10_000), Also(special::stands)]
     rattle: [Work(9_000_000), Depth(2.0), Statistics]
     rattle_everywhere: [Work(15_000_000), Depth(2.0), Statistics]
@@ -51,6 +52,7 @@ cases! {
     small_and_large: [Energy(1e-8), Depth(2.0), Work(600_000)]
     sticking: [Energy(1e-7), Depth(2.0), Work(10_000), Rests(1e-9), Also(special::sticks)]
     stiffness: [Energy(1e-8), Depth(2.0), Work(1_200_000)]
+    thick_oil: [Energy(1e-6), Work(2_000_000)]
     torque_step: [Energy(1e-8), Depth(2.0), Work(300_000), Also(special::has_one_spike)]
 }
 

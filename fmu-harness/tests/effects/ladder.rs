@@ -15,8 +15,9 @@ use slidercrank::simulation::{Simulation, Size};
 ///
 /// A joint with clearance frees two coordinates, each with its rate, and has an event function, the guide four, one a
 /// corner; the guide frees the slider's height and tilt. A mode is one coordinate with its rate. Bristles are a state
-/// of every contact that has them, the audit is seven.
-const RUNGS: [(&str, [usize; 3]); 11] = [
+/// of every contact that has them, the audit is seven. What is found between communication points has no state, a film
+/// neither.
+const RUNGS: [(&str, [usize; 3]); 13] = [
     ("01-ideal", [1, 2, 0]),
     ("02-one-play", [2, 4, 1]),
     ("03-three-plays", [4, 8, 2]),
@@ -28,10 +29,12 @@ const RUNGS: [(&str, [usize; 3]); 11] = [
     ("09-rod-8-modes", [4, 8, 0]),
     ("10-lugre", [0, 3, 0]),
     ("11-audit", [0, 7, 0]),
+    ("12-intervals", [0, 0, 0]),
+    ("13-oil", [0, 0, 0]),
 ];
 
 /// What a scene may change of the one before; a name that ends in a dot stands for all below it.
-const CHANGES: [&[&str]; 11] = [
+const CHANGES: [&[&str]; 13] = [
     &[],
     &["joint.C."],
     &["joint.A.", "joint.B."],
@@ -43,6 +46,17 @@ const CHANGES: [&[&str]; 11] = [
     &["rod.flexible.bending_modes", "rod.flexible.axial_modes"],
     &["joint.A.friction.", "joint.B.friction.", "joint.C.friction."],
     &["energy.audit"],
+    &[
+        "joint.A.peak.",
+        "joint.A.wear.",
+        "joint.B.peak.",
+        "joint.B.wear.",
+        "joint.C.peak.",
+        "joint.C.wear.",
+        "joint.T.peak.",
+        "joint.T.wear.",
+    ],
+    &["joint.B.lubrication", "joint.B.viscosity", "joint.B.roughness"],
 ];
 
 fn file(name: &str) -> SceneFile {

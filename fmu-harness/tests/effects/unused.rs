@@ -3,7 +3,7 @@
 use fmu_harness::scenes::{Scenario, ladder};
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::parameter::{Kind, PARAMETERS, Parameter};
-use slidercrank::scene::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Scene, Surface};
+use slidercrank::scene::{Contact, DampingLaw, Elasticity, FrictionLaw, JointModel, Lubrication, Scene, Surface};
 use slidercrank::simulation::{Simulation, Snapshot};
 
 /// [s] Length of a run: some impacts of every joint.
@@ -61,6 +61,9 @@ fn scenes() -> Vec<(String, Scene)> {
     given_layer.joint.b.layer.stiffness = 1e14;
     all.push(("winkler".into(), winkler));
     all.push(("winkler of a given stiffness".into(), given_layer));
+    let mut oil = all[4].1.clone();
+    oil.joint.b.lubrication = Lubrication::ShortBearing;
+    all.push(("oil".into(), oil));
     all.push(("liu and a given foundation".into(), liu));
     all.push(("bai_zhao and a given foundation".into(), bai_zhao));
     all
@@ -119,13 +122,15 @@ fn is_unused(parameter: &str, scene: &Scene) -> bool {
         let Some(own) = parameter.strip_prefix("joint.").and_then(|name| name.strip_prefix(letter)) else { continue };
         let own = own.trim_start_matches('.');
         let conformal = joint.elasticity != Elasticity::Hertz;
+        let dry = joint.lubrication == Lubrication::None;
         let layer = joint.elasticity == Elasticity::Winkler;
         let layer_of_material = layer && joint.layer.stiffness == 0.0;
         return if joint.model == JointModel::Ideal {
             is_of_clearance(own)
         } else {
             match own {
-                "width" => !conformal,
+                "width" => !conformal && dry,
+                "viscosity" | "roughness" => dry,
                 "stiffness" | "exponent" => conformal,
                 "layer.stiffness" => !layer,
                 "layer.thickness" => !layer_of_material,
@@ -142,14 +147,15 @@ fn is_unused(parameter: &str, scene: &Scene) -> bool {
         }
         // The slider in an ideal guide neither touches it nor turns.
         "slider.length" | "slider.height" | "slider.inertia" => joints.t.model == JointModel::Ideal,
+        "gravity.angle" => scene.gravity == 0.0,
         "solver.step" => true,
         _ => false,
     }
 }
 
-/// Everything of a joint but the choice itself and the viscous friction that an ideal one has too.
+/// Everything of a joint but the choice itself, and the viscous friction and the audits that an ideal one has too.
 fn is_of_clearance(own: &str) -> bool {
-    own != "model" && own != "damping"
+    own != "model" && own != "damping" && !own.ends_with(".audit")
 }
 
 fn is_material(own: &str) -> bool {

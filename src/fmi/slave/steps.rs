@@ -39,6 +39,15 @@ impl Slave {
         Ok(outcome.map_err(|error| error.counted_from(start))?)
     }
 
+    /// Begins a communication interval whose outputs, such as the largest approach speed, count over all stops at a
+    /// method's steps.
+    pub fn begin_interval(&mut self) -> Result<(), Error> {
+        let Course::Own(simulation) = self.live()? else { return Err(Error::Interface) };
+        // An advance to the point reached moves nothing.
+        let reached = simulation.time();
+        Ok(simulation.advance(reached, Stops::Nowhere).map(drop)?)
+    }
+
     /// Selects the side of the events at this communication point on which outputs and their derivatives are read,
     /// until the next step.
     pub fn look(&mut self, side: Side) -> Result<(), Error> {

@@ -400,6 +400,9 @@ impl Instance {
     pub fn begin_step(&mut self, point: f64, size: f64) -> Result<(), Error> {
         let end = self.slave.step_end(point, size)?;
         self.ends = Ends { asked: end, at: end };
+        if self.intermediate.is_some() {
+            self.slave.begin_interval()?;
+        }
         Ok(())
     }
 

@@ -73,6 +73,17 @@ pub struct Forces<R = f64> {
     pub bristle_rate: R,
 }
 
+/// Sliding in a contact, with the forces that act meanwhile.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rubbing {
+    /// [m/s] v_t, sliding velocity.
+    pub speed: f64,
+    /// [N] f_n, normal force.
+    pub normal: f64,
+    /// [N] f_t, tangential force.
+    pub friction: f64,
+}
+
 /// Energy and powers of a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactEnergy<R = f64> {
@@ -153,6 +164,12 @@ impl ContactParameters {
         }
         let FrictionResponse { ratio, bristle_rate } = self.friction.response(sliding(), z);
         Forces { normal, tangential: normal * ratio, bristle_rate }
+    }
+
+    /// Sliding and forces for the arguments of [`forces`](Self::forces).
+    pub fn rubbing(&self, per_approach: f64, depth: f64, rate: f64, z: f64, speed: f64) -> Rubbing {
+        let Forces { normal, tangential, .. } = self.forces(per_approach, depth, rate, z, || speed);
+        Rubbing { speed, normal, friction: tangential }
     }
 
     /// Energy and powers for the arguments of [`forces`](Self::forces). The bodies lose f_n·δ̇ + f_t·v_t to the

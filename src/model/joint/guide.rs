@@ -10,7 +10,7 @@ use super::foundation::{self, Faces};
 use super::rectangle::{CORNERS, Rectangle, SliderPose, Surface, SurfaceContact};
 use crate::integrator::{Discontinuities, EventFunction, Triggered};
 use crate::math::Real;
-use crate::model::contact::{ContactEnergy, ContactParameters, ContactState, Elastic, Forces, Hertz, Linear};
+use crate::model::contact::{ContactEnergy, ContactParameters, ContactState, Elastic, Forces, Hertz, Linear, Rubbing};
 use crate::model::plane::{Rotation, Vec2, cross};
 use crate::scene;
 
@@ -107,6 +107,16 @@ fn contact_energy<R: Real, S: Surface>(
     sum
 }
 
+fn rubbing<S: Surface>(g: &Guide, states: &[ContactState], pose: &SliderPose, z: &Bristles<f64>) -> [Rubbing; CORNERS] {
+    std::array::from_fn(|k| {
+        if k >= S::CONTACTS || !states[k].closed {
+            return Rubbing::default();
+        }
+        let SurfaceContact { depth, rate, sliding, .. } = S::touch(&g.rectangle, k, pose);
+        g.contact.rubbing(states[k].per_approach, depth, rate, z[k], sliding)
+    })
+}
+
 impl Guide {
     /// The guide of a scene.
     pub fn new(scene: &scene::Scene) -> Self {
@@ -185,6 +195,11 @@ impl Guide {
         z: &[R; GUIDE_CONTACTS],
     ) -> ContactEnergy<R> {
         of_surface!(self, S => contact_energy::<R, S>(self, states, pose, z))
+    }
+
+    /// Sliding and forces of the closed contacts at the bristle deflections `z` [m].
+    pub fn rubbing(&self, states: &[ContactState], pose: &SliderPose, z: &[f64; GUIDE_CONTACTS]) -> [Rubbing; CORNERS] {
+        of_surface!(self, S => rubbing::<S>(self, states, pose, z))
     }
 }
 

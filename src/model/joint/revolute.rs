@@ -1,68 +1,26 @@
 //! A revolute joint with clearance: a journal in a bearing.
 //!
 //! e is the vector from the bearing's centre P to the journal's centre (eccentricity), ε = |e|, n = e/ε, t = perp(n), δ
-//! = ε − c the penetration. The contact force acts on both bodies at the point P + R_b·n. The velocity of the journal's
+//! = ε − c the penetration (with an oil film ε − c + 3σ, see [`film`](super::film)). The contact force acts on both bodies at the point P + R_b·n. The velocity of the journal's
 //! material relative to the bearing's there is v_t = ė·t + (R_b − ε)·ω_journal − R_b·ω_bearing: force times this
 //! velocity is the dissipated power.
 
+use super::film::Film;
+pub use super::journal::{JournalMotion, Load};
 use crate::integrator::{Discontinuities, EventFunction};
 use crate::math::Real;
-use crate::model::contact::{ContactEnergy, ContactParameters, ContactState, Elastic, Forces};
+use crate::model::contact::{ContactEnergy, ContactParameters, ContactState, Elastic, Forces, Rubbing};
 use crate::model::friction::Friction;
 use crate::model::plane::{Vec2, perp};
 use crate::scene;
-
-/// Motion of a journal relative to its bearing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct JournalMotion<R = f64> {
-    /// [m] Eccentricity e.
-    pub eccentricity: Vec2<R>,
-    /// [m/s] Rate ė of the eccentricity.
-    pub rate: Vec2<R>,
-    /// [rad/s] Angular velocity of the journal's body.
-    pub journal_speed: R,
-    /// [rad/s] Angular velocity of the bearing's body.
-    pub bearing_speed: R,
-}
-
-impl<R: Real> JournalMotion<R> {
-    /// ε [m] and n; `None` if the journal is centred, where n is undefined.
-    #[inline(always)]
-    pub(super) fn distance_and_normal(&self) -> Option<(R, Vec2<R>)> {
-        let mut square = self.eccentricity.norm_squared();
-        if R::MANY {
-            // A centred journal is treated as one with a tiny eccentricity.
-            square = square.max(f64::MIN_POSITIVE);
-        } else if square < f64::MIN_POSITIVE {
-            return None;
-        }
-        // The root and the reciprocal are computed independently of each other.
-        let epsilon = square.sqrt();
-        Some((epsilon, (epsilon * square.recip()) * self.eccentricity))
-    }
-}
-
-/// The contact's load on both bodies: a force on the journal at its centre, the opposite force on the bearing at its
-/// centre, and a couple on each body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Load<R = f64> {
-    /// [N] Force on the journal's body.
-    pub force: Vec2<R>,
-    /// [N·m] Couple on the journal's body, about the journal's centre.
-    pub journal_couple: R,
-    /// [N·m] Couple on the bearing's body, about the bearing's centre.
-    pub bearing_couple: R,
-    /// [m/s] Rate of the bristle deflection.
-    pub bristle_rate: R,
-}
 
 /// A revolute joint with clearance.
 #[derive(Clone, Copy, Debug)]
 pub struct Revolute {
     /// [m] R_b: radius of the bearing.
     pub(super) radius: f64,
-    /// [m] c: radial clearance.
-    clearance: f64,
+    /// [m] Eccentricity at which journal and bearing touch: the clearance c of a dry joint.
+    free: f64,
     /// Contact parameters.
     pub contact: ContactParameters,
 }
@@ -71,13 +29,13 @@ impl Revolute {
     /// The joint of a scene.
     pub fn new(joint: &scene::Revolute) -> Self {
         let contact = ContactParameters::new(&joint.contact, Elastic::new(joint));
-        Self { radius: joint.radius, clearance: joint.clearance, contact }
+        Self { radius: joint.radius, free: Film::free_eccentricity(joint), contact }
     }
 
     /// [m] Penetration δ; negative if open.
     #[inline(always)]
     pub fn penetration(&self, journal: &JournalMotion) -> f64 {
-        journal.eccentricity.norm() - self.clearance
+        journal.eccentricity.norm() - self.free
     }
 
     /// [m/s] Penetration rate δ̇; 0 if the journal is centred, where n is undefined.
@@ -123,8 +81,17 @@ impl Revolute {
             return ContactEnergy::default();
         };
         let sliding = self.sliding(journal, epsilon, perp(n));
-        let (depth, rate) = (epsilon - self.clearance, journal.rate.dot(n));
+        let (depth, rate) = (epsilon - self.free, journal.rate.dot(n));
         self.contact.contact_energy(state.per_approach, depth, rate, z, sliding)
+    }
+
+    /// Sliding and forces of the closed contact at the bristle deflection `z` [m].
+    pub fn rubbing(&self, state: &ContactState, journal: &JournalMotion, z: f64) -> Rubbing {
+        let Some((epsilon, n)) = journal.distance_and_normal() else {
+            return Rubbing::default();
+        };
+        let speed = self.sliding(journal, epsilon, perp(n));
+        self.contact.rubbing(state.per_approach, epsilon - self.free, journal.rate.dot(n), z, speed)
     }
 
     /// The load of the closed contact at the bristle deflection `z` [m].
@@ -134,7 +101,7 @@ impl Revolute {
             return Load::default();
         };
         let contact = &self.contact;
-        let (depth, rate) = (epsilon - self.clearance, journal.rate.dot(n));
+        let (depth, rate) = (epsilon - self.free, journal.rate.dot(n));
         let t = perp(n);
         let Forces { normal, tangential, bristle_rate } =
             contact.forces(state.per_approach, depth, rate, z, || self.sliding(journal, epsilon, t));

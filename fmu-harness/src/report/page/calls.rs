@@ -5,9 +5,11 @@ use crate::report::table::Table;
 use crate::report::units::{Shown, grouped, significant};
 use slidercrank::scene::profile::{Profile, ProfileArgument};
 use slidercrank::scene::read::SceneFile;
-use slidercrank::scene::{Contact, DampingLaw, DriveMode, FrictionLaw, JointModel, Revolute, Scene, Surface};
+use slidercrank::scene::{
+    Audit, Contact, DampingLaw, DriveMode, FrictionLaw, JointModel, Lubrication, Revolute, Scene, Surface,
+};
 use slidercrank::simulation::Size;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// [rad/s] One turn per minute.
 const RPM: f64 = TAU / 60.0;
@@ -32,12 +34,25 @@ pub fn table(file: &SceneFile) -> Table {
         flexible.bending_modes, flexible.axial_modes, flexible.damping_ratio
     );
     table.row(["elastic rod", &dashed(modes, told)]);
-    table.row(["gravity", &dashed(scene.gravity != 0.0, format!("{} m/s² across the guide", scene.gravity))]);
+    table.row(["gravity", &dashed(scene.gravity != 0.0, gravity(scene))]);
     let viscous = [joint.a.damping, joint.b.damping, joint.c.damping, joint.t.damping];
     let of = viscous.iter().zip("ABCT".chars()).filter(|(damping, _)| **damping != 0.0);
     let of: Vec<String> = of.map(|(_, joint)| joint.to_string()).collect();
     table.row(["viscous friction", &dashed(!of.is_empty(), format!("in {}", of.join(", ")))]);
     table.row(["load on the slider", &load(&file.inputs.slider_load)]);
+    let audits = [
+        ("A", joint.a.peak, joint.a.wear),
+        ("B", joint.b.peak, joint.b.wear),
+        ("C", joint.c.peak, joint.c.wear),
+        ("T", joint.t.peak, joint.t.wear),
+    ];
+    let of = |asked: fn(&(&'static str, Audit, Audit)) -> bool| -> Vec<&str> {
+        audits.iter().filter(|audits| asked(audits)).map(|(name, ..)| *name).collect()
+    };
+    let peaks = of(|(_, peak, _)| peak.audit);
+    table.row(["largest forces", &dashed(!peaks.is_empty(), format!("of {}", peaks.join(", ")))]);
+    let wear = of(|(.., wear)| wear.audit);
+    table.row(["sliding and wear", &dashed(!wear.is_empty(), format!("in {}", wear.join(", ")))]);
     table.row(["energy audit", &dashed(scene.energy.audit, "energies, works and losses beside the motion".into())]);
     let solver = &scene.solver;
     let fixed = solver.method.has(FIXED_STEP);
@@ -75,6 +90,16 @@ fn drive(file: &SceneFile) -> String {
     }
 }
 
+fn gravity(scene: &Scene) -> String {
+    let angle = scene.gravity_angle.to_degrees();
+    let direction = match scene.gravity_angle {
+        across if across == -FRAC_PI_2 => "across the guide".to_owned(),
+        0.0 => "along the guide".to_owned(),
+        _ => format!("at {}° from the guide", significant(angle)),
+    };
+    format!("{} m/s² {direction}", scene.gravity)
+}
+
 fn load(profile: &Profile) -> String {
     match profile {
         Profile::Constant(0.0) => "–".into(),
@@ -90,7 +115,16 @@ fn load(profile: &Profile) -> String {
 fn revolute(joint: &Revolute, rigid: bool) -> String {
     match joint.model {
         JointModel::Ideal => "ideal".into(),
-        JointModel::Clearance => play(joint.clearance, joint.elasticity.name(), &joint.contact, rigid),
+        JointModel::Clearance => {
+            let dry = play(joint.clearance, joint.elasticity.name(), &joint.contact, rigid);
+            match joint.lubrication {
+                Lubrication::None => dry,
+                oil => {
+                    let roughness = Shown::of("m", joint.roughness).print(joint.roughness);
+                    format!("{dry}; oil {} of {} Pa·s, roughness {roughness}", oil.name(), significant(joint.viscosity))
+                }
+            }
+        }
     }
 }
 
@@ -135,7 +169,18 @@ mod tests {
     fn what_a_scene_does_without_has_a_dash() {
         let worn = told("wornpin");
         let dashes: Vec<&str> = worn.iter().filter(|line| line[1] == "–").map(|line| line[0].as_str()).collect();
-        assert_eq!(dashes, ["elastic rod", "gravity", "viscous friction", "load on the slider", "energy audit"]);
+        assert_eq!(
+            dashes,
+            [
+                "elastic rod",
+                "gravity",
+                "viscous friction",
+                "load on the slider",
+                "largest forces",
+                "sliding and wear",
+                "energy audit"
+            ]
+        );
         assert_eq!(
             worn[4],
             ["slider pin C", "clearance 500.0 µm; hertz, lankarani_nikravesh with restitution 0.9; no friction"]

@@ -188,10 +188,10 @@ impl Beam {
     }
 
     /// [J] Height of the rod, each section for itself.
-    pub fn height_energy(&self, motion: &Motion, gravity: f64) -> f64 {
+    pub fn height_energy(&self, motion: &Motion, gravity: Vector) -> f64 {
         let modes = motion.modes();
-        let height = |section: &Section| motion.origin(ROD).y + turned(motion.angle(ROD), section.place(&modes)).y;
-        self.sections.iter().map(|(mass, section)| mass * gravity * height(section)).sum()
+        let place = |section: &Section| motion.origin(ROD) + turned(motion.angle(ROD), section.place(&modes));
+        self.sections.iter().map(|(mass, section)| -mass * gravity.dot(&place(section))).sum()
     }
 }
 

@@ -1,7 +1,8 @@
 //! Three bodies: masses, and the points where they meet.
 
 use crate::beam::{Beam, mode_count};
-use crate::coordinates::{CRANK, Coordinates, GROUND, Mass, Motion, RIGID, ROD, SLIDER};
+use crate::coordinates::{CRANK, Coordinates, GROUND, Mass, Motion, RIGID, ROD, SLIDER, Vector};
+use crate::film::Film;
 use crate::mark::Mark;
 use crate::mechanism::{Mechanism, Point};
 
@@ -13,13 +14,18 @@ pub struct Bodies {
     inertia: Coordinates,
     /// The flexible rod.
     pub beam: Option<Beam>,
-    pub gravity: f64,
+    /// [m/s²] Of a body that falls freely.
+    pub gravity: Vector,
+    /// Where the load pushes the slider.
+    pub loaded: Mark,
     /// The crank's centre of mass.
     pub crank: Mark,
     /// Bearing centres of A, B, C.
     pub bearings: [Mark; 3],
     /// Journal centres of A, B, C.
     pub journals: [Mark; 3],
+    /// The oil in A, B, C.
+    pub films: [Option<Film>; 3],
     /// Centre of the slider's rectangle.
     pub centre: Mark,
     /// (+a, +b), (−a, +b), (+a, −b), (−a, −b): upper ones first.
@@ -57,7 +63,8 @@ impl Bodies {
             count: RIGID + mode_count(&rod.flexible),
             inertia,
             beam,
-            gravity: mechanism.gravity,
+            gravity: mechanism.gravity * Vector::new(mechanism.gravity_angle.cos(), mechanism.gravity_angle.sin()),
+            loaded: mark(SLIDER, slider.com, 0.0, slider.load_offset),
             crank: mark(CRANK, crank.com, crank.com.x, crank.com.y),
             bearings: [Mark::fixed(GROUND, 0.0, 0.0), big_end, small_end],
             journals: [
@@ -65,6 +72,7 @@ impl Bodies {
                 mark(CRANK, crank.com, crank.length, 0.0),
                 mark(SLIDER, slider.com, 0.0, 0.0),
             ],
+            films: [&mechanism.joint.a, &mechanism.joint.b, &mechanism.joint.c].map(Film::new),
             centre: on_slider(0.0, 0.0),
             corners: [on_slider(a, b), on_slider(-a, b), on_slider(a, -b), on_slider(-a, -b)],
         }
@@ -76,16 +84,16 @@ impl Bodies {
         if let Some(beam) = &self.beam {
             beam.add_inertia(motion, &mut mass, &mut loads);
         }
-        // Gravity pulls as if every point of every body accelerated along +y.
+        // Gravity pulls as if every point of every body accelerated against it.
         for body in [CRANK, ROD, SLIDER] {
-            loads -= self.gravity * mass.column(3 * body + 1);
+            loads += self.gravity.x * mass.column(3 * body) + self.gravity.y * mass.column(3 * body + 1);
         }
         Inertia { mass, loads }
     }
 
-    /// [J] Of the heights of all bodies above y = 0.
+    /// [J] Of the heights of all bodies above the origin.
     pub fn height_energy(&self, motion: &Motion) -> f64 {
-        let rigid = |body: usize| self.inertia[3 * body] * self.gravity * motion.origin(body).y;
+        let rigid = |body: usize| -self.inertia[3 * body] * self.gravity.dot(&motion.origin(body));
         let beam = self.beam.as_ref().map_or(0.0, |beam| beam.height_energy(motion, self.gravity));
         [CRANK, ROD, SLIDER].map(rigid).iter().sum::<f64>() + beam
     }

@@ -3,6 +3,7 @@
 use crate::bodies::Bodies;
 use crate::coordinates::{CONTACTS, Coordinates, Motion, Vector, perp};
 use crate::face::Face;
+use crate::film::way;
 use crate::laws::Laws;
 use crate::mark::Mark;
 use crate::mechanism::{Guide, JointModel, Mechanism, Revolute, Surface as Kind};
@@ -16,7 +17,7 @@ pub struct Contact {
 
 enum Surface {
     /// Journal in bearing.
-    Bearing { bearing: Mark, journal: Mark, radius: f64, clearance: f64 },
+    Bearing { bearing: Mark, journal: Mark, radius: f64, way: f64 },
     /// Corner under (`side` +1) or above (−1) the line at `height`.
     Line { corner: Mark, height: f64, side: f64 },
     /// Face between two corners, at the line likewise.
@@ -46,7 +47,7 @@ pub struct Touch {
 impl Contact {
     pub fn of_revolute(joint: &Revolute, bearing: Mark, journal: Mark) -> Option<Self> {
         (joint.model == JointModel::Clearance).then(|| Self {
-            surface: Surface::Bearing { bearing, journal, radius: joint.radius, clearance: joint.clearance },
+            surface: Surface::Bearing { bearing, journal, radius: joint.radius, way: way(joint) },
             laws: Laws::of_revolute(joint),
         })
     }
@@ -74,7 +75,7 @@ impl Contact {
     /// On the branch of `phase`.
     pub fn touch(&self, motion: &Motion, phase: &Phase) -> Touch {
         match &self.surface {
-            Surface::Bearing { bearing, journal, radius, clearance } => {
+            Surface::Bearing { bearing, journal, radius, way } => {
                 let (p, e) = (bearing.position(motion), eccentricity(bearing, journal, motion));
                 let distance = e.norm();
                 // At ε = 0 the gap is open and nothing but the penetration is asked for.
@@ -83,7 +84,7 @@ impl Contact {
                 let point = p + *radius * normal;
                 let slip = journal.material_velocity(motion, point) - bearing.material_velocity(motion, point);
                 let rate = (journal.velocity(motion) - bearing.velocity(motion)).dot(&normal);
-                let penetration = distance - clearance;
+                let penetration = distance - way;
                 let (depths, rates) = alone(penetration, rate);
                 let elastic = self.laws.elastic_force(penetration);
                 Touch { depths, rates, rate, sliding: slip.dot(&tangent), elastic, normal, tangent, point }

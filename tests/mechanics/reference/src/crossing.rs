@@ -17,6 +17,10 @@ pub struct Crossing {
     pub contact: usize,
     /// It closed; else it opened.
     pub closed: bool,
+    /// The whole contact closed: for a face the first of its corners.
+    pub begins: bool,
+    /// [m/s] δ̇ at the crossing; of a face the greater of its corners'.
+    pub approach: f64,
     /// [m/s] δ̇ at the crossing.
     pub rate: f64,
     /// [m] What is left of the gap there.
@@ -97,11 +101,14 @@ impl Reference {
         if !beyond.closed() {
             self.motion.bristles[contact] = 0.0;
         }
+        let mut begins = !before.closed() && beyond.closed();
         for corner in (0..2).filter(|&corner| beyond.inside[corner] != before.inside[corner]) {
             self.crossings.push(Crossing {
                 time: self.time,
                 contact: self.named(contact, corner),
                 closed: beyond.inside[corner],
+                begins: std::mem::take(&mut begins),
+                approach: touch.rates[0].max(touch.rates[1]),
                 rate: touch.rates[corner],
                 gap: -touch.depths[corner],
             });

@@ -44,7 +44,7 @@ impl Reference {
         let inputs = self.inputs_at(time);
         Account::from([
             self.drive_torque(inputs, solution) * motion.spin(CRANK),
-            inputs.slider_load * self.bodies.journals[2].velocity(motion).x,
+            inputs.slider_load * self.bodies.loaded.velocity(motion).x,
             loads.contact_loss,
             loads.friction_loss,
             loads.viscous_loss,

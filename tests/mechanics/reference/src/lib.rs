@@ -16,6 +16,7 @@ mod crossing;
 mod elimination;
 mod extrapolation;
 mod face;
+mod film;
 mod laws;
 mod ledger;
 mod loads;

@@ -1,8 +1,9 @@
 //! Applied forces: drive, slider load, viscous friction, contacts, and the rod's elasticity.
 
 use crate::bodies::Bodies;
-use crate::contact::Contact;
+use crate::contact::{Contact, eccentricity};
 use crate::coordinates::{Bristles, CONTACTS, Coordinates, Motion, Vector, cross};
+use crate::film::Pressed;
 use crate::mechanism::{DriveMode, Mechanism};
 use crate::phase::Phase;
 use crate::signals::Inputs;
@@ -24,6 +25,8 @@ pub struct Loads {
     pub friction_loss: f64,
     /// [W]
     pub viscous_loss: f64,
+    /// [N, N·m] Force and moment of the oil on the journals of A, B, C.
+    pub films: [(Vector, f64); 3],
 }
 
 pub fn loads(
@@ -40,7 +43,8 @@ pub fn loads(
     }
     let pin = &bodies.journals[2];
     let along = |force: f64| pin.push(motion, pin.position(motion), force * Vector::x());
-    sum += along(inputs.slider_load);
+    let loaded = &bodies.loaded;
+    sum += loaded.push(motion, loaded.position(motion), inputs.slider_load * Vector::x());
 
     let joint = &mechanism.joint;
     let mut viscous_loss = 0.0;
@@ -65,7 +69,19 @@ pub fn loads(
         contact_loss: 0.0,
         friction_loss: 0.0,
         viscous_loss,
+        films: [(Vector::zeros(), 0.0); 3],
     };
+    for (k, film) in bodies.films.iter().enumerate() {
+        let (Some(film), Some(_)) = (film, &contacts[k]) else { continue };
+        let (bearing, journal) = (&bodies.bearings[k], &bodies.journals[k]);
+        let (e, rate) = (eccentricity(bearing, journal, motion), journal.velocity(motion) - bearing.velocity(motion));
+        let Pressed { force, couples, loss } = film.pressed(e, rate, [journal.spin(motion), bearing.spin(motion)]);
+        loads.generalized += journal.push(motion, journal.position(motion), force) + journal.twist(couples[0]);
+        loads.generalized += bearing.push(motion, bearing.position(motion), -force) + bearing.twist(couples[1]);
+        loads.on_journal[k] = force;
+        loads.films[k] = (force, couples[0]);
+        loads.viscous_loss += loss;
+    }
     for (k, contact) in contacts.iter().enumerate() {
         let (Some(contact), phase) = (contact, &phases[k]) else { continue };
         if !phase.closed() {
@@ -77,7 +93,7 @@ pub fn loads(
         let force = -normal * touch.normal - friction * touch.tangent;
         loads.generalized += contact.push(motion, touch.point, force);
         if k < 3 {
-            loads.on_journal[k] = force;
+            loads.on_journal[k] += force;
         } else {
             loads.on_slider += force;
             loads.about_pin += cross(touch.point - pin.position(motion), force);

@@ -8,8 +8,10 @@ use serde::Deserialize;
 pub struct Mechanism {
     /// How the crank is driven.
     pub drive: Drive,
-    /// [m/s²] Along −y.
+    /// [m/s²] Of free fall.
     pub gravity: f64,
+    /// [rad] Where to, from +x.
+    pub gravity_angle: f64,
     /// Body 1.
     pub crank: Crank,
     /// Body 2.
@@ -108,6 +110,8 @@ pub struct Slider {
     pub height: f64,
     /// [m] Centre of the rectangle from the pin, in body axes.
     pub centre: Point,
+    /// [m] Where the load acts, on the body's y axis.
+    pub load_offset: f64,
 }
 
 /// The guide's middle line.
@@ -165,6 +169,12 @@ pub struct Revolute {
     pub elasticity: Elasticity,
     /// The layer of that law.
     pub layer: Layer,
+    /// What is between the surfaces.
+    pub lubrication: Lubrication,
+    /// [Pa·s] Of the oil.
+    pub viscosity: f64,
+    /// [m] Height of the surfaces' roughness together.
+    pub roughness: f64,
     /// Materials, damping and friction of the contact.
     pub contact: Contact,
 }
@@ -180,6 +190,15 @@ pub enum Elasticity {
     BaiZhao,
     /// An elastic layer on the bearing.
     Winkler,
+}
+
+/// What is between journal and bearing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Lubrication {
+    /// Nothing.
+    None,
+    /// A film of oil, short beside its diameter.
+    ShortBearing,
 }
 
 /// An elastic layer on a bearing.

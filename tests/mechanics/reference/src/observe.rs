@@ -46,6 +46,7 @@ impl Reference {
             joint_c,
             joint_t: self.guide(&loads, &solution),
             drive_torque: self.drive_torque(self.inputs_at(self.time), &solution),
+            drive_power: self.drive_torque(self.inputs_at(self.time), &solution) * motion.spin(CRANK),
             accuracy: AccuracyOutputs {
                 position: position.x - ideal[0],
                 velocity: velocity.x - ideal[1],
@@ -67,8 +68,25 @@ impl Reference {
             force: named(loads.on_journal[k]),
             eccentricity: e.into(),
             penetration: contact.touch(&self.motion, &self.phases[k]).depths[0],
+            film_force: loads.films[k].0.norm(),
+            film_moment: loads.films[k].1,
+            impact_speed: self.touches(&[k]).0,
+            impacts: self.touches(&[k]).1,
             contact: self.phases[k].closed(),
         }
+    }
+
+    /// Speed of the fastest touch in the last interval, and number since the start.
+    fn touches(&self, contacts: &[usize]) -> (f64, i32) {
+        let all = self.crossings.iter().filter(|crossing| crossing.begins && contacts.contains(&crossing.contact));
+        let mut touches = (0.0_f64, 0);
+        for crossing in all {
+            touches.1 += 1;
+            if crossing.time > self.interval_start {
+                touches.0 = touches.0.max(crossing.approach);
+            }
+        }
+        touches
     }
 
     fn guide(&self, loads: &Loads, solution: &Solution) -> GuideOutputs {
@@ -91,6 +109,8 @@ impl Reference {
             force: loads.on_slider.into(),
             moment: loads.about_pin,
             penetration: depths.flatten().fold(f64::NEG_INFINITY, f64::max),
+            impact_speed: self.touches(&[3, 4, 5, 6]).0,
+            impacts: self.touches(&[3, 4, 5, 6]).1,
             contacts: self.phases[3..].iter().flat_map(|phase| phase.inside.map(i32::from)).sum(),
         }
     }

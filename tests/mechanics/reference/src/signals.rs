@@ -28,6 +28,8 @@ pub struct Outputs {
     pub joint_t: GuideOutputs,
     /// [N·m] Torque on the crank: the input, or what its speed needs.
     pub drive_torque: f64,
+    /// [W] Of that torque.
+    pub drive_power: f64,
     /// Slider against the ideal rigid mechanism at the same crank motion.
     pub accuracy: AccuracyOutputs,
     /// Energies, works and losses, with an audit; 0 otherwise.
@@ -82,6 +84,14 @@ pub struct RevoluteOutputs {
     pub eccentricity: [f64; 2],
     /// [m] Negative when open; 0 of an ideal joint.
     pub penetration: f64,
+    /// [N] Of the oil's pressure.
+    pub film_force: f64,
+    /// [N·m] Of the oil on the journal's body, about the journal's centre.
+    pub film_moment: f64,
+    /// [m/s] Of the fastest touch since the last of the times that were moved to.
+    pub impact_speed: f64,
+    /// Touches since the start.
+    pub impacts: i32,
     /// In contact.
     pub contact: bool,
 }
@@ -95,6 +105,10 @@ pub struct GuideOutputs {
     pub moment: f64,
     /// [m] The deepest corner's; negative when open; 0 of an ideal guide.
     pub penetration: f64,
+    /// [m/s] Of the fastest touch since the last of the times that were moved to.
+    pub impact_speed: f64,
+    /// Touches since the start.
+    pub impacts: i32,
     /// Number of corners in contact.
     pub contacts: i32,
 }

@@ -37,6 +37,8 @@ pub struct Reference {
     /// [J] At the start.
     pub(crate) energy_start: f64,
     pub(crate) crossings: Vec<Crossing>,
+    /// [s] The time before the last that was moved to.
+    pub(crate) interval_start: f64,
 }
 
 impl Reference {
@@ -73,6 +75,7 @@ impl Reference {
             step: STEP_AFTER_CROSSING,
             energy_start: 0.0,
             crossings: Vec::new(),
+            interval_start: time,
         };
         reference.energy_start = reference.energy();
         reference
@@ -104,6 +107,7 @@ impl Reference {
 
     /// Moves to `end` exactly.
     pub fn advance_to(&mut self, end: f64) {
+        self.interval_start = self.time;
         while self.time < end {
             let left = end - self.time;
             // No sliver is left for a last step.

@@ -2,7 +2,7 @@
 
 use crate::mechanism::{
     Contact, Crank, DampingLaw, Drive, DriveMode, Elasticity, Energy, Flexible, Friction, FrictionLaw, Guide,
-    GuideLines, JointModel, Joints, Layer, Mechanism, Pair, Point, Revolute, Rod, Slider, Surface,
+    GuideLines, JointModel, Joints, Layer, Lubrication, Mechanism, Pair, Point, Revolute, Rod, Slider, Surface,
 };
 
 impl Default for Mechanism {
@@ -11,6 +11,7 @@ impl Default for Mechanism {
         Self {
             drive: Drive { mode: DriveMode::Torque },
             gravity: 0.0,
+            gravity_angle: -std::f64::consts::FRAC_PI_2,
             crank: Crank {
                 angle_start: 0.0,
                 speed_start: 0.0,
@@ -20,7 +21,15 @@ impl Default for Mechanism {
                 com: Point { x: 0.025, y: 0.0 },
             },
             rod: Rod { length: 0.12, mass: 0.21, inertia: 2.5e-4, com: Point { x: 0.06, y: 0.0 }, flexible: beam() },
-            slider: Slider { mass: 0.14, inertia: 1e-4, com: origin, length: 0.04, height: 0.02, centre: origin },
+            slider: Slider {
+                mass: 0.14,
+                inertia: 1e-4,
+                com: origin,
+                length: 0.04,
+                height: 0.02,
+                centre: origin,
+                load_offset: 0.0,
+            },
             guide: GuideLines { offset: 0.0 },
             joint: Joints { a: revolute(), b: revolute(), c: revolute(), t: guide() },
             energy: Energy { audit: false },
@@ -51,6 +60,9 @@ fn revolute() -> Revolute {
         eccentricity_start: Point::default(),
         elasticity: Elasticity::Hertz,
         layer: Layer { thickness: 1e-3, stiffness: 0.0 },
+        lubrication: Lubrication::None,
+        viscosity: 0.05,
+        roughness: 1e-6,
         contact: contact(),
     }
 }

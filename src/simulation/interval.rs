@@ -1,0 +1,383 @@
+//! What lies between two communication points: the largest joint forces, and integrals over sliding in contact.
+//!
+//! Every step that the integrator accepts is examined on its interpolated states, whatever the communication points
+//! are: the local maxima of the joint forces in it are located, and the integrals over it are summed by Gauss and
+//! Legendre's rule between the zeros of the sliding velocities, where |v_t| has its kinks. An interval takes those
+//! maxima that lie in it, and the forces at its ends. None of this enters the integrator: the motion keeps its bits.
+
+use crate::integrator::{Integrator, Reader, Snapshot};
+use crate::math;
+use crate::model::contact::Rubbing;
+use crate::model::mechanism_model::MechanismModel;
+use crate::model::outputs::Observer;
+use crate::model::signals::Outputs;
+use crate::model::state::{CONTACTS, Conditions};
+use crate::model::touches::{JOINTS, Touches};
+use crate::scene::Scene;
+use std::f64::consts::PI;
+
+/// Points at which a step is sampled: Chebyshev's extrema, which include both ends.
+const SAMPLES: usize = 9;
+/// Points at which the polynomial through the samples is searched for maxima.
+const SEARCHED: usize = 48;
+/// [share of the step] Distances over which the top of a maximum is refined.
+const NEAR: [f64; 3] = [1e-2, 2e-3, 2e-4];
+/// Most maxima of one joint in a step.
+const MAX_MAXIMA: usize = 4;
+/// Most zeros of sliding velocities in a step.
+const MAX_KINKS: usize = 16;
+/// Bisections of a bracket; each gains a bit.
+const BISECTIONS: usize = 45;
+/// Gauss and Legendre's rule with six points on [−1, 1]: points and weights of one half.
+const GAUSS: [(f64, f64); 3] = [
+    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
+    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+    (0.932_469_514_203_152_1, 0.171_324_492_379_170_4),
+];
+
+/// Integrals of one joint: ∫f_t·v_t dt [J], ∫|v_t| dt [m] over closed contact, ∫f_n·|v_t| dt [J].
+type Integrals = [f64; 3];
+
+/// A run under examination.
+pub struct Examined<'a> {
+    /// The model.
+    pub model: &'a dyn MechanismModel,
+    /// Its observer.
+    pub observer: &'a Observer,
+    /// Its integrator.
+    pub integrator: &'a mut Integrator<Conditions>,
+}
+
+/// The joints whose intervals are examined, and what was found since the last communication point and since the start.
+#[derive(Clone, Debug)]
+pub struct IntervalAudit {
+    /// Whether the largest force of A, B, C, T is asked for.
+    peaks: [bool; JOINTS],
+    /// Whether the integrals of A, B, C, T are asked for.
+    integrals: [bool; JOINTS],
+    /// [s] The last communication point.
+    begin: f64,
+    /// [N] Largest forces since then, up to the start of the last step.
+    peak: [f64; JOINTS],
+    /// Integrals up to the start of the last step.
+    sums: [Integrals; JOINTS],
+    last: Examination,
+}
+
+/// What was found in the last step.
+#[derive(Clone, Copy, Debug)]
+struct Examination {
+    /// [s] Start and end of the step; NaN before the first one.
+    span: [f64; 2],
+    /// [s, N] Time and value of local maxima; those not in use are at infinity.
+    maxima: [[(f64, f64); MAX_MAXIMA]; JOINTS],
+    /// [N] Forces at the end.
+    at_end: [f64; JOINTS],
+    /// [s] Zeros of sliding velocities, in order; those not in use are at infinity.
+    kinks: [f64; MAX_KINKS],
+    /// Integrals over the whole step.
+    whole: [Integrals; JOINTS],
+}
+
+const NOTHING: Examination = Examination {
+    span: [f64::NAN; 2],
+    maxima: [[(f64::INFINITY, 0.0); MAX_MAXIMA]; JOINTS],
+    at_end: [0.0; JOINTS],
+    kinks: [f64::INFINITY; MAX_KINKS],
+    whole: [[0.0; 3]; JOINTS],
+};
+
+impl Examined<'_> {
+    /// Joint forces [N] and sliding at `t` in the last step.
+    fn at(&mut self, t: f64) -> ([f64; JOINTS], [Rubbing; CONTACTS]) {
+        let (y, conditions) = self.integrator.state_at(self.model, t);
+        let evaluation = self.model.evaluation(&conditions, t, y);
+        (self.observer.joint_forces(&evaluation), self.model.rubbing(&conditions.contacts, &evaluation.pose, y))
+    }
+
+    /// Sliding velocity [m/s] of one contact at `t` in the last step.
+    fn sliding(&mut self, contact: usize, t: f64) -> f64 {
+        self.at(t).1[contact].speed
+    }
+
+    fn span(&self) -> [f64; 2] {
+        let state = self.integrator.state();
+        [state.start().t, state.end().t]
+    }
+}
+
+impl IntervalAudit {
+    /// The audit that a scene asks for; `None` if it asks for none.
+    pub fn new(scene: &Scene) -> Option<Self> {
+        let joint = &scene.joint;
+        let peaks = [joint.a.peak.audit, joint.b.peak.audit, joint.c.peak.audit, joint.t.peak.audit];
+        let integrals = [joint.a.wear.audit, joint.b.wear.audit, joint.c.wear.audit, joint.t.wear.audit];
+        (peaks.contains(&true) || integrals.contains(&true)).then_some(Self {
+            peaks,
+            integrals,
+            begin: 0.0,
+            peak: [0.0; JOINTS],
+            sums: [[0.0; 3]; JOINTS],
+            last: NOTHING,
+        })
+    }
+
+    /// Begins an interval at `t` in the last step. Its left end counts with the inputs that hold from there on.
+    pub fn begin(&mut self, run: &mut Examined<'_>, t: f64) {
+        self.refresh(run);
+        self.begin = t;
+        self.peak = run.at(t).0;
+    }
+
+    /// Takes in a step that was accepted after the last one.
+    pub fn step(&mut self, run: &mut Examined<'_>) {
+        if self.last.span == run.span() {
+            return;
+        }
+        let Examination { span, maxima, at_end, whole, .. } = self.last;
+        for joint in 0..JOINTS {
+            let since = |t: f64| t > self.begin && t <= span[1];
+            let maxima = maxima[joint].into_iter().chain([(span[1], at_end[joint])]);
+            let largest = maxima.filter(|(t, _)| since(*t)).map(|(_, force)| force);
+            self.peak[joint] = largest.fold(self.peak[joint], f64::max);
+            self.sums[joint] = sum(self.sums[joint], whole[joint]);
+        }
+        self.last = self.examined(run);
+    }
+
+    /// Examines the last step anew if it is not the one that was examined: it may have been shortened.
+    fn refresh(&mut self, run: &mut Examined<'_>) {
+        if self.last.span != run.span() {
+            self.last = self.examined(run);
+        }
+    }
+
+    /// Sets the outputs at `t` in the last step.
+    pub fn set_outputs(&mut self, run: &mut Examined<'_>, t: f64, outputs: &mut Outputs) {
+        self.refresh(run);
+        let at_point = run.at(t).0;
+        let [start, end] = self.last.span;
+        let partial = if t >= end { self.last.whole } else { integrated(run, &self.last.kinks, [start, t]) };
+        for joint in 0..JOINTS {
+            let Examination { maxima, at_end, .. } = &self.last;
+            let maxima = maxima[joint].into_iter().chain([(end, at_end[joint])]);
+            let within = maxima.filter(|(time, _)| *time > self.begin && *time <= t).map(|(_, force)| force);
+            let peak = within.fold(self.peak[joint].max(at_point[joint]), f64::max);
+            let interval = outputs.interval_mut(joint);
+            if self.peaks[joint] {
+                interval.force_peak = peak;
+            }
+            if self.integrals[joint] {
+                let sums = sum(self.sums[joint], partial[joint]);
+                [interval.friction_work, interval.sliding, interval.wear_work] = sums;
+            }
+        }
+    }
+
+    /// Appends the memory of the audit.
+    pub fn save(&self, snapshot: &mut Snapshot) {
+        snapshot.reals.push(self.begin);
+        snapshot.reals.extend(self.peak.iter().chain(self.sums.as_flattened()));
+    }
+
+    /// Restores what [`save`](Self::save) appended; `None` if no run can have produced it.
+    pub fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        self.begin = reader.real()?;
+        self.peak = reader.reals()?;
+        for sums in &mut self.sums {
+            *sums = reader.reals()?;
+        }
+        self.last = NOTHING;
+        let numbers = self.peak.iter().chain(self.sums.as_flattened());
+        (self.begin.is_finite() && numbers.copied().all(f64::is_finite)).then_some(())
+    }
+
+    fn examined(&self, run: &mut Examined<'_>) -> Examination {
+        let span @ [start, end] = run.span();
+        let mut found = Examination { span, ..NOTHING };
+        if end <= start {
+            return found;
+        }
+        let time = |sample: usize| if sample == SAMPLES - 1 { end } else { start + (end - start) * place(sample) };
+        let (mut forces, mut sliding) = ([[0.0; SAMPLES]; JOINTS], [[0.0; SAMPLES]; CONTACTS]);
+        for sample in 0..SAMPLES {
+            // At the end the step is seen before the events there.
+            let (force, rubbing) = if sample == SAMPLES - 1 { self.before_events(run) } else { run.at(time(sample)) };
+            for (forces, force) in forces.iter_mut().zip(force) {
+                forces[sample] = force;
+            }
+            for (sliding, rubbing) in sliding.iter_mut().zip(rubbing) {
+                sliding[sample] = rubbing.speed;
+            }
+        }
+        found.at_end = forces.map(|forces| forces[SAMPLES - 1]);
+        for joint in (0..JOINTS).filter(|&joint| self.peaks[joint]) {
+            found.maxima[joint] = maxima(&forces[joint], span, |t| run.at(t).0[joint]);
+        }
+        if self.integrals.contains(&true) {
+            let mut count = 0;
+            for contact in (0..CONTACTS).filter(|&contact| self.integrals[Touches::joint(contact)]) {
+                for sample in 1..SAMPLES {
+                    let [before, after] = [sliding[contact][sample - 1], sliding[contact][sample]];
+                    if before * after < 0.0 && count < MAX_KINKS {
+                        let bracket = [time(sample - 1), time(sample)];
+                        found.kinks[count] = zero(bracket, before, |t| run.sliding(contact, t));
+                        count += 1;
+                    }
+                }
+            }
+            found.kinks.sort_by(f64::total_cmp);
+            found.whole = integrated(run, &found.kinks, span);
+        }
+        found
+    }
+
+    /// Forces and sliding at the end of the last step, before the events there.
+    fn before_events(&self, run: &mut Examined<'_>) -> ([f64; JOINTS], [Rubbing; CONTACTS]) {
+        let end = run.integrator.state().end();
+        let evaluation = run.model.evaluation(&end.discrete, end.t, &end.y);
+        let rubbing = run.model.rubbing(&end.discrete.contacts, &evaluation.pose, &end.y);
+        (run.observer.joint_forces(&evaluation), rubbing)
+    }
+}
+
+fn sum(one: Integrals, other: Integrals) -> Integrals {
+    std::array::from_fn(|k| one[k] + other[k])
+}
+
+/// The integrals of each joint from `start` to `end` [s] within the last step, piece by piece between the `kinks`.
+fn integrated(run: &mut Examined<'_>, kinks: &[f64; MAX_KINKS], [start, end]: [f64; 2]) -> [Integrals; JOINTS] {
+    let mut sums = [[0.0; 3]; JOINTS];
+    let mut from = start;
+    for to in kinks.iter().copied().filter(|kink| (start..end).contains(kink)).chain([end]) {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        for (point, weight) in GAUSS.iter().flat_map(|&(point, weight)| [(-point, weight), (point, weight)]) {
+            for (contact, Rubbing { speed, normal, friction }) in
+                run.at(middle + half * point).1.into_iter().enumerate()
+            {
+                let integrals = &mut sums[Touches::joint(contact)];
+                integrals[0] += weight * half * friction * speed;
+                integrals[1] += weight * half * speed.abs();
+                integrals[2] += weight * half * normal * speed.abs();
+            }
+        }
+        from = to;
+    }
+    sums
+}
+
+/// Time [s] and value of the local maxima inside a step, given samples at Chebyshev's extrema of `span` [s] and the
+/// function itself.
+fn maxima(
+    samples: &[f64; SAMPLES],
+    [start, end]: [f64; 2],
+    mut of: impl FnMut(f64) -> f64,
+) -> [(f64, f64); MAX_MAXIMA] {
+    let mut found = NOTHING.maxima[0];
+    let polynomial = |s: f64| interpolated(samples, s);
+    let place = |i: usize| i as f64 / SEARCHED as f64;
+    let tops = (1..SEARCHED).filter(|&i| {
+        let [before, here, after] = [i - 1, i, i + 1].map(|i| polynomial(place(i)));
+        before < here && here >= after
+    });
+    for (i, found) in tops.zip(&mut found) {
+        // Golden section; the value there is of second order in the place.
+        let (mut low, mut high) = (place(i - 1), place(i + 1));
+        let golden = 0.5 * (5.0f64.sqrt() - 1.0);
+        for _ in 0..BISECTIONS {
+            let [left, right] = [high - golden * (high - low), low + golden * (high - low)];
+            if polynomial(left) > polynomial(right) { high = right } else { low = left }
+        }
+        // From there on the tops of parabolas through the function itself.
+        let time = |s: f64| start + (end - start) * s;
+        let mut top = 0.5 * (low + high);
+        let mut best = (time(top), of(time(top)));
+        for step in NEAR {
+            let [before, after] = [of(time(top - step)), of(time(top + step))];
+            let bend = 2.0 * best.1 - before - after;
+            let better = top + if bend > 0.0 { (0.5 * step * (after - before) / bend).clamp(-step, step) } else { 0.0 };
+            let value = of(time(better));
+            if value > best.1 {
+                (top, best) = (better, (time(better), value));
+            }
+        }
+        *found = best;
+    }
+    found
+}
+
+/// The polynomial through samples at Chebyshev's extrema of [0, 1], at `s` (barycentric formula, J.-P. Berrut, L. N.
+/// Trefethen, SIAM Review 46, 2004, eq. 5.4).
+fn interpolated(samples: &[f64; SAMPLES], s: f64) -> f64 {
+    let (mut above, mut below) = (0.0, 0.0);
+    for (k, sample) in samples.iter().enumerate() {
+        let distance = s - place(k);
+        if distance == 0.0 {
+            return *sample;
+        }
+        let ends = if k == 0 || k == SAMPLES - 1 { 0.5 } else { 1.0 };
+        let weight = if k % 2 == 0 { ends } else { -ends } / distance;
+        above += weight * sample;
+        below += weight;
+    }
+    above / below
+}
+
+/// Chebyshev's extremum number `k` on [0, 1].
+fn place(k: usize) -> f64 {
+    let (sin, _) = math::sin_cos(0.5 * PI * k as f64 / (SAMPLES - 1) as f64);
+    sin * sin
+}
+
+/// The zero of a function in a bracket, whose value at the start of the bracket is `before`.
+fn zero([mut low, mut high]: [f64; 2], before: f64, mut of: impl FnMut(f64) -> f64) -> f64 {
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if of(middle) * before > 0.0 { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(of: impl Fn(f64) -> f64) -> [f64; SAMPLES] {
+        std::array::from_fn(|k| of(2.0 + 0.5 * place(k)))
+    }
+
+    #[test]
+    fn a_blow_inside_a_step_has_its_largest_force() {
+        // Two humps between times 2 and 2.5.
+        let force = |t: f64| 3.0 + (25.0 * (t - 2.0)).sin() * (1.0 + t);
+        let found = maxima(&samples(force), [2.0, 2.5], force);
+        let times: Vec<f64> = found.iter().map(|(t, _)| *t).filter(|t| t.is_finite()).collect();
+        assert_eq!(times.len(), 2, "{found:?}");
+        for (time, value) in found.into_iter().take(2) {
+            assert_eq!(value, force(time));
+            let around = [-1e-3, 1e-3].map(|step| force(time + step));
+            assert!(around[0] < value && around[1] < value, "{time}");
+            let slope = (force(time + 1e-6) - force(time - 1e-6)) / 2e-6;
+            // F″ is 2 000: the place is known to 1e-6, the value to 1e-9.
+            assert!(slope.abs() < 2e-3, "{time}: {slope}");
+        }
+    }
+
+    #[test]
+    fn what_only_rises_has_no_maximum_inside() {
+        let found = maxima(&samples(f64::exp), [2.0, 2.5], f64::exp);
+        assert!(found.iter().all(|(t, _)| t.is_infinite()));
+    }
+
+    #[test]
+    fn six_points_integrate_degree_eleven() {
+        let sum: f64 = GAUSS.iter().map(|(x, weight)| 2.0 * weight * x.powi(10)).sum();
+        assert!((sum - 2.0 / 11.0).abs() < 1e-15, "{sum}");
+    }
+
+    #[test]
+    fn a_zero_is_found_to_a_rounding() {
+        let found = zero([0.0, 2.0], -2.0, |x| x * x - 2.0);
+        assert!((found - 2.0f64.sqrt()).abs() < 1e-13, "{found}");
+    }
+}
