@@ -1,5 +1,7 @@
 //! The parameters of a scene by name, as declared in `modelDescription/variables.toml`.
 
+#![allow(clippy::approx_constant, reason = "start values are declared as numbers")]
+
 use super::data::{Crank, Drive, Energy, GuideLines, Joints, Rod, Scene, Slider, Solver};
 use super::enumerations::*;
 use crate::model_description::number::number;
