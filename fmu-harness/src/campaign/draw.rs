@@ -10,7 +10,7 @@ use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::profile::{Profile, ProfileArgument, Profiles};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::run::{End, Run};
-use slidercrank::scene::{FrictionLaw, Method, PARAMETERS, Scene, Surface};
+use slidercrank::scene::{Audit, FrictionLaw, Lubrication, Method, PARAMETERS, Scene, Surface};
 use std::f64::consts::TAU;
 
 /// The two numbers, each from 0 to 1.
@@ -64,6 +64,11 @@ fn stiffen(scene: &mut Scene) {
     (scene.rod.flexible.bending_modes, scene.rod.flexible.axial_modes) = (0, 0);
     scene.energy.audit = false;
     let joint = &mut scene.joint;
+    for joint in [&mut joint.a, &mut joint.b, &mut joint.c] {
+        joint.lubrication = Lubrication::None;
+        (joint.peak, joint.wear) = (Audit::default(), Audit::default());
+    }
+    (joint.t.peak, joint.t.wear) = (Audit::default(), Audit::default());
     joint.t.surface = Surface::Corner;
     for contact in [&mut joint.a.contact, &mut joint.b.contact, &mut joint.c.contact, &mut joint.t.contact] {
         if contact.friction.law == FrictionLaw::Lugre {
