@@ -12,6 +12,9 @@ from tempfile import mkdtemp
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CoSimulation
 
+OF_INTERVAL = (".impact.speed", ".force.peak")
+"""Endings of outputs that belong to the interval since the last communication point, not to the instant."""
+
 
 class Mechanism:
     """An unpacked FMU; `start()` gives an instance at its first communication point."""
@@ -85,6 +88,7 @@ class Slave:
         return {"Real": self.fmu.getReal, "Boolean": self.fmu.getBoolean}.get(kind, self.fmu.getInteger)
 
     def picture(self):
+        """All outputs of the instant, bit for bit; not those of the interval since the last communication point."""
         numbers = []
         for kind in ("Real", "Integer", "Boolean"):
             numbers += self._get(kind)(_outputs(self.mechanism, kind))
@@ -104,7 +108,8 @@ class Slave:
 
 @functools.lru_cache
 def _outputs(mechanism, kind):
-    return [variable.valueReference for variable in mechanism.outputs((kind,))]
+    outputs = mechanism.outputs((kind,))
+    return [variable.valueReference for variable in outputs if not variable.name.endswith(OF_INTERVAL)]
 
 
 def grid(start, step, count):

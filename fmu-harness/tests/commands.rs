@@ -182,9 +182,9 @@ mod peers {
 
     /// One scene for each set of competitors, with those that know no other.
     const CONTESTS: [(&str, &[&str]); 4] = [
-        ("peers/ideal", &["SUNDIALS", "MuJoCo"]),
-        ("peers/wornpin", &["SUNDIALS", "SciPy", "Exudyn"]),
-        ("peers/guideplay", &["SUNDIALS", "Siconos"]),
+        ("peers/ideal", &["SUNDIALS", "heyoka", "MuJoCo"]),
+        ("peers/wornpin", &["SUNDIALS", "heyoka", "SciPy", "Exudyn"]),
+        ("peers/guideplay", &["SUNDIALS", "heyoka", "Siconos"]),
         ("flexrod", &["SUNDIALS"]),
     ];
 

@@ -193,13 +193,15 @@ fn read(call: Call, stage: &Stage) -> Vec<Argument> {
             // Where outputs are read, what is absent is told; elsewhere nothing is.
             let seen = Touch::GetOutput.allowed(stage.state);
             let absent = |words| if seen { words } else { "(local variable) cannot be read" };
+            // A guide with play has the last of them.
+            let last_indicator = if counts().1 > 6 { "" } else { "the scene has no event indicator of this number" };
             let (sound, clock) = (list(stage, ["gravity", "crank.torque"], &others), FIRST_CLOCK + 2);
             let others = [
                 ([time_reference(); 2], ""),
                 ([time_reference(), PENETRATIONS], "5 are needed"),
                 ([clock, time_reference()], "a clock is of type Clock, not Float64"),
                 ([time_reference(), FIRST_STATE + 63], absent("the scene has no continuous state 64")),
-                ([FIRST_INDICATOR + 6, time_reference()], absent("the scene has no event indicator of this number")),
+                ([FIRST_INDICATOR + 6, time_reference()], absent(last_indicator)),
             ];
             (of_version_3(stage, sound, &others), array(memory, "values", vec![0.0; 2], vec![]))
         }
