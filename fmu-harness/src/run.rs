@@ -11,11 +11,14 @@ use crate::inputs::Input;
 use crate::trajectory::Trajectory;
 use anyhow::{Result, ensure};
 use cpu_time::ThreadTime;
+use slidercrank::scene::JointModel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The output that counts turns.
 pub const ANGLE: &str = "crank.angle";
+/// The joints.
+pub const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
 /// A run with more communication points than this counts as a mistake.
 const MOST_POINTS: usize = 20_000_000;
 
@@ -48,6 +51,11 @@ pub struct Experiment {
     pub step: f64,
     /// Relative tolerance for fmi2SetupExperiment.
     pub tolerance: Option<f64>,
+}
+
+/// Settings that make all joints ideal.
+pub fn ideal_joints() -> impl Iterator<Item = Setting> {
+    JOINTS.into_iter().map(|joint| Setting::joint(joint, "model", JointModel::Ideal.name()))
 }
 
 /// The results of a run.

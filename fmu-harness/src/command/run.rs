@@ -6,7 +6,7 @@ use crate::inputs;
 use crate::package::MODES;
 use crate::report::figure::{self, Pair};
 use crate::report::summary;
-use crate::run::{ANGLE, Experiment, Recording, Until, run};
+use crate::run::{ANGLE, Experiment, JOINTS, Recording, Until, ideal_joints, run};
 use crate::scenes::Scenario;
 use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
@@ -22,7 +22,6 @@ use std::path::{Path, PathBuf};
 const SPEED: &str = "crank.speed_start";
 /// A crank that needs so many times longer than at its start speed counts as stuck.
 const PATIENCE: f64 = 20.0;
-const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
 
 /// Runs a scene, or any co-simulation FMU of FMI 2.0 or 3.0.
 #[derive(Args, Default)]
@@ -158,8 +157,7 @@ fn is_slider_crank(fmu: &Fmu) -> bool {
 /// Runs the same experiment with ideal joints.
 fn with_ideal_joints(fmu: &Fmu, experiment: &Experiment) -> Result<Recording> {
     let mut experiment = experiment.clone();
-    let ideal = |joint: &str| Setting { name: format!("joint.{joint}.model"), value: "1".into() };
-    experiment.settings.extend(JOINTS.map(ideal));
+    experiment.settings.extend(ideal_joints());
     watched(fmu, &experiment, "the same with ideal joints").context("with ideal joints")
 }
 

@@ -25,6 +25,13 @@ pub struct Setting {
     pub value: String,
 }
 
+impl Setting {
+    /// A setting of a joint's parameter, such as `law` of joint C.
+    pub fn joint(joint: &str, parameter: &str, value: &str) -> Self {
+        Self { name: format!("joint.{joint}.{parameter}"), value: value.into() }
+    }
+}
+
 impl std::str::FromStr for Setting {
     type Err = String;
 

@@ -2,7 +2,7 @@
 
 use super::plot::{Curve, Mark, Panel, Role, Sheet, square_panel};
 use super::units::Shown;
-use crate::run::{ANGLE, Recording};
+use crate::run::{ANGLE, JOINTS, Recording};
 use anyhow::Result;
 use std::f64::consts::TAU;
 
@@ -44,7 +44,7 @@ pub fn slider_error(pair: &Pair) -> Result<Sheet> {
 
 /// Magnitude of the force in every joint.
 pub fn joint_forces(pair: &Pair) -> Result<Sheet> {
-    let panels = ["A", "B", "C", "T"].map(|joint| {
+    let panels = JOINTS.map(|joint| {
         let name = format!("force in {joint}");
         pair.panel(&name, "N", &name, |recording| force(recording, joint))
     });

@@ -4,7 +4,7 @@ use super::figure::{Pair, force};
 use super::table::Table;
 use super::units::{Shown, grouped, significant};
 use crate::host::Description;
-use crate::run::{ANGLE, Cost, Recording};
+use crate::run::{ANGLE, Cost, JOINTS, Recording};
 use anyhow::Result;
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ pub fn mechanism(pair: &Pair) -> Result<[Table; 3]> {
     let actual = pair.actual;
     let mut peaks = Table::default();
     peaks.row(["peak", "this", "ideal", "ratio"]);
-    for joint in ["A", "B", "C", "T"] {
+    for joint in JOINTS {
         peak(&mut peaks, &format!("force in joint {joint}"), "N", [actual, pair.ideal].map(|run| force(run, joint)))?;
     }
     for (name, variable, unit) in [("drive torque", "drive.torque", "N.m"), ("slider acceleration", "slider.a", "m/s2")]

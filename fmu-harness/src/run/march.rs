@@ -3,7 +3,7 @@
 use super::{Experiment, MOST_POINTS, Runner, Until};
 use crate::host::{Fmu, Log};
 use crate::trajectory::Trajectory;
-use anyhow::Result;
+use anyhow::{Result, bail};
 use cpu_time::ThreadTime;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -26,6 +26,20 @@ pub enum Ending {
     Stopped,
     /// The FMU could not go on; with its message.
     Failed(String),
+}
+
+impl Ending {
+    /// Returns an error if the run did not reach its end within `budget`.
+    ///
+    /// # Errors
+    /// With the reason.
+    pub fn complete(self, budget: Duration) -> Result<()> {
+        match self {
+            Self::Reached => Ok(()),
+            Self::Stopped => bail!("stopped after {} s", budget.as_secs_f64()),
+            Self::Failed(why) => bail!(why),
+        }
+    }
 }
 
 /// The results of a run.

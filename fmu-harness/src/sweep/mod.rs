@@ -16,7 +16,7 @@ pub use study::Study;
 use crate::frame::{Column, Frame};
 use crate::host::{Fmu, Setting};
 use crate::inputs;
-use crate::run::{Ending, Experiment, Look, Until, march};
+use crate::run::{Experiment, Look, Until, march};
 use crate::scenes::Scenario;
 use anyhow::{Context, Result, ensure};
 use journal::{Line, Outcome};
@@ -84,11 +84,7 @@ impl Sweep<'_> {
             tolerance: None,
         };
         let march = march(fmu, &experiment, Look::Everywhere, self.budget)?;
-        match march.ending {
-            Ending::Reached => {}
-            Ending::Stopped => anyhow::bail!("stopped after {} s", self.budget.as_secs_f64()),
-            Ending::Failed(why) => anyhow::bail!(why),
-        }
+        march.ending.complete(self.budget)?;
         let trajectory = &march.trajectory;
         self.study
             .keep

@@ -97,7 +97,8 @@ impl Reduction {
             Self::Rms => (values.iter().map(|value| value * value).sum::<f64>() / count).sqrt(),
             Self::Deviation => {
                 let mean = mean();
-                (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0)).sqrt()
+                (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0).max(0.0))
+                    .sqrt()
             }
             Self::Last => values.last().copied().unwrap_or(f64::NAN),
         }
@@ -135,6 +136,7 @@ mod tests {
         assert_eq!(Reduction::Mean.of(&[1.0, 2.0, 6.0]), 3.0);
         assert_eq!(Reduction::Deviation.of(&[1.0, 2.0, 6.0]), 7f64.sqrt());
         assert_eq!(Reduction::Rms.of(&[1.0, -7.0]), 5.0);
+        assert!([&[][..], &[1.0]].into_iter().all(|few| Reduction::Deviation.of(few).is_nan()));
     }
 
     #[test]
