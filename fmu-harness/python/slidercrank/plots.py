@@ -62,7 +62,7 @@ def placements(study: pandas.DataFrame, quantity: str) -> list[Axes]:
     fields = study[quantity].where(study["status"] == "ok").unstack("C")
     # A figure of its own, since panels share it.
     count = len(fields.index.unique("A"))
-    size = (1.0 + 3.0 * count, 3.2)
+    size = (1.0 + 3.0 * count, 4.0)
     figure, panels = pyplot.subplots(1, count, squeeze=False, sharey=True, figsize=size, layout="constrained")
     for ax, (played, panel) in zip(panels[0], fields.groupby(level="A")):
         values = panel.to_numpy()
