@@ -6,6 +6,7 @@ pub mod campaign;
 pub mod contest;
 pub mod deadline;
 pub mod docs;
+pub mod dots;
 pub mod dynamics;
 pub mod figure;
 pub mod interactive;

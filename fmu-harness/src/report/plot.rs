@@ -1,4 +1,4 @@
-//! Sheets of panels as SVG, and panels of curves. Only this file, `bars` and `loglog` use the drawing library.
+//! Sheets of panels as SVG, and panels of curves. Only this file, `bars`, `dots` and `loglog` use the drawing library.
 
 use super::thinning::thinned;
 use anyhow::{Result, anyhow};
@@ -270,13 +270,13 @@ fn margin(range: Range<f64>) -> Range<f64> {
 }
 
 /// Number of decimals that distinguish the ticks of this range.
-fn decimals(range: &Range<f64>) -> usize {
+pub(super) fn decimals(range: &Range<f64>) -> usize {
     let tick = (range.end - range.start) / 10.0;
     (-tick.log10().floor()).clamp(0.0, 9.0) as usize
 }
 
 /// Label of a tick, with a typographic minus sign and without unnecessary zeros.
-fn tick(value: f64, decimals: usize) -> String {
+pub(super) fn tick(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".into() } else { text.replace('-', "−") }
