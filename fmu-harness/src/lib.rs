@@ -9,6 +9,7 @@ pub mod frame;
 pub mod host;
 pub mod inputs;
 pub mod inspect;
+pub mod laws;
 pub mod package;
 pub mod peers;
 pub mod precision;

@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand};
 use fmu_harness::command::{
-    Accuracy, Campaign, Dynamics, Effects, Inspect, Package, Peers, Precision, Realtime, Report, Run, Ssp, Sweep,
+    Accuracy, Campaign, Dynamics, Effects, Inspect, Laws, Package, Peers, Precision, Realtime, Report, Run, Ssp, Sweep,
 };
 use std::process::ExitCode;
 
@@ -29,6 +29,8 @@ enum Command {
     Inspect(Inspect),
     /// Shows the effect of clearances on the slider's motion
     Accuracy(Accuracy),
+    /// Compares the contact laws: peak forces and errors by elasticity and damping law
+    Laws(Laws),
     /// Classifies the motion over many turns: periodic or chaotic
     Dynamics(Dynamics),
     /// Measures the cost of every effect
@@ -57,6 +59,7 @@ fn main() -> ExitCode {
         Some(Command::Run(run)) => run.execute(),
         Some(Command::Inspect(inspect)) => inspect.execute(),
         Some(Command::Accuracy(accuracy)) => accuracy.execute(),
+        Some(Command::Laws(laws)) => laws.execute(),
         Some(Command::Dynamics(dynamics)) => dynamics.execute(),
         Some(Command::Effects(effects)) => effects.execute(),
         Some(Command::Peers(peers)) => peers.execute(),

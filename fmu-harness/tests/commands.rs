@@ -81,6 +81,7 @@ fn the_other_commands_have_a_number_in_every_row() {
     let study = directory().with_file_name("studies").join("speed-and-clearance.toml").display().to_string();
     let commands = [
         vec!["effects", "--quick"],
+        vec!["laws", "--turns", "0.1"],
         vec!["realtime", "--steps", "100", "--budget", "20"],
         vec!["precision", "--quick", "--scene", "wornpin", "--window", "2 ms", "--span", "4 ms"],
         vec!["report", "--unmeasured", "--transient", "2", "--turns", "6"],

@@ -10,6 +10,7 @@ pub mod dots;
 pub mod dynamics;
 pub mod figure;
 pub mod interactive;
+pub mod laws;
 pub mod loglog;
 pub mod named;
 pub mod page;
