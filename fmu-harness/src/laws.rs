@@ -232,14 +232,15 @@ fn has_clearance(scene: &Scene, joint: &str) -> bool {
 
 /// The largest value of each complete turn, where a value is that of the interval before it.
 fn largest_of_turns(angles: &[f64], values: &[f64]) -> Vec<f64> {
-    let turns = |row: usize| (angles[row] - angles[0]).abs() / TAU + ROUNDING;
+    let (Some(first), Some(last)) = (angles.first(), angles.last()) else { return vec![] };
+    let turn = |angle: &f64| ((angle - first).abs() / TAU + ROUNDING) as usize;
     let mut largest: Vec<f64> = vec![];
-    for row in 1..angles.len() {
-        let turn = turns(row - 1) as usize;
+    for (before, value) in angles.iter().zip(values.iter().skip(1)) {
+        let turn = turn(before);
         largest.resize(largest.len().max(turn + 1), 0.0);
-        largest[turn] = largest[turn].max(values[row]);
+        largest[turn] = largest[turn].max(*value);
     }
-    largest.truncate(turns(angles.len() - 1) as usize);
+    largest.truncate(turn(last));
     largest
 }
 

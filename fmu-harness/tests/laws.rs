@@ -52,8 +52,9 @@ fn every_elasticity_meets_every_damping_law_and_each_has_its_own_impact() {
     let of = |elasticity: Elasticity, law: DampingLaw| {
         let case = Case::Laws { elasticity: Some(elasticity), law };
         let mut found = rows.iter().filter(|(own, _)| *own == case);
-        let loads = &found.next().unwrap_or_else(|| panic!("no row {}", case.name())).1;
-        assert!(found.next().is_none(), "two rows {}", case.name());
+        let name = case.name();
+        let loads = &found.next().expect(&name).1;
+        assert!(found.next().is_none(), "two rows {name}");
         loads
     };
     assert_eq!(rows.len(), 1 + Elasticity::ALL.len() * DampingLaw::ALL.len());

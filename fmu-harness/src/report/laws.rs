@@ -39,6 +39,9 @@ const ALL: [OfAll; 5] = [
     ("CPU ms/s", "cpu_s_per_s", 1e3, |loads| loads.time),
 ];
 
+/// The place of a dot, and the range around it.
+type Place = (f64, Option<(f64, f64)>);
+
 /// A number of the table; a number that the scene does not have is a dash.
 fn cell(number: f64) -> String {
     match number {
@@ -116,7 +119,7 @@ pub fn sheet(comparison: &Comparison, rows: &[Row]) -> Sheet<Dots> {
         }
     }
     // For each law, the dots of all elasticities.
-    let panel = |label: String, level: Option<f64>, dot: &dyn Fn(&Loads) -> (f64, Option<(f64, f64)>)| {
+    let panel = |label: String, level: Option<f64>, dot: &dyn Fn(&Loads) -> Place| {
         let dot = |elasticity: Option<Elasticity>, law: DampingLaw, role: Role| {
             let found = rows.iter().find(|(case, _)| *case == Case::Laws { elasticity, law });
             let (value, range) = dot(found?.1.as_ref().ok()?);
