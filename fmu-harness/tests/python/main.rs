@@ -54,6 +54,7 @@ files! { PACKAGE:
     a_cluster_finds_the_bits_that_sweep_finds   "test_distributed.py"
     indices_and_optima_are_those_of_theory      "test_analysis.py"
     cycles_are_counted_as_the_standard_does     "test_durability.py"
+    a_deck_of_no_rod_is_refused                 "test_decks.py"
     a_solid_model_s_modes_are_those_of_theory   "test_modes.py"
     figures_show_what_is_in_the_frame           "test_plots.py"
     the_notebook_runs                           "test_notebook.py"
