@@ -4,7 +4,7 @@ Nothing here knows mechanics. Packaging and studies are done by the program in t
 packaged FMU in FMPy. `slidercrank.distributed` runs a study on a Dask cluster, `slidercrank.sensitivity` and
 `slidercrank.optimise` ask what a study's parameters do, `slidercrank.durability` counts load cycles,
 `slidercrank.press` measures what a press shop does, `slidercrank.placements` sorts a study by joints,
-`slidercrank.plots` draws.
+`slidercrank.modes` makes a rod's table of modes from a solid model in CalculiX, `slidercrank.plots` draws.
 """
 
 from .simulation import simulate

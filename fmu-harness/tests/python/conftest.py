@@ -73,6 +73,18 @@ def write(tmp_path):
     return made
 
 
+@pytest.fixture
+def deck(tmp_path):
+    """Writes a deck into a fresh directory."""
+
+    def made(text, name="rod.inp"):
+        file = tmp_path / name
+        file.write_text(text)
+        return file
+
+    return made
+
+
 def bits(frame):
     """What is in a frame, to the bit: names, numbers as bytes, texts."""
     numbers = frame.select_dtypes("number").astype(numpy.float64)

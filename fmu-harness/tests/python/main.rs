@@ -55,6 +55,8 @@ files! { PACKAGE:
     indices_and_optima_are_those_of_theory      "test_analysis.py"
     cycles_are_counted_as_the_standard_does     "test_durability.py"
     the_press_is_measured_as_a_shop_measures_it "test_press.py"
+    a_deck_of_no_rod_is_refused                 "test_decks.py"
+    a_solid_model_s_modes_are_those_of_theory   "test_modes.py"
     figures_show_what_is_in_the_frame           "test_plots.py"
     the_notebook_runs                           "test_notebook.py"
     the_package_can_be_installed                "test_install.py"
