@@ -58,7 +58,7 @@ fn a_refusal_is_one_clear_line() {
     let words = refusal(&["package", "--scene", "wornpn"]);
     assert!(
         words.starts_with(
-            "error: there is no scene `wornpn`; the shipped scenes are allplay, flexrod, guideplay, hold, ideal, oilpress, press, seed, wornpin"
+            "error: there is no scene `wornpn`; the shipped scenes are allplay, ferod, flexrod, guideplay, hold, ideal, oilpress, press, seed, wornpin"
         ),
         "{words}"
     );
