@@ -92,6 +92,22 @@ fn the_other_commands_have_a_number_in_every_row() {
 }
 
 #[test]
+fn the_page_has_a_section_for_each_effect_that_the_scene_calls_for() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    for (scene, wanted) in [("effects/13-oil", true), ("wornpin", false)] {
+        let file = directory().join(format!("{scene}.toml")).display().to_string();
+        let arguments = ["report", "--scene", &file, "--unmeasured", "--transient", "1", "--turns", "6"];
+        let (status, text) = said(program().args(arguments).arg("-o").arg(folder.path()));
+        assert!(status.success(), "{scene}: {text}");
+        let name = scene.rsplit('/').next().unwrap_or(scene);
+        let page = std::fs::read_to_string(folder.path().join(format!("report-{name}.html"))).expect("a page");
+        for heading in ["Oil", "Between communication points", "Energies"] {
+            assert_eq!(page.contains(&format!("<h2>{heading}</h2>")), wanted, "{scene}: {heading}");
+        }
+    }
+}
+
+#[test]
 fn a_row_without_numbers_is_told_under_the_table_and_fails_the_command() {
     let folder = tempfile::tempdir().expect("a temporary directory");
     // A crank that must pass where its rod stands across the guide.

@@ -25,7 +25,7 @@ pub struct Clearances {
     pub(super) revolute: [Revolute; 3],
     pub(super) guide: Guide,
     /// The oil films of the lubricated joints.
-    films: Films,
+    pub(super) films: Films,
     /// [kg] Masses of crank, rod and slider.
     mass: [f64; 3],
     /// The contacts with bristles, by their index among all contacts, in the order of their states.
@@ -86,7 +86,6 @@ impl Clearances {
         self.add_pin(Pin::MainBearing, play, contacts, pose, deflections, deflection_rates, loads);
         self.add_pin(Pin::CrankPin, play, contacts, pose, deflections, deflection_rates, loads);
         self.add_pin(Pin::SliderPin, play, contacts, pose, deflections, deflection_rates, loads);
-        self.films.add_loads(pose, loads);
         if play.guide {
             let (mut z, mut rates) = ([R::ZERO; GUIDE_CONTACTS], [R::ZERO; GUIDE_CONTACTS]);
             let bristled = self.bristle[3].is_some();

@@ -115,6 +115,8 @@ impl Compiled {
         let all = Self::general(mechanism);
         match &mechanism.rod {
             Some(rod) => flexible(&mechanism.structure, rod, all),
+            // A constant structure has no rare loads.
+            None if mechanism.structure.rare_loads => all,
             None => by_structure!(mechanism.structure, all),
         }
     }
@@ -136,7 +138,7 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
             })*
         };
     }
-    if rod.modes.room == RodCapacity::Few {
+    if rod.modes.room == RodCapacity::Few && !structure.rare_loads {
         own! {
             (true true false true true, 3 1)
             (true false false false true, 3 1)

@@ -21,6 +21,11 @@ impl Films {
         Self(with_clearance.filter_map(|(pin, joint)| Film::new(joint).map(|film| (pin, film))).collect())
     }
 
+    /// Whether all joints are dry.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Adds the films' loads.
     #[inline(always)]
     pub fn add_loads<R: Real>(&self, pose: &Pose<R>, loads: &mut Loads<R>) {

@@ -84,12 +84,15 @@ impl Mechanism {
     /// Assembles the mechanism of a scene.
     pub fn assemble(scene: &Scene) -> Self {
         let (topology, rod) = (Topology::of(scene), Rod::new(scene));
-        let structure = Structure::with_rod(topology, rod.is_some());
+        let (clearances, gravity) = (Clearances::new(scene), free_fall(scene));
+        let load_offset = scene.slider.load_offset;
+        let rare_loads = !clearances.films.is_empty() || gravity.x != 0.0 || load_offset != 0.0;
+        let structure = Structure { rare_loads, ..Structure::with_rod(topology, rod.is_some()) };
         let bodies = bodies(scene);
         Self {
             structure,
             augmented: AugmentedBodies::new(&bodies, &structure),
-            gravity: free_fall(scene),
+            gravity,
             ideal: IdealMechanism::new(scene),
             rotor: Rotor::new(scene),
             rod: rod.map(|rod| FlexibleRod {
@@ -97,10 +100,10 @@ impl Mechanism {
                 chain: RodInChain::new(&bodies, &structure),
                 rod,
             }),
-            clearances: Clearances::new(scene),
+            clearances,
             rotary_dampers: rotary_dampers(scene),
             guide_damping: Some(scene.joint.t.damping).filter(|&damping| damping != 0.0),
-            load_offset: scene.slider.load_offset,
+            load_offset,
         }
     }
 
@@ -289,7 +292,7 @@ impl Mechanism {
         if !of.topology.speed {
             loads.crank_couple = inputs.crank_torque;
         }
-        if self.load_offset != 0.0 {
+        if of.rare_loads {
             // The arm turns with the slider, the force does not.
             loads.slider_couple = slider_load * -self.load_offset * pose.rotations.rotation[SLIDER].cos;
         }
@@ -299,6 +302,9 @@ impl Mechanism {
             loads.add_guide(&viscous_guide(damping, pose.velocity.pin.x));
         }
         self.clearances.add_loads(of.play, &conditions.contacts, pose, bristles, bristle_rates, &mut loads);
+        if of.rare_loads {
+            self.clearances.films.add_loads(pose, &mut loads);
+        }
         loads
     }
 

@@ -176,6 +176,9 @@ pub struct Structure {
     pub weighs: [bool; 3],
     /// For the pairs crank–rod, rod–slider and crank–slider, whether the angles are coupled in the mass matrix.
     pub coupled: [bool; 3],
+    /// Whether there is oil, gravity along the guide or a load beside the slider's pin. The code of constant structures
+    /// has none of them.
+    pub rare_loads: bool,
 }
 
 impl Structure {
@@ -228,6 +231,7 @@ impl Structure {
             floats: [crank_floats && !(flexible && b), rod_floats && !flexible, slider_floats && !(flexible && c)],
             weighs: [a || rail_crank, (a && b) || rail_rod, a && b && c && !topology.t],
             coupled: [b, c && !topology.t, b && c && !topology.t],
+            rare_loads: false,
         }
     }
 

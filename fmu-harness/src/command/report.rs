@@ -67,6 +67,7 @@ impl Report {
         let film = Film::of(&actual)?;
         let mut sections = vec![called_for(file)?, motion(&pair)?];
         sections.extend(journals(&pair)?);
+        sections.extend(effects(&pair)?);
         sections.push(or_why("In the long run", self.long_run(file, &bar)));
         sections.push(or_why("Accuracy of the slider", accuracy_of(file, &bar)));
         if !self.unmeasured {
@@ -122,6 +123,25 @@ fn motion(pair: &Pair) -> Result<Section> {
 
 fn journals(pair: &Pair) -> Result<Option<Section>> {
     Ok(figure::journal_paths(pair)?.map(|sheet| Section::new("Journals in their bearings").showing(&sheet)))
+}
+
+/// A section for each effect that the scene calls for: oil, what lies between communication points, energies.
+fn effects(pair: &Pair) -> Result<Vec<Section>> {
+    let mut sections = vec![];
+    if let Some(sheet) = figure::oil_films(pair)? {
+        let text = "The film beside the dry contact of rough surfaces, which begins at three times the roughness.";
+        let section = Section::new("Oil").saying(text).showing(&sheet);
+        sections.push(section.telling(summary::oil_films(pair.actual)?));
+    }
+    if let Some(table) = summary::intervals(pair.actual)? {
+        let text = "Found within the integrator's steps, whatever the communication points are.";
+        sections.push(Section::new("Between communication points").saying(text).telling(table));
+    }
+    if let Some(table) = summary::energies(pair.actual)? {
+        let text = "Since the start; the residual is the error of the balance.";
+        sections.push(Section::new("Energies").saying(text).telling(table));
+    }
+    Ok(sections)
 }
 
 fn accuracy_of(file: &SceneFile, bar: &ProgressBar) -> Result<Section> {

@@ -16,6 +16,9 @@ const PATH_TURNS: f64 = 3.0;
 /// Value of `joint.J.model` of a joint with clearance.
 const CLEARANCE: f64 = 2.0;
 
+/// Value of `joint.J.lubrication` of a joint with an oil film.
+const SHORT_BEARING: f64 = 2.0;
+
 /// A run and its ideal counterpart.
 pub struct Pair<'a> {
     /// Name of the scene.
@@ -89,6 +92,37 @@ pub fn rod_shape(pair: &Pair) -> Result<Option<Sheet>> {
             pair.panel(variable, unit, name, |recording| Ok(recording.column(variable)?.into()))
         });
     Ok(Some(pair.sheet("flexible rod", panels.into_iter().collect::<Result<_>>()?, 1, (960, 240))?))
+}
+
+/// Thickness and force of the oil films; `None` if all joints are dry.
+pub fn oil_films(pair: &Pair) -> Result<Option<Sheet>> {
+    let mut panels = vec![];
+    for joint in lubricated(pair.actual) {
+        let thinnest = |recording: &Recording| thickness(recording, joint);
+        panels.push(pair.panel(&format!("film {joint}"), "m", &format!("film in {joint}, thinnest"), thinnest)?);
+        let variable = format!("joint.{joint}.film.force");
+        let force = |recording: &Recording| Ok(recording.column(&variable)?.into());
+        panels.push(pair.panel(&variable, "N", &format!("force of the film in {joint}"), force)?);
+    }
+    if panels.is_empty() { Ok(None) } else { Ok(Some(pair.sheet("oil films", panels, 1, (960, 200))?)) }
+}
+
+/// The joints with clearance that hold oil.
+pub fn lubricated(recording: &Recording) -> impl Iterator<Item = &'static str> {
+    let is = move |name: String, wanted: f64| recording.parameter(&name) == Some(wanted);
+    ["A", "B", "C"].into_iter().filter(move |joint| {
+        is(format!("joint.{joint}.model"), CLEARANCE) && is(format!("joint.{joint}.lubrication"), SHORT_BEARING)
+    })
+}
+
+/// [m] Clearance less eccentricity of a joint at every communication point; 0 for an ideal joint.
+pub fn thickness(recording: &Recording, joint: &str) -> Result<Vec<f64>> {
+    if recording.parameter(&format!("joint.{joint}.model")) != Some(CLEARANCE) {
+        return Ok(vec![0.0; recording.trajectory.len()]);
+    }
+    let clearance = recording.parameter(&format!("joint.{joint}.clearance")).unwrap_or_default();
+    let [x, y] = ["x", "y"].map(|axis| recording.column(&format!("joint.{joint}.eccentricity.{axis}")));
+    Ok(x?.iter().zip(y?).map(|(x, y)| clearance - x.hypot(*y)).collect())
 }
 
 fn path(pair: &Pair, joint: &str) -> Result<Panel> {

@@ -1,6 +1,6 @@
 //! Tables of one run.
 
-use super::figure::{Pair, force};
+use super::figure::{self, Pair, force};
 use super::table::Table;
 use super::units::{Shown, grouped, significant};
 use crate::host::Description;
@@ -40,6 +40,65 @@ pub fn mechanism(pair: &Pair) -> Result<[Table; 3]> {
     }
     cost(&mut work, &actual.cost, actual.trajectory.len());
     Ok([peaks, errors, work])
+}
+
+/// Table of the oil films: largest force, thinnest place, also in heights of the roughness. Dry contact begins at three.
+pub fn oil_films(actual: &Recording) -> Result<Table> {
+    let mut table = Table::default();
+    table.row(["film", "largest force", "thinnest", "over roughness"]);
+    for joint in figure::lubricated(actual) {
+        let force = largest(actual.column(&format!("joint.{joint}.film.force"))?);
+        let thinnest = figure::thickness(actual, joint)?.into_iter().fold(f64::INFINITY, f64::min);
+        let roughness = actual.parameter(&format!("joint.{joint}.roughness")).unwrap_or_default();
+        table.row([
+            format!("in {joint}"),
+            Shown::of("N", force).print(force),
+            Shown::of("m", thinnest).print(thinnest),
+            significant(thinnest / roughness),
+        ]);
+    }
+    Ok(table)
+}
+
+/// Table of what lies between communication points, of the joints whose audits are asked for; `None` if there are none.
+pub fn intervals(actual: &Recording) -> Result<Option<Table>> {
+    let asked = |joint: &str, audit: &str| actual.parameter(&format!("joint.{joint}.{audit}.audit")) == Some(1.0);
+    let mut table = Table::default();
+    table.row(["joint", "largest force", "fastest touch", "touches", "friction work", "sliding", "work of wear"]);
+    for joint in JOINTS.into_iter().filter(|joint| asked(joint, "peak") || asked(joint, "wear")) {
+        let column = |name: &str| actual.column(&format!("joint.{joint}.{name}"));
+        let of = |name: &str, unit: &str, audit: &str| -> Result<String> {
+            let number = largest(column(name)?);
+            Ok(if asked(joint, audit) { Shown::of(unit, number).print(number) } else { "–".into() })
+        };
+        let (speed, touches) = (largest(column("impact.speed")?), largest(column("impacts")?));
+        table.row([
+            joint.into(),
+            of("force.peak", "N", "peak")?,
+            Shown::of("m/s", speed).print(speed),
+            grouped(touches),
+            of("friction.work", "J", "wear")?,
+            of("sliding", "m", "wear")?,
+            of("wear.work", "J", "wear")?,
+        ]);
+    }
+    Ok(if table.lines().len() > 1 { Some(table) } else { None })
+}
+
+/// Table of the energy audit at the end of the run; `None` without one.
+pub fn energies(actual: &Recording) -> Result<Option<Table>> {
+    if actual.parameter("energy.audit") != Some(1.0) {
+        return Ok(None);
+    }
+    let mut table = Table::default();
+    table.row(["energy at the end", ""]);
+    for name in
+        ["kinetic", "potential", "input", "contact_loss", "friction_loss", "viscous_loss", "modal_loss", "residual"]
+    {
+        let energy = actual.column(&format!("energy.{name}"))?.last().copied().unwrap_or_default();
+        table.row([name.replace('_', " "), Shown::of("J", energy.abs()).print(energy)]);
+    }
+    Ok(Some(table))
 }
 
 fn peak(table: &mut Table, name: &str, unit: &str, columns: [Result<Vec<f64>>; 2]) -> Result<()> {
