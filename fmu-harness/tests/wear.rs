@@ -28,12 +28,12 @@ mass = 2
 com = { x = 0, y = 0 }
 
 [rod]
-mass = 1e-9
-inertia = 1e-9
+mass = 1e-12
+inertia = 1e-15
 
 [slider]
-mass = 1e-9
-inertia = 1e-9
+mass = 1e-12
+inertia = 1e-15
 
 [joint.A]
 model = "clearance"

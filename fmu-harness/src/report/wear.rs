@@ -6,6 +6,7 @@ use super::units::{Shown, three_digits};
 use crate::frame::{Column, Frame};
 use crate::sweep::quantity::Reduction;
 use crate::wear::Worn;
+use crate::wear::extrapolation::Extrapolation;
 use crate::wear::joint::Wearing;
 
 /// What the numbers are, and are not.
@@ -69,13 +70,20 @@ pub fn history(worn: &Worn, joints: &[Wearing]) -> Table {
         let mut line = vec![format!("{strokes:.3e}")];
         for state in states.iter().map(|states| &states[row]) {
             line.push(format!("{:.3}", MICRO * state.clearance));
-            line.extend([state.error, state.scatter].map(|part| three_digits(MICRO * part)));
-            line.extend(state.growth.map(|part| three_digits(PICO * part)));
+            line.extend([state.error, state.scatter].map(|part| uncertainty(MICRO * part)));
+            let [growth, error] = state.growth.map(|part| PICO * part);
+            line.extend([three_digits(growth), uncertainty(error)]);
         }
-        line.extend(worn.run_after(row).dead_centre.map(|part| three_digits(MICRO * part)));
+        let [mean, error] = worn.run_after(row).dead_centre.map(|part| MICRO * part);
+        line.extend([three_digits(mean), uncertainty(error)]);
         table.line(line);
     }
     table
+}
+
+/// An error with three digits, however small.
+fn uncertainty(error: f64) -> String {
+    if (f64::MIN_POSITIVE..1e-3).contains(&error) { format!("{error:.2e}") } else { three_digits(error) }
 }
 
 /// Worn depths of bearing and journal of each joint at the end.
@@ -108,9 +116,8 @@ fn middle(sector: usize, sectors: usize) -> f64 {
 
 /// A sentence on the work that the extrapolation took.
 pub fn effort(worn: &Worn) -> String {
-    let extrapolation = &worn.extrapolation;
-    let steps = extrapolation.steps.len();
-    format!("{steps} steps, {} tried again shorter, {} runs", extrapolation.rejected, worn.runs.len())
+    let Extrapolation { steps, rejected, .. } = &worn.extrapolation;
+    format!("Steps: {}; tried again, shorter: {rejected}; runs: {}", steps.len(), worn.runs.len())
 }
 
 /// Depths over the angle in each body, and clearance and bottom dead centre over the strokes.

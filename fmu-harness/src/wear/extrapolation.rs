@@ -70,7 +70,7 @@ impl Extrapolation {
 impl Step {
     /// Increment of a quantity whose growth at the first three stages is `rates`.
     pub fn increment(&self, rates: [f64; 3]) -> f64 {
-        self.length * rates.iter().zip(WEIGHTS).map(|(rate, weight)| weight * rate).sum::<f64>()
+        self.length * weighted(rates)
     }
 
     /// Error estimate relative to its bound, of the component for which this is largest.
@@ -81,6 +81,11 @@ impl Step {
         };
         (0..self.state.len()).map(ratio).fold(0.0, f64::max)
     }
+}
+
+/// Mean growth of a step, from the growth at its first three stages.
+fn weighted(rates: [f64; 3]) -> f64 {
+    rates.iter().zip(WEIGHTS).map(|(rate, weight)| weight * rate).sum()
 }
 
 /// Follows the growth from `start` over `total` strokes, with the relative error `tolerance` in each step.
@@ -126,12 +131,12 @@ pub fn extrapolate(
         done.rejected += 1;
         length *= factor;
         if length < SHORTEST {
-            done.stopped = Some(why.context(format!("stopped after {strokes:.6e} of {total:e} strokes")));
+            done.stopped = Some(why.context(format!("stopped after {strokes:.4e} of {total:e} strokes")));
             return Ok(done);
         }
     }
     done.stopped =
-        Some(anyhow!("stopped after {strokes:.6e} of {total:e} strokes: {MOST_ATTEMPTS} steps were not enough"));
+        Some(anyhow!("stopped after {strokes:.4e} of {total:e} strokes: {MOST_ATTEMPTS} steps were not enough"));
     Ok(done)
 }
 
@@ -144,7 +149,7 @@ struct Evaluations<F> {
 impl<F: FnMut(f64, &[f64]) -> Result<Growth>> Evaluations<F> {
     /// Number of a new evaluation.
     fn at(&mut self, strokes: f64, state: &[f64]) -> Result<usize> {
-        let found = (self.growth)(strokes, state).with_context(|| format!("at {strokes:.6e} strokes, {state:?}"))?;
+        let found = (self.growth)(strokes, state).with_context(|| format!("at {strokes:.4e} strokes"))?;
         self.known.push(found);
         Ok(self.known.len() - 1)
     }
@@ -158,7 +163,7 @@ impl<F: FnMut(f64, &[f64]) -> Result<Growth>> Evaluations<F> {
         let third = self.at(strokes + 0.75 * length, &along(&self.known[second], 0.75))?;
         let stages = [first, second, third].map(|stage| self.known[stage].clone());
         let all = 0..state.len();
-        let sum = |place: usize| stages.iter().zip(WEIGHTS).map(|(k, weight)| weight * k.mean[place]).sum::<f64>();
+        let sum = |place: usize| weighted(stages.each_ref().map(|k| k.mean[place]));
         let end: Vec<f64> = all.clone().map(|place| state[place] + length * sum(place)).collect();
         let fourth = self.at(strokes + length, &end)?;
         let last = &self.known[fourth];
@@ -239,7 +244,7 @@ mod tests {
         let end = found.steps.last().expect("a step").state[0];
         assert!((70e-6 - end) / 70e-6 < 1e-6, "{end:e}");
         let why = format!("{:#}", found.stopped.expect("a reason"));
-        assert!(why.starts_with("stopped after 1.0000") && why.contains("too far"), "{why}");
+        assert!(why.starts_with("stopped after 1.0000e7 of 1.5e7 strokes: ") && why.contains("too far"), "{why}");
         assert!(extrapolate(&[80e-6], STROKES, 1e-4, limited).is_err());
     }
 }

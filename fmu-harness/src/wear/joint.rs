@@ -13,6 +13,9 @@ use std::str::FromStr;
 /// [m²/N] Coefficients from a well oiled to a dry joint of soft metal. Others are accepted, with a warning.
 pub const PLAUSIBLE: RangeInclusive<f64> = 1e-19..=1e-11;
 
+/// Largest clearance that is followed, relative to the bearing's radius before wear.
+const LOOSEST: f64 = 0.1;
+
 /// Coefficients of a joint, as the command line gives them: `B=1e-16`, or `B=1e-16,3e-16` for bearing and journal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients {
@@ -77,12 +80,27 @@ impl Wearing {
             _ => bail!("joint {joint} is not a journal in a bearing"),
         };
         ensure!(*model == JointModel::Clearance, "joint {joint} is ideal; only a joint with clearance wears");
+        ensure!(contact.width > 0.0, "joint {joint} has the width 0 m; without a width its depth of wear is unknown");
         Ok(Self { letter: joint, coefficients: values, radius: *radius, clearance: *clearance, width: contact.width })
     }
 
     /// Name of one of its variables.
     pub fn variable(&self, name: &str) -> String {
         format!("joint.{}.{name}", self.letter)
+    }
+
+    /// Checks that the joint is still a bearing with this clearance.
+    ///
+    /// # Errors
+    /// If the clearance is a large part of the radius.
+    pub fn admit(&self, clearance: f64) -> Result<()> {
+        let limit = LOOSEST * self.radius;
+        ensure!(
+            clearance <= limit,
+            "a clearance of {clearance:.3e} m in joint {} is above a tenth of the radius, {limit:.3e} m",
+            self.letter
+        );
+        Ok(())
     }
 
     /// [m] Radii of bearing and journal when the clearance has grown to `clearance`.
@@ -145,28 +163,28 @@ impl Wearing {
         for row in 1..trajectory.len() {
             let (before, after) = (stroke(row - 1), stroke(row));
             let total = sum[row] - sum[row - 1];
-            // A step that ends in the next stroke is divided in proportion to the angle.
-            let mut counted = 0.0;
+            let angle = |row: usize| y[row].atan2(x[row]);
+            let [first, last] = match [contact[row - 1], contact[row]].map(|closed| closed > 0.5) {
+                [true, false] => [row - 1, row - 1],
+                [false, true] => [row, row],
+                _ => [row - 1, row],
+            };
+            let from = Place::of(angle(first), [bearing[row - 1], journal[row - 1]]);
+            let to = Place::of(angle(last), [bearing[row], journal[row]]);
+            // A step that ends in the next stroke is divided in proportion to the angle, its arc with it.
             for number in before.max(0.0).floor() as usize..turns {
-                let covered = after.min(number as f64 + 1.0) - before.max(number as f64);
-                if covered <= 0.0 {
+                let (low, high) = (before.max(number as f64), after.min(number as f64 + 1.0));
+                if high <= low {
                     break;
                 }
+                let part = [low, high].map(|stroke| (stroke - before) / (after - before));
+                let own = total * (part[1] - part[0]);
                 points[number] += 1;
-                work.strokes[number] += total * covered / (after - before);
-                counted += covered / (after - before);
-            }
-            if total * counted > 0.0 {
-                let angle = |row: usize| y[row].atan2(x[row]);
-                let [first, last] = match [contact[row - 1], contact[row]].map(|closed| closed > 0.5) {
-                    [true, false] => [row - 1, row - 1],
-                    [false, true] => [row, row],
-                    _ => [row - 1, row],
-                };
-                let from = Place::of(angle(first), [bearing[row - 1], journal[row - 1]]);
-                let to = Place::of(angle(last), [bearing[row], journal[row]]);
-                work.bodies[0].spread(total * counted, from.bearing, to.bearing);
-                work.bodies[1].spread(total * counted, from.journal, to.journal);
+                work.strokes[number] += own;
+                if own > 0.0 {
+                    work.bodies[0].spread(own, [from.bearing, to.bearing], part);
+                    work.bodies[1].spread(own, [from.journal, to.journal], part);
+                }
             }
         }
         let least = points.iter().min().copied().unwrap_or_default();

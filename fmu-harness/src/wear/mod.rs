@@ -124,8 +124,9 @@ impl<'a> Study<'a> {
     /// Sliding work with these clearances, from the journal or else from a run, which is then added to the journal.
     ///
     /// # Errors
-    /// If the run does not come to its end.
+    /// If a clearance is too large, or the run does not come to its end.
     pub fn measure(&self, strokes: f64, clearances: &[f64], journal: &Journal) -> Result<Measured> {
+        self.joints.iter().zip(clearances).try_for_each(|(joint, clearance)| joint.admit(*clearance))?;
         let shape: Vec<f64> =
             self.joints.iter().zip(clearances).flat_map(|(joint, own)| [*own, joint.radii(*own)[0]]).collect();
         let known = journal.lines().into_values().find_map(|line| match line.outcome {

@@ -31,13 +31,14 @@ impl Sectors {
         Self { work: vec![0.0; number] }
     }
 
-    /// Spreads `work` evenly over the arc between two angles [rad], taken the short way.
-    pub fn spread(&mut self, work: f64, from: f64, to: f64) {
+    /// Spreads `work` evenly over a part of the arc between two angles [rad], taken the short way. The part is given by its
+    /// ends as shares of the arc; 0 and 1 are the whole arc.
+    pub fn spread(&mut self, work: f64, [from, to]: [f64; 2], part: [f64; 2]) {
         let number = self.work.len();
         // Both ends in sectors from the body's axis.
         let per_turn = number as f64 / TAU;
         let arc = (to - from + PI).rem_euclid(TAU) - PI;
-        let ends = [from, from + arc].map(|angle| angle * per_turn);
+        let ends = part.map(|share| (from + share * arc) * per_turn);
         let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
         let place = |sector: f64| sector.rem_euclid(number as f64) as usize % number;
         let (first, last) = (low.floor(), high.floor());
@@ -59,7 +60,7 @@ mod tests {
 
     fn spread(from: f64, to: f64) -> Vec<f64> {
         let mut sectors = Sectors::new(8);
-        sectors.spread(8.0, from * TAU / 8.0, to * TAU / 8.0);
+        sectors.spread(8.0, [from, to].map(|sector| sector * TAU / 8.0), [0.0, 1.0]);
         sectors.work
     }
 
@@ -75,6 +76,9 @@ mod tests {
         near(&spread(7.5, 0.5), [4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0]);
         near(&spread(0.5, 7.5 + 80.0), [4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 4.0]);
         near(&spread(-17.0, -17.0), [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 8.0]);
+        let mut part = Sectors::new(8);
+        part.spread(8.0, [0.5, 2.5].map(|sector| sector * TAU / 8.0), [0.25, 0.75]);
+        near(&part.work, [0.0, 8.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         let all: f64 = (0..1000).map(|i| spread(f64::from(i) * 0.37, f64::from(i) * 0.91).iter().sum::<f64>()).sum();
         assert!((all - 8000.0).abs() < 1e-9, "{all}");
     }
