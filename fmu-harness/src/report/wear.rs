@@ -29,6 +29,9 @@ struct State {
     growth: [f64; 2],
 }
 
+/// A quantity of a state: name, and function that reads it.
+type Field = (&'static str, fn(&State) -> f64);
+
 /// Strokes at the start and after each step.
 fn strokes(worn: &Worn) -> Vec<f64> {
     let mut sum = 0.0;
@@ -191,7 +194,7 @@ pub fn history_frame(worn: &Worn, joints: &[Wearing]) -> Frame {
     let mut frame = Frame::default().reals("strokes", strokes(worn));
     for (number, joint) in joints.iter().enumerate() {
         let states = states(worn, joints, number);
-        let columns: [(&str, fn(&State) -> f64); 5] = [
+        let columns: [Field; 5] = [
             ("clearance", |state| state.clearance),
             ("clearance.error", |state| state.error),
             ("clearance.scatter", |state| state.scatter),

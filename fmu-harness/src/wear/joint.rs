@@ -172,15 +172,16 @@ impl Wearing {
             let from = Place::of(angle(first), [bearing[row - 1], journal[row - 1]]);
             let to = Place::of(angle(last), [bearing[row], journal[row]]);
             // A step that ends in the next stroke is divided in proportion to the angle, its arc with it.
-            for number in before.max(0.0).floor() as usize..turns {
+            let strokes = work.strokes.iter_mut().zip(&mut points).enumerate();
+            for (number, (own_work, points)) in strokes.skip(before.max(0.0).floor() as usize) {
                 let (low, high) = (before.max(number as f64), after.min(number as f64 + 1.0));
                 if high <= low {
                     break;
                 }
                 let part = [low, high].map(|stroke| (stroke - before) / (after - before));
                 let own = total * (part[1] - part[0]);
-                points[number] += 1;
-                work.strokes[number] += own;
+                *points += 1;
+                *own_work += own;
                 if own > 0.0 {
                     work.bodies[0].spread(own, [from.bearing, to.bearing], part);
                     work.bodies[1].spread(own, [from.journal, to.journal], part);
