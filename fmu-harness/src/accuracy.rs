@@ -6,12 +6,18 @@ use anyhow::{Context, Result};
 use rayon::prelude::*;
 use slidercrank::model::rod::Rod;
 use slidercrank::model::signals::Outputs;
-use slidercrank::scene::JointModel;
 use slidercrank::scene::read::SceneFile;
+use slidercrank::scene::{JointModel, Scene};
 use std::f64::consts::{PI, TAU};
 
 /// Communication points per turn.
 const POINTS: usize = 720;
+
+/// [rad] Crank angle at which the slider of the ideal mechanism is farthest from the crank: crank and rod are in line.
+pub fn farthest(scene: &Scene) -> f64 {
+    let height = scene.guide.offset - scene.slider.centre.y;
+    (height / (scene.crank.length + scene.rod.length)).asin()
+}
 
 /// Length of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

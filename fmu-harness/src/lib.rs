@@ -21,3 +21,4 @@ pub mod scenes;
 pub mod ssp;
 pub mod sweep;
 pub mod trajectory;
+pub mod wear;

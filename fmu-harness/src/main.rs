@@ -3,6 +3,7 @@
 use clap::{Parser, Subcommand};
 use fmu_harness::command::{
     Accuracy, Campaign, Dynamics, Effects, Inspect, Laws, Package, Peers, Precision, Realtime, Report, Run, Ssp, Sweep,
+    Wear,
 };
 use std::process::ExitCode;
 
@@ -49,6 +50,8 @@ enum Command {
     Ssp(Ssp),
     /// Runs a study: many runs with different parameters
     Sweep(Sweep),
+    /// Wears the joints of a scene over many strokes
+    Wear(Wear),
 }
 
 fn main() -> ExitCode {
@@ -69,6 +72,7 @@ fn main() -> ExitCode {
         Some(Command::Campaign(campaign)) => campaign.execute(),
         Some(Command::Ssp(ssp)) => ssp.execute(),
         Some(Command::Sweep(sweep)) => sweep.execute(),
+        Some(Command::Wear(wear)) => wear.execute(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -79,6 +79,7 @@ fn run_comes_to_the_end_of_every_scene() {
 #[test]
 fn the_other_commands_have_a_number_in_every_row() {
     let study = directory().with_file_name("studies").join("speed-and-clearance.toml").display().to_string();
+    let wear = ["--transient", "1", "--turns", "3", "--tolerance", "0.1"];
     let commands = [
         vec!["effects", "--quick"],
         vec!["laws", "--turns", "0.1"],
@@ -87,6 +88,8 @@ fn the_other_commands_have_a_number_in_every_row() {
         vec!["report", "--unmeasured", "--transient", "2", "--turns", "6"],
         vec!["campaign", "--kind", "machines", "--scenes", "8", "--turns", "5"],
         vec!["sweep", &study, "--plan"],
+        [&["wear", "--coefficient", "B=1e-17", "--coefficient", "C=1e-17,3e-17", "--strokes", "1e6"], &wear[..]]
+            .concat(),
     ];
     commands.iter().for_each(|command| all_end_well(std::slice::from_ref(command)));
 }

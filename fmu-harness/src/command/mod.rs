@@ -14,6 +14,7 @@ mod report;
 mod run;
 mod ssp;
 mod sweep;
+mod wear;
 
 pub use accuracy::Accuracy;
 pub use campaign::Campaign;
@@ -29,6 +30,7 @@ pub use report::Report;
 pub use run::Run;
 pub use ssp::Ssp;
 pub use sweep::Sweep;
+pub use wear::Wear;
 
 use crate::package::build::workspace;
 use std::env;

@@ -24,3 +24,4 @@ pub mod summary;
 pub mod table;
 mod thinning;
 pub mod units;
+pub mod wear;

@@ -88,14 +88,19 @@ impl Plan {
 
     /// Digest of all names and values and of `parts`. It identifies the study of a journal.
     pub fn digest(&self, parts: &[&str]) -> String {
-        let mut digest = Sha256::new();
-        for text in self.names.iter().map(String::as_str).chain(parts.iter().copied()) {
-            digest.update((text.len() as u64).to_le_bytes());
-            digest.update(text);
-        }
-        self.values.iter().for_each(|value| digest.update(value.to_le_bytes()));
-        digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        digest(self.names.iter().map(String::as_str).chain(parts.iter().copied()), &self.values)
     }
+}
+
+/// Digest of texts and numbers.
+pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>, numbers: &[f64]) -> String {
+    let mut digest = Sha256::new();
+    for text in texts {
+        digest.update((text.len() as u64).to_le_bytes());
+        digest.update(text);
+    }
+    numbers.iter().for_each(|number| digest.update(number.to_le_bytes()));
+    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Names of parameters, and rows of their values.
