@@ -20,8 +20,8 @@ const STEPS: usize = 20;
 const SCENE: &str = "SLIDERCRANK_TEST_SCENE";
 /// And whether another method is to integrate it than its own.
 const METHOD: &str = "SLIDERCRANK_TEST_METHOD";
-/// Modes for the rod of the scene `flexrod`.
-const MODES: &str = "modes/steel-beam.toml";
+/// Folder of tables of modes, which the rod of the scene `flexrod` takes in turn.
+const MODES: &str = "modes";
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-harness/scenes")
@@ -47,11 +47,12 @@ fn file(path: &Path) -> SceneFile {
         let text = std::fs::read_to_string(path).expect("a shipped scene");
         read(&text, &path.display().to_string()).expect("a legal scene")
     };
-    if !path.ends_with(MODES) {
+    if !path.parent().is_some_and(|folder| folder.ends_with(MODES)) {
         return read_from(path);
     }
+    let table = path.strip_prefix(folder()).expect("a shipped table").display();
     let mut flexrod = read_from(&folder().join("flexrod.toml"));
-    let told = format!("rod.flexible.table = \"{MODES}\"");
+    let told = format!("rod.flexible.table = \"{table}\"");
     let table = read(&told, &folder().join("flexrod.toml").display().to_string()).expect("a table").scene;
     flexrod.scene.rod.flexible.table = table.rod.flexible.table;
     assert!(flexrod.scene.rod.flexible.table.is_some());
