@@ -97,15 +97,19 @@ fn the_other_commands_have_a_number_in_every_row() {
 #[test]
 fn the_page_has_a_section_for_each_effect_that_the_scene_calls_for() {
     let folder = tempfile::tempdir().expect("a temporary directory");
-    for (scene, wanted) in [("effects/13-oil", true), ("wornpin", false)] {
-        let file = directory().join(format!("{scene}.toml")).display().to_string();
-        let arguments = ["report", "--scene", &file, "--unmeasured", "--transient", "1", "--turns", "6"];
-        let (status, text) = said(program().args(arguments).arg("-o").arg(folder.path()));
-        assert!(status.success(), "{scene}: {text}");
-        let name = scene.rsplit('/').next().unwrap_or(scene);
+    let text = std::fs::read_to_string(directory().join("wornpin.toml")).expect("a scene");
+    let oil = "lubrication = \"short_bearing\"\nroughness = \"10 um\"\npeak.audit = true\nwear.audit = true\n";
+    let with_oil = text.replace("[joint.C]\n", &format!("[energy]\naudit = true\n\n[joint.C]\n{oil}"));
+    for (name, text, wanted) in [("with-oil", with_oil, true), ("dry", text, false)] {
+        let file = folder.path().join(format!("{name}.toml"));
+        std::fs::write(&file, text).expect("written");
+        let mut command = program();
+        command.arg("report").arg("--scene").arg(&file).args(["--unmeasured", "--transient", "1", "--turns", "6"]);
+        let (status, text) = said(command.arg("-o").arg(folder.path()));
+        assert!(status.success(), "{name}: {text}");
         let page = std::fs::read_to_string(folder.path().join(format!("report-{name}.html"))).expect("a page");
         for heading in ["Oil", "Between communication points", "Energies"] {
-            assert_eq!(page.contains(&format!("<h2>{heading}</h2>")), wanted, "{scene}: {heading}");
+            assert_eq!(page.contains(&format!("<h2>{heading}</h2>")), wanted, "{name}: {heading}");
         }
     }
 }
