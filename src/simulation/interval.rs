@@ -5,7 +5,7 @@
 //! Legendre's rule between the zeros of the sliding velocities, where |v_t| has its kinks. An interval takes those
 //! maxima that lie in it, and the forces at its ends. None of this enters the integrator: the motion keeps its bits.
 
-use crate::integrator::{Integrator, Reader, Snapshot};
+use crate::integrator::{Integrator, Reader, Snapshot, StepPoint};
 use crate::math;
 use crate::model::contact::Rubbing;
 use crate::model::mechanism_model::MechanismModel;
@@ -37,6 +37,9 @@ const GAUSS: [(f64, f64); 3] = [
 
 /// Integrals of one joint: ∫f_t·v_t dt [J], ∫|v_t| dt [m] over closed contact, ∫f_n·|v_t| dt [J].
 type Integrals = [f64; 3];
+
+/// [N] Magnitudes of the joint forces, and sliding in the contacts.
+type Forces = ([f64; JOINTS], [Rubbing; CONTACTS]);
 
 /// A run under examination.
 pub struct Examined<'a> {
@@ -87,12 +90,22 @@ const NOTHING: Examination = Examination {
     whole: [[0.0; 3]; JOINTS],
 };
 
+fn forces(model: &dyn MechanismModel, observer: &Observer, conditions: &Conditions, t: f64, y: &[f64]) -> Forces {
+    let evaluation = model.evaluation(conditions, t, y);
+    (observer.joint_forces(&evaluation), model.rubbing(&conditions.contacts, &evaluation.pose, y))
+}
+
 impl Examined<'_> {
     /// Joint forces [N] and sliding at `t` in the last step.
-    fn at(&mut self, t: f64) -> ([f64; JOINTS], [Rubbing; CONTACTS]) {
+    fn at(&mut self, t: f64) -> Forces {
         let (y, conditions) = self.integrator.state_at(self.model, t);
-        let evaluation = self.model.evaluation(&conditions, t, y);
-        (self.observer.joint_forces(&evaluation), self.model.rubbing(&conditions.contacts, &evaluation.pose, y))
+        forces(self.model, self.observer, &conditions, t, y)
+    }
+
+    /// Joint forces [N] and sliding at the end of the last step, before the events there.
+    fn at_end(&self) -> Forces {
+        let StepPoint { t, y, discrete, .. } = self.integrator.state().end();
+        forces(self.model, self.observer, discrete, *t, y)
     }
 
     /// Sliding velocity [m/s] of one contact at `t` in the last step.
@@ -134,15 +147,20 @@ impl IntervalAudit {
         if self.last.span == run.span() {
             return;
         }
-        let Examination { span, maxima, at_end, whole, .. } = self.last;
-        for joint in 0..JOINTS {
-            let since = |t: f64| t > self.begin && t <= span[1];
-            let maxima = maxima[joint].into_iter().chain([(span[1], at_end[joint])]);
-            let largest = maxima.filter(|(t, _)| since(*t)).map(|(_, force)| force);
-            self.peak[joint] = largest.fold(self.peak[joint], f64::max);
-            self.sums[joint] = sum(self.sums[joint], whole[joint]);
-        }
+        let Examination { span: [_, end], whole, .. } = self.last;
+        self.peak = self.peak_until(end);
+        self.sums = std::array::from_fn(|joint| sum(self.sums[joint], whole[joint]));
         self.last = self.examined(run);
+    }
+
+    /// [N] Largest forces since the last communication point up to `t` in the last step, but for those at `t` itself.
+    fn peak_until(&self, t: f64) -> [f64; JOINTS] {
+        let Examination { span: [_, end], maxima, at_end, .. } = &self.last;
+        std::array::from_fn(|joint| {
+            let found = maxima[joint].into_iter().chain([(*end, at_end[joint])]);
+            let within = found.filter(|(time, _)| *time > self.begin && *time <= t).map(|(_, force)| force);
+            within.fold(self.peak[joint], f64::max)
+        })
     }
 
     /// Examines the last step anew if it is not the one that was examined: it may have been shortened.
@@ -155,17 +173,13 @@ impl IntervalAudit {
     /// Sets the outputs at `t` in the last step.
     pub fn set_outputs(&mut self, run: &mut Examined<'_>, t: f64, outputs: &mut Outputs) {
         self.refresh(run);
-        let at_point = run.at(t).0;
+        let (at_point, peak) = (run.at(t).0, self.peak_until(t));
         let [start, end] = self.last.span;
         let partial = if t >= end { self.last.whole } else { integrated(run, &self.last.kinks, [start, t]) };
         for joint in 0..JOINTS {
-            let Examination { maxima, at_end, .. } = &self.last;
-            let maxima = maxima[joint].into_iter().chain([(end, at_end[joint])]);
-            let within = maxima.filter(|(time, _)| *time > self.begin && *time <= t).map(|(_, force)| force);
-            let peak = within.fold(self.peak[joint].max(at_point[joint]), f64::max);
             let interval = outputs.interval_mut(joint);
             if self.peaks[joint] {
-                interval.force_peak = peak;
+                interval.force_peak = peak[joint].max(at_point[joint]);
             }
             if self.integrals[joint] {
                 let sums = sum(self.sums[joint], partial[joint]);
@@ -202,7 +216,7 @@ impl IntervalAudit {
         let (mut forces, mut sliding) = ([[0.0; SAMPLES]; JOINTS], [[0.0; SAMPLES]; CONTACTS]);
         for sample in 0..SAMPLES {
             // At the end the step is seen before the events there.
-            let (force, rubbing) = if sample == SAMPLES - 1 { self.before_events(run) } else { run.at(time(sample)) };
+            let (force, rubbing) = if sample == SAMPLES - 1 { run.at_end() } else { run.at(time(sample)) };
             for (forces, force) in forces.iter_mut().zip(force) {
                 forces[sample] = force;
             }
@@ -230,14 +244,6 @@ impl IntervalAudit {
             found.whole = integrated(run, &found.kinks, span);
         }
         found
-    }
-
-    /// Forces and sliding at the end of the last step, before the events there.
-    fn before_events(&self, run: &mut Examined<'_>) -> ([f64; JOINTS], [Rubbing; CONTACTS]) {
-        let end = run.integrator.state().end();
-        let evaluation = run.model.evaluation(&end.discrete, end.t, &end.y);
-        let rubbing = run.model.rubbing(&end.discrete.contacts, &evaluation.pose, &end.y);
-        (run.observer.joint_forces(&evaluation), rubbing)
     }
 }
 

@@ -76,25 +76,28 @@ fn state_at<'a>(
     integrator.state_at(model, t)
 }
 
+/// Shows each accepted step to the audit of intervals, if there is one.
+fn watch<'a>(
+    model: &'a dyn MechanismModel,
+    observer: &'a Observer,
+    audit: &'a mut Option<Box<IntervalAudit>>,
+) -> impl FnMut(&mut Integrator<Conditions>) + 'a {
+    move |integrator| {
+        if let Some(audit) = audit {
+            audit.step(&mut Examined { model, observer, integrator });
+        }
+    }
+}
+
 impl Motion for Run {
     fn advance(&mut self, t: f64) -> Result<(), IntegrationError> {
         let Self { model, integrator, observer, audit, .. } = self;
-        let model = model.as_ref();
-        integrator.advance_watched(model, t, &mut |integrator| {
-            if let Some(audit) = audit {
-                audit.step(&mut Examined { model, observer, integrator });
-            }
-        })
+        integrator.advance_watched(model.as_ref(), t, &mut watch(model.as_ref(), observer, audit))
     }
 
     fn advance_to_event(&mut self, after: f64, t: f64) -> Result<Option<f64>, IntegrationError> {
         let Self { model, integrator, observer, audit, .. } = self;
-        let model = model.as_ref();
-        integrator.advance_to_event_watched(model, after, t, &mut |integrator| {
-            if let Some(audit) = audit {
-                audit.step(&mut Examined { model, observer, integrator });
-            }
-        })
+        integrator.advance_to_event_watched(model.as_ref(), after, t, &mut watch(model.as_ref(), observer, audit))
     }
 
     fn begin_interval(&mut self, t: f64) {
