@@ -6,8 +6,9 @@ use anyhow::{Context, Result};
 use rayon::prelude::*;
 use slidercrank::model::rod::Rod;
 use slidercrank::model::signals::Outputs;
+use slidercrank::scene::check::MAX_ROUGHNESS;
 use slidercrank::scene::read::SceneFile;
-use slidercrank::scene::{JointModel, Scene};
+use slidercrank::scene::{JointModel, Lubrication, Scene};
 use std::f64::consts::{PI, TAU};
 
 /// Communication points per turn.
@@ -134,7 +135,8 @@ pub fn sixteen(file: &SceneFile) -> Vec<Case> {
         .collect()
 }
 
-/// The scene with all clearances multiplied by each factor.
+/// The scene with all clearances multiplied by each factor; the surfaces of lubricated joints are then at most as rough as
+/// their clearance admits.
 pub fn clearances(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
     let scaled = |factor: &f64| {
         let mut file = file.clone();
@@ -143,6 +145,11 @@ pub fn clearances(file: &SceneFile, factors: &[f64]) -> Vec<Case> {
             [&mut joint.a.clearance, &mut joint.b.clearance, &mut joint.c.clearance, &mut joint.t.clearance]
         {
             *clearance *= factor;
+        }
+        for joint in [&mut joint.a, &mut joint.b, &mut joint.c] {
+            if joint.lubrication != Lubrication::None {
+                joint.roughness = joint.roughness.min(MAX_ROUGHNESS * joint.clearance);
+            }
         }
         Case { name: format!("clearance × {factor}"), file }
     };

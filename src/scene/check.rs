@@ -9,6 +9,8 @@ use crate::model_description::number::number;
 
 /// Smallest restitution for a damping law whose factor is unbounded as the restitution tends to 0.
 pub const LEAST_RESTITUTION: f64 = 0.02;
+/// Largest roughness of a lubricated joint over its clearance.
+pub const MAX_ROUGHNESS: f64 = 0.1;
 /// Largest Poisson's ratio of an elastic layer; an incompressible layer would be rigid.
 const MAX_POISSON_OF_LAYER: f64 = 0.49;
 
@@ -113,7 +115,7 @@ fn check_layer(letter: &str, joint: &Revolute) -> Result<(), SceneError> {
 
 /// A lubricated joint: the length of its bearing and the roughness of its surfaces.
 fn check_oil(letter: &str, joint: &Revolute) -> Result<(), SceneError> {
-    let (width, roughness, most) = (joint.contact.width, joint.roughness, 0.1 * joint.clearance);
+    let (width, roughness, most) = (joint.contact.width, joint.roughness, MAX_ROUGHNESS * joint.clearance);
     rule(width > 0.0, letter, "width", width, || "above 0 m for lubrication short_bearing".into())?;
     rule(roughness > 0.0 && roughness <= most, letter, "roughness", roughness, || {
         format!("above 0 m, at most {} m, a tenth of joint.{letter}.clearance, with lubrication", number(most))
