@@ -26,6 +26,10 @@ impl Slave {
     }
 
     pub fn new_discrete_states(&self) -> fmi2EventInfo {
+        self.try_new_discrete_states().map_err(|status| (status, self.log.take())).expect("an update")
+    }
+
+    pub fn try_new_discrete_states(&self) -> Result<fmi2EventInfo, Status> {
         let mut info = fmi2EventInfo {
             new_discrete_states_needed: -1,
             terminate_simulation: -1,
@@ -36,8 +40,7 @@ impl Slave {
         };
         // SAFETY: live component, one place.
         let status = unsafe { (self.api.NewDiscreteStates)(self.c, &mut info) };
-        assert_eq!(status, Status::Ok, "{:?}", self.log.take());
-        info
+        if status == Status::Ok { Ok(info) } else { Err(status) }
     }
 
     /// Whether to enter event mode, and whether to terminate.

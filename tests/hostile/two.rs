@@ -6,7 +6,6 @@ use crate::host::Slave;
 use crate::host::log::Line;
 use slidercrank::fmi::slave::{Interface, ValueType};
 use slidercrank::fmi::v2::Status;
-use slidercrank::fmi::v2::abi::types::fmi2EventInfo;
 use slidercrank::fmi::v2::fmu_state::FmuState;
 use slidercrank::fmi::v2::lifecycle::{Call, State};
 use slidercrank::simulation::Snapshot;
@@ -322,16 +321,7 @@ impl Exchanged for Exchange {
     }
 
     fn update(&self) -> Result<[bool; 2], Status> {
-        let mut info = fmi2EventInfo {
-            new_discrete_states_needed: -1,
-            terminate_simulation: -1,
-            nominals_of_continuous_states_changed: -1,
-            values_of_continuous_states_changed: -1,
-            next_event_time_defined: -1,
-            next_event_time: -1.0,
-        };
-        // SAFETY: live component, one place.
-        outcome(unsafe { (self.api.NewDiscreteStates)(self.c, &mut info) })?;
+        let info = self.try_new_discrete_states()?;
         Ok([info.new_discrete_states_needed != 0, info.terminate_simulation != 0])
     }
 
