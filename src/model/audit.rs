@@ -1,8 +1,8 @@
 //! The energy audit: works and losses, integrated with the motion.
 //!
 //! An audited mechanism has seven additional first-order states: the works of the torque, the load and the normal
-//! forces; the losses of friction, viscous damping with oil films, and modal damping; and the initial energy, which is constant. They
-//! depend on the motion and are not in the error norm: an audit changes no bit of the motion.
+//! forces; the losses of friction, viscous damping with oil films, and modal damping; and the initial energy, which is
+//! constant. They depend on the motion and are not in the error norm: an audit changes no bit of the motion.
 //!
 //! The loss of contacts is the work of normal forces less the elastic energy stored in the contacts. The power of
 //! normal forces tends to 0 where a contact without adhesion opens. The loss itself has corners there, which long steps

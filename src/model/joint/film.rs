@@ -120,7 +120,7 @@ impl Film {
         torque * (journal.journal_speed - journal.bearing_speed) - force.dot(velocity)
     }
 
-    /// [m] The thickness above which the resistance is that of a film between smooth walls, less than the film has.
+    /// [m] Thickness of the film less 5σ: at 0 the curvature of the resistance over the thickness jumps.
     pub fn discontinuity(&self, journal: &JournalMotion) -> f64 {
         self.clearance - journal.eccentricity.norm() - THIN * self.roughness
     }
