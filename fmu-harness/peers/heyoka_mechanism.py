@@ -283,8 +283,11 @@ class Mechanism:
     def accelerations(self, loads):
         """Second derivatives of the coordinates; `loads(forces)` adds the contacts' forces."""
         mass, forces = self.masses()
+        angle = self.a["gravity.angle"]
+        # The cosine of -pi/2 is rounded.
+        fall = self.a["gravity"] * np.array([0.0, -1.0] if angle == -math.pi / 2 else [math.cos(angle), math.sin(angle)])
         for body, centre in self.centres.items():
-            self.add(forces, centre, np.array([0.0, -self.a[f"{body}.mass"] * self.a["gravity"]]))
+            self.add(forces, centre, self.a[f"{body}.mass"] * fall)
         self.add(forces, self.pin, np.array([self.inputs["slider_load"], 0.0]))
         self.twist(forces, "crank", self.inputs["crank_torque"])
         for joint, (bearing, journal) in BODIES.items():

@@ -81,6 +81,7 @@ def constants(parameters):
         "drive.mode": 2, "joint.A.model": 1, "joint.B.model": 1, "joint.T.model": 1, "joint.C.model": CLEARANCE,
         "joint.C.law": LANKARANI_NIKRAVESH, "joint.C.friction.law": AMBROSIO, "joint.C.exponent": 1.5,
         "rod.com.y": 0.0, "rod.flexible.bending_modes": 0, "rod.flexible.axial_modes": 0, "slider.centre.y": 0.0,
+        "gravity.angle": -math.pi / 2, "slider.load.offset": 0.0,
     }  # fmt: skip
     other = {name: a(name) for name, value in expected.items() if a(name) != value}
     if other:

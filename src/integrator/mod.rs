@@ -26,6 +26,7 @@ mod step_control;
 mod stepper;
 pub mod system;
 mod tableau;
+pub mod tangent;
 mod truncate;
 mod unilateral;
 

@@ -22,6 +22,7 @@ use crate::integrator::{
 };
 use crate::math::F64x8;
 use crate::scene::Scene;
+use std::ops::Range;
 
 /// The model of a scene: a mechanism and the functions that are compiled for its structure.
 #[derive(Clone, Debug)]
@@ -235,6 +236,25 @@ impl MechanismModel for Model {
     fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS] {
         let Mechanism { clearances, structure, .. } = &self.mechanism;
         clearances.rubbing(structure.play, contacts, pose, &y[2 * self.mechanism.positions()..])
+    }
+
+    fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS] {
+        let Mechanism { clearances, structure, .. } = &self.mechanism;
+        clearances.penetrations(structure.play, &self.mechanism.pose(t, y))
+    }
+
+    fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS] {
+        self.mechanism.tangent_approaches(t, y)
+    }
+
+    fn bristles_of(&self, contact: usize) -> Range<usize> {
+        let first = 2 * self.mechanism.positions();
+        let of_contact = self.mechanism.clearances.bristles.iter().position(|&bristled| bristled == contact);
+        of_contact.map_or(first..first, |place| first + place..first + place + 1)
+    }
+
+    fn speed_floor(&self, contact: usize) -> f64 {
+        self.mechanism.clearances.speed_floor(contact)
     }
 
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {

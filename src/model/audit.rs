@@ -31,6 +31,7 @@ use crate::integrator::{
 };
 use crate::math::Real;
 use crate::scene::Scene;
+use std::ops::Range;
 
 /// Number of states of an audit.
 pub const STATES: usize = 7;
@@ -267,6 +268,22 @@ impl MechanismModel for Audited {
 
     fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS] {
         self.model.rubbing(contacts, pose, &y[..self.first()])
+    }
+
+    fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS] {
+        self.model.approaches(t, &y[..self.first()])
+    }
+
+    fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS] {
+        self.model.tangent_approaches(t, &y[..self.first()])
+    }
+
+    fn bristles_of(&self, contact: usize) -> Range<usize> {
+        self.model.bristles_of(contact)
+    }
+
+    fn speed_floor(&self, contact: usize) -> f64 {
+        self.model.speed_floor(contact)
     }
 
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {

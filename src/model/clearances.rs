@@ -187,8 +187,8 @@ impl Clearances {
 
     /// Penetration [m] and approach speed [m/s] of every contact; −∞ and 0 for a joint without clearance.
     #[inline(always)]
-    pub fn penetrations(&self, play: JointSet, pose: &Pose) -> [(f64, f64); CONTACTS] {
-        let mut all = [(f64::NEG_INFINITY, 0.0); CONTACTS];
+    pub fn penetrations<R: Scalar>(&self, play: JointSet, pose: &Pose<R>) -> [(R, R); CONTACTS] {
+        let mut all = [(R::constant(f64::NEG_INFINITY), R::ZERO); CONTACTS];
         for pin in play.pins() {
             let (revolute, journal) = (&self.revolute[pin as usize], pose.journal(pin));
             all[pin as usize] = (revolute.penetration(&journal), revolute.penetration_rate(&journal));
@@ -311,6 +311,11 @@ impl Clearances {
             }
         }
         contacts
+    }
+
+    /// [m/s] The smallest approach speed that a contact remembers.
+    pub fn speed_floor(&self, index: usize) -> f64 {
+        self.contact(index).speed_floor
     }
 
     fn contact(&self, index: usize) -> &ContactParameters {

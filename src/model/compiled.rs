@@ -253,7 +253,16 @@ impl Mechanism {
     /// Angles, places and velocities with a flexible rod, and its chord.
     #[inline(never)]
     pub(super) fn pose_and_chord(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
-        with_capacity!(rod, self.flexible_pose(rod, t, y))
+        with_capacity!(rod, self.flexible_pose::<f64>(rod, t, y))
+    }
+
+    /// Angles, places and velocities with derivatives.
+    #[inline(never)]
+    pub(super) fn tangent_pose(&self, t: Tangent, y: &[Tangent]) -> Pose<Tangent> {
+        match &self.rod {
+            Some(rod) => with_capacity!(rod, self.flexible_pose::<Tangent>(rod, t, y)).0,
+            None => self.configuration(&self.structure, t, y).pose,
+        }
     }
 
     /// The evaluation of an instant; writes the rates.

@@ -20,9 +20,9 @@ use super::modal::BentRod;
 use super::part::part;
 use super::plane::{Vec2, cross, perp};
 use super::rod::{Arrays, Chord, CompiledCounts, Inertia, Modes, Rod, Shape};
-use super::scalar::Scalar;
+use super::scalar::{Scalar, Tangent};
 use super::start::StartPose;
-use super::state::{Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
+use super::state::{CONTACTS, Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
 use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure, Topology};
 use crate::integrator::EventFunctions;
 use crate::math::{self, unroll};
@@ -346,16 +346,16 @@ impl Mechanism {
 
     /// The pose with a flexible rod, and its chord.
     #[inline(always)]
-    pub(super) fn flexible_pose<const K: usize, const F: usize>(
+    pub(super) fn flexible_pose<R: Scalar, const K: usize, const F: usize>(
         &self,
         rod: &FlexibleRod,
-        t: f64,
-        y: &[f64],
-    ) -> (Pose, Chord<f64>) {
+        t: R,
+        y: &[R],
+    ) -> (Pose<R>, Chord<R>) {
         let (of, p) = (&self.structure, self.positions());
         let (positions, rates) = y[..2 * p].split_at(p);
         let modes: Arrays<'_, K, F> = rod.modes.arrays();
-        let shape = modes.shape::<f64, super::rod::RuntimeCounts>(&positions[of.positions..], &rates[of.positions..]);
+        let shape = modes.shape::<R, super::rod::RuntimeCounts>(&positions[of.positions..], &rates[of.positions..]);
         (self.flexible_configuration(of, t, positions, rates, &shape).pose, shape.chord)
     }
 }
@@ -502,6 +502,12 @@ impl Mechanism {
             Some(rod) => self.pose_and_chord(rod, t, y).0,
             None => self.place(t, y).pose,
         }
+    }
+
+    /// Penetration [m] and approach speed [m/s] of every contact, with derivatives; −∞ and 0 for a joint without
+    /// clearance.
+    pub fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS] {
+        self.clearances.penetrations(self.structure.play, &self.tangent_pose(t, y))
     }
 
     /// Elastic energy of the closed contacts and the powers that they absorb.

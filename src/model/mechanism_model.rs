@@ -8,6 +8,7 @@ use super::signals::EnergyOutputs;
 use super::start::StartPose;
 use super::state::{CONTACTS, Conditions, Contacts, Evaluation, Pose};
 use crate::integrator::{Impulses, Unilateral};
+use std::ops::Range;
 
 /// A mechanism in minimal coordinates.
 pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
@@ -46,6 +47,18 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
 
     /// Sliding and forces of the closed contacts; zero in the open ones.
     fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS];
+
+    /// Penetration [m] and approach speed [m/s] of every contact; −∞ and 0 for a joint without clearance.
+    fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS];
+
+    /// [`MechanismModel::approaches`] with derivatives.
+    fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS];
+
+    /// The bristle states of a contact, which its opening sets to 0; empty without bristles.
+    fn bristles_of(&self, contact: usize) -> Range<usize>;
+
+    /// [m/s] The smallest approach speed that a contact remembers.
+    fn speed_floor(&self, contact: usize) -> f64;
 
     /// Writes the rates with derivatives.
     fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]);

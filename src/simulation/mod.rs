@@ -18,6 +18,7 @@ mod side;
 mod start;
 mod system;
 mod time_stepping;
+pub mod variation;
 
 pub use crate::integrator::Snapshot;
 pub use contacts::{CONTACTS, ContactReport, PINS, contacts};
@@ -172,13 +173,7 @@ impl Simulation {
     /// Sets the time to that of the error, and converts the error.
     fn failed(&mut self, error: IntegrationError) -> SimulationError {
         self.time = self.time.max(error.time());
-        let cause = match error {
-            IntegrationError::DeadEnd { .. } => DEAD_END.to_owned(),
-            IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
-            _ => error.to_string(),
-        };
-        let dead_end = matches!(error, IntegrationError::DeadEnd { .. });
-        SimulationError::Integration { time: error.time(), cause, dead_end }
+        failure(error)
     }
 
     /// Outputs at the communication point.
@@ -287,4 +282,15 @@ impl Simulation {
             )),
         }
     }
+}
+
+/// An integrator's error as a simulation's.
+fn failure(error: IntegrationError) -> SimulationError {
+    let cause = match error {
+        IntegrationError::DeadEnd { .. } => DEAD_END.to_owned(),
+        IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
+        _ => error.to_string(),
+    };
+    let dead_end = matches!(error, IntegrationError::DeadEnd { .. });
+    SimulationError::Integration { time: error.time(), cause, dead_end }
 }

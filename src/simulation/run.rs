@@ -12,7 +12,9 @@ use super::record;
 use super::settings::settings;
 use super::side::Side;
 use crate::integrator::methods::named;
-use crate::integrator::{IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Snapshot, StateLayout, StepPoint};
+use crate::integrator::{
+    IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Snapshot, SolverState, StateLayout, StepPoint,
+};
 use crate::model::contact::ContactState;
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
@@ -52,6 +54,25 @@ impl Run {
         let mut run = Self { model, integrator, observer, watch, audit, approach_scale: length * frequency };
         run.begin_interval(0.0);
         run
+    }
+
+    /// The model, what is observed of it, and its integrator.
+    pub(super) fn parts(&mut self) -> (&dyn MechanismModel, &Observer, &mut Integrator<Conditions>) {
+        (self.model.as_ref(), &self.observer, &mut self.integrator)
+    }
+
+    /// As [`Motion::advance`]; `follow` sees each step that was accepted.
+    pub(super) fn advance_followed(
+        &mut self,
+        t: f64,
+        follow: &mut dyn FnMut(&dyn MechanismModel, &SolverState<Conditions>),
+    ) -> Result<(), IntegrationError> {
+        let Self { model, integrator, observer, audit, .. } = self;
+        let mut watched = watch(model.as_ref(), observer, audit);
+        integrator.advance_watched(model.as_ref(), t, &mut |integrator| {
+            watched(integrator);
+            follow(model.as_ref(), integrator.state());
+        })
     }
 
     /// Outputs at `t` under other inputs, at constant states.

@@ -16,4 +16,5 @@ mod order;
 mod polynomials;
 mod step_control;
 mod switching;
+mod tangent;
 mod time_stepping;

@@ -35,3 +35,4 @@ mod rigid_scenes;
 mod rows;
 mod scenes;
 mod symmetry;
+mod tangent;

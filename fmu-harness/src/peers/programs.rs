@@ -1,7 +1,10 @@
 //! The programs for each scene, with their tolerances or step sizes.
 
 use slidercrank::model::rod::Rod;
-use slidercrank::scene::{Contact, DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Scene, Surface};
+use slidercrank::scene::{
+    Contact, DampingLaw, DriveMode, Elasticity, FrictionLaw, JointModel, Lubrication, Scene, Surface,
+};
+use std::f64::consts::FRAC_PI_2;
 
 /// The kind of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,6 +119,10 @@ pub fn of(scene: &Scene) -> Vec<&'static Program> {
     if heyoka_knows(scene, clear, speed) {
         all.extend(&HEYOKA);
     }
+    // The others know gravity across the guide alone.
+    if (scene.gravity != 0.0 && scene.gravity_angle != -FRAC_PI_2) || is_unusual(scene) {
+        return all;
+    }
     if clear == [false, false, true, false] && speed {
         all.extend(&SCIPY);
         all.extend(&EXUDYN);
@@ -129,6 +136,13 @@ pub fn of(scene: &Scene) -> Vec<&'static Program> {
     all
 }
 
+/// Whether the scene has oil, or a load beside the pin, which no program knows.
+fn is_unusual(scene: &Scene) -> bool {
+    let joint = &scene.joint;
+    let oil = [&joint.a, &joint.b, &joint.c].map(|joint| joint.lubrication != Lubrication::None);
+    scene.slider.load_offset != 0.0 || oil.contains(&true)
+}
+
 /// Whether the expressions of the program on heyoka have the laws of all contacts, and there is something to integrate.
 fn heyoka_knows(scene: &Scene, clear: [bool; 4], speed: bool) -> bool {
     let joint = &scene.joint;
@@ -140,5 +154,8 @@ fn heyoka_knows(scene: &Scene, clear: [bool; 4], speed: bool) -> bool {
     let shapes = [joint.a.elasticity, joint.b.elasticity, joint.c.elasticity].map(|own| own == Elasticity::Hertz);
     let shapes = shapes.into_iter().chain([joint.t.surface == Surface::Corner]);
     let known = clear.into_iter().zip(shapes).all(|(clear, shape)| shape || !clear);
-    known && contacts.into_iter().zip(clear).filter(|(_, clear)| *clear).all(law) && !(speed && clear == [false; 4])
+    known
+        && !is_unusual(scene)
+        && contacts.into_iter().zip(clear).filter(|(_, clear)| *clear).all(law)
+        && !(speed && clear == [false; 4])
 }

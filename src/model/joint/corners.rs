@@ -17,7 +17,7 @@ impl Surface for Corners {
         rectangle.corners[k].touch(pose)
     }
 
-    fn approach(rectangle: &Rectangle, k: usize, pose: &SliderPose) -> (f64, f64) {
+    fn approach<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> (R, R) {
         let SurfaceContact { depth, rate, .. } = rectangle.corners[k].touch(pose);
         (depth, rate)
     }

@@ -131,7 +131,7 @@ impl Faces {
 
     /// The two ends of a face.
     #[inline(always)]
-    fn ends(rectangle: &Rectangle, face: usize, pose: &SliderPose) -> [SurfaceContact; 2] {
+    fn ends<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> [SurfaceContact<R>; 2] {
         [rectangle.corners[2 * face].touch(pose), rectangle.corners[2 * face + 1].touch(pose)]
     }
 }
@@ -147,9 +147,10 @@ impl Surface for Faces {
         SurfaceContact { depth: mean, ..middle.touch_at(offset, pose) }
     }
 
-    fn approach(rectangle: &Rectangle, face: usize, pose: &SliderPose) -> (f64, f64) {
+    fn approach<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> (R, R) {
         let [front, rear] = Self::ends(rectangle, face, pose);
-        (front.depth.max(rear.depth), front.rate.max(rear.rate))
+        let larger = |a: R, b: R| if a > b { a } else { b };
+        (larger(front.depth, rear.depth), larger(front.rate, rear.rate))
     }
 
     /// An open face has an event function for each of its corners and closes when one of them touches. A closed face

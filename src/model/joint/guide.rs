@@ -87,8 +87,8 @@ fn load<R: Real, S: Surface>(
     load.force
 }
 
-fn approaches<S: Surface>(guide: &Guide, pose: &SliderPose) -> [(f64, f64); CORNERS] {
-    let none = (f64::NEG_INFINITY, 0.0);
+fn approaches<R: Real, S: Surface>(guide: &Guide, pose: &SliderPose<R>) -> [(R, R); CORNERS] {
+    let none = (R::constant(f64::NEG_INFINITY), R::ZERO);
     std::array::from_fn(|k| if k < S::CONTACTS { S::approach(&guide.rectangle, k, pose) } else { none })
 }
 
@@ -139,8 +139,8 @@ impl Guide {
 
     /// Largest penetration [m] of every contact, and its approach speed [m/s] should it close now; −∞ and 0 for a
     /// contact that does not exist.
-    pub fn approaches(&self, pose: &SliderPose) -> [(f64, f64); CORNERS] {
-        of_surface!(self, S => approaches::<S>(self, pose))
+    pub fn approaches<R: Real>(&self, pose: &SliderPose<R>) -> [(R, R); CORNERS] {
+        of_surface!(self, S => approaches::<R, S>(self, pose))
     }
 
     /// The event functions at which contacts close or open.

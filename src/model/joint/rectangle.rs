@@ -112,7 +112,7 @@ pub(super) trait Surface {
     /// Contact `k` as the force law needs it.
     fn touch<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> SurfaceContact<R>;
     /// Largest penetration [m] in contact `k`, and its approach speed [m/s] should it close now.
-    fn approach(rectangle: &Rectangle, k: usize, pose: &SliderPose) -> (f64, f64);
+    fn approach<R: Real>(rectangle: &Rectangle, k: usize, pose: &SliderPose<R>) -> (R, R);
     /// The event functions at which contacts close or open, one per corner.
     fn event_functions(rectangle: &Rectangle, states: &[ContactState], pose: &SliderPose) -> [EventFunction; CORNERS];
     /// [J] Elastic energy of contact `k` under the law `elastic`.

@@ -34,15 +34,15 @@ impl Revolute {
 
     /// [m] Penetration δ; negative if open.
     #[inline(always)]
-    pub fn penetration(&self, journal: &JournalMotion) -> f64 {
+    pub fn penetration<R: Real>(&self, journal: &JournalMotion<R>) -> R {
         journal.eccentricity.norm() - self.free
     }
 
     /// [m/s] Penetration rate δ̇; 0 if the journal is centred, where n is undefined.
     #[inline(always)]
-    pub fn penetration_rate(&self, journal: &JournalMotion) -> f64 {
+    pub fn penetration_rate<R: Real>(&self, journal: &JournalMotion<R>) -> R {
         let epsilon = journal.eccentricity.norm();
-        if epsilon > 0.0 { journal.rate.dot(journal.eccentricity) / epsilon } else { 0.0 }
+        if epsilon > 0.0 { journal.rate.dot(journal.eccentricity) / epsilon } else { R::ZERO }
     }
 
     /// The event function of the contact: closing if it is open, opening if it is closed.

@@ -1,0 +1,376 @@
+//! The variational equation in a part of an accepted step.
+//!
+//! Collocation at Gauss nodes has order 8 and is A-stable: one method serves smooth and stiff motions. The stages are
+//! found by fixed-point iteration, and by elimination where that does not contract. A part is halved until the
+//! coefficients of its Legendre polynomials, extrapolated geometrically, promise the tolerance.
+//!
+//! Contact forces begin and end like a power of the penetration with an odd half in the exponent, so that the Jacobian
+//! has a square root there. Where a step begins or ends with an event, time runs as the square of the variable of
+//! integration: √t is then a polynomial.
+
+use super::Variational;
+use super::legendre::{Legendre, NODES, SHARES, WEIGHTS};
+use crate::integrator::dense_output::{Correction, Step};
+use crate::integrator::{Discontinuities, Jacobian, MAX_STATES, root};
+use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut};
+
+/// Most halvings of a part.
+const MAX_HALVINGS: u32 = 12;
+/// Halving a part gains at least this, …
+const LEAST_GAIN: f64 = 0.25;
+/// … but for so many times.
+const MAX_STALLS: u32 = 2;
+/// Most iterations before the stages are found by elimination.
+const MAX_ITERATIONS: usize = 24;
+/// Largest contraction of an iteration that goes on.
+const SLOWEST: f64 = 0.5;
+/// Error of an iteration, as a share of the tolerance.
+const CONVERGED: f64 = 1e-3;
+/// Share of a step within which a corner is found.
+const RESOLUTION: f64 = 1e-12;
+/// Error of an iteration that stands for rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// A part of a step, in the variable of integration.
+#[derive(Clone, Copy)]
+struct Part {
+    start: f64,
+    end: f64,
+    /// Number of halvings that made it.
+    halvings: u32,
+    /// Error of the part before the last of them.
+    error: f64,
+    /// Number of them that gained nothing.
+    stalls: u32,
+}
+
+/// Where the motion has a square root of time: at neither end of a step, or there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roots {
+    /// A contact has closed or opened at the start.
+    pub start: bool,
+    /// A contact closes or opens at the end.
+    pub end: bool,
+}
+
+impl Roots {
+    /// Share of the step and its derivative at the variable of integration `u`, both from 0 to 1.
+    fn share(self, u: f64) -> (f64, f64) {
+        match self {
+            Self { start: false, end: false } => (u, 1.0),
+            Self { start: true, end: false } => (u * u, 2.0 * u),
+            Self { start: false, end: true } => (u * (2.0 - u), 2.0 * (1.0 - u)),
+            Self { start: true, end: true } => (u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u)),
+        }
+    }
+
+    /// The variable of integration at this share of the step.
+    fn variable(self, share: f64) -> f64 {
+        match self {
+            Self { start: false, end: false } => share,
+            Self { start: true, end: false } => share.sqrt(),
+            Self { start: false, end: true } => share / (1.0 + (1.0 - share).sqrt()),
+            Self { start: true, end: true } => {
+                // Newton on a monotonic cubic, from the side on which it is convex.
+                let mut u = if share < 0.5 { (share / 2.0).sqrt() } else { 1.0 - ((1.0 - share) / 2.0).sqrt() };
+                for _ in 0..60 {
+                    let (value, slope) = self.share(u);
+                    if slope <= 0.0 || value == share {
+                        break;
+                    }
+                    u = (u - (value - share) / slope).clamp(0.0, 1.0);
+                }
+                u
+            }
+        }
+    }
+}
+
+/// Tables and memory for integrating variational equations. Matrices stand by columns; those of directions have as many
+/// rows as there are states.
+#[derive(Clone, Debug)]
+pub struct Flow {
+    legendre: Legendre,
+    jacobian: Jacobian,
+    correction: Correction,
+    /// J and F at the nodes, per variable of integration.
+    turning: [Vec<f64>; NODES],
+    pushing: [Vec<f64>; NODES],
+    /// Slopes at the nodes.
+    stages: [Vec<f64>; NODES],
+    /// Directions at the start of a part.
+    before: Vec<f64>,
+    /// Directions at a node, and their slopes.
+    inner: Vec<f64>,
+    found: Vec<f64>,
+}
+
+/// A step to integrate along, and the direction of each column in parameters.
+#[derive(Clone, Copy)]
+pub struct Path<'a, D> {
+    /// The system.
+    pub system: &'a dyn Variational<Discrete = D>,
+    /// Its discrete state in the step.
+    pub discrete: &'a D,
+    /// The step.
+    pub step: Step<'a>,
+    /// Square roots at its ends.
+    pub roots: Roots,
+    /// Parameters in rows, directions in columns.
+    pub parameters: &'a DMatrix<f64>,
+    /// Size of each direction below which it counts as none, states in units of their scales.
+    pub least: &'a [f64],
+    /// Tolerance relative to each direction.
+    pub tolerance: f64,
+}
+
+impl Flow {
+    /// Memory for a system with `states` states and `columns` directions.
+    pub fn new(states: usize, columns: usize) -> Self {
+        let zeros = || vec![0.0; states * columns];
+        let all = || std::array::from_fn(|_| zeros());
+        Self {
+            legendre: Legendre::new(),
+            jacobian: Jacobian::new(states),
+            correction: Correction::new(states),
+            turning: std::array::from_fn(|_| vec![0.0; states * states]),
+            pushing: all(),
+            stages: all(),
+            before: zeros(),
+            inner: zeros(),
+            found: zeros(),
+        }
+    }
+
+    /// Advances the directions in the columns of `tangents` over the shares `from` to `to` of a step. States stand in
+    /// its first rows, memories below.
+    pub fn advance<D: Copy>(&mut self, path: &Path<'_, D>, [from, to]: [f64; 2], tangents: &mut DMatrix<f64>) {
+        let Path { system, discrete, step, tolerance, .. } = *path;
+        if step.h == 0.0 || from >= to {
+            return;
+        }
+        self.correction.forget();
+        // The dense output's slack is too much for its second derivatives.
+        self.correction.find(&step, system.system(), discrete, 1e-3 * tolerance);
+        let (start, end) = (path.roots.variable(from), path.roots.variable(to));
+        let mut ends = vec![end];
+        ends.extend(self.corners(path, [from, to]).into_iter().rev().map(|share| path.roots.variable(share)));
+        // The part that comes first in time is last.
+        let begins = ends.iter().skip(1).chain([&start]);
+        let whole = |(&start, &end)| Part { start, end, halvings: 0, error: f64::INFINITY, stalls: 0 };
+        let mut parts: Vec<Part> = begins.zip(&ends).map(whole).collect();
+        while let Some(part) = parts.pop() {
+            let error = self.attempt(path, [part.start, part.end], tangents);
+            // Where halving gains nothing, the Jacobian is not smooth, or the error is rounding.
+            let stalls = part.stalls + u32::from(error > LEAST_GAIN * part.error);
+            if error > tolerance && part.halvings < MAX_HALVINGS && stalls < MAX_STALLS {
+                let middle = 0.5 * (part.start + part.end);
+                let half = Part { start: middle, halvings: part.halvings + 1, error, stalls, ..part };
+                parts.extend([half, Part { start: part.start, end: middle, ..half }]);
+                continue;
+            }
+            if std::env::var("DBG").is_ok() && error > tolerance {
+                println!(
+                    "REST t {} h {:.2e} {:?} [{:.6} {:.6}] {} error {error:.1e} stalls {stalls} parent {:.1e}",
+                    step.t, step.h, path.roots, part.start, part.end, part.halvings, part.error
+                );
+            }
+            for (place, weight) in WEIGHTS.iter().enumerate() {
+                add(&mut self.before, *weight, &self.stages[place]);
+            }
+            let n = step.layout.states;
+            for (mut column, states) in tangents.column_iter_mut().zip(self.before.chunks_exact(n)) {
+                column.iter_mut().zip(states).for_each(|(place, value)| *place = *value);
+            }
+        }
+    }
+
+    /// Shares of the step at which the slope of a rate jumps, in order. Steps end near such points, not at them.
+    fn corners<D: Copy>(&self, path: &Path<'_, D>, [from, to]: [f64; 2]) -> Vec<f64> {
+        let Path { system, discrete, step, .. } = *path;
+        let at = |share: f64| {
+            let mut y = [0.0; MAX_STATES];
+            let y = &mut y[..step.layout.states];
+            step.state(share, self.correction.coefficients(), y);
+            let mut functions = Discontinuities::NONE;
+            system.system().discontinuities(discrete, step.t + share * step.h, y, &mut functions);
+            functions
+        };
+        let (first, last) = (at(from), at(to));
+        let ends = first.values().iter().zip(last.values()).enumerate();
+        let mut corners: Vec<f64> = ends
+            .filter(|(_, (first, last))| **first * **last < 0.0)
+            .map(|(place, (first, last))| {
+                let sign = first.signum();
+                let value = |share: f64| sign * at(share).values()[place];
+                root::falling(from, to, sign * first, sign * last, RESOLUTION, value)
+            })
+            .collect();
+        corners.sort_by(f64::total_cmp);
+        corners
+    }
+
+    /// Computes the stages of a part; returns its error relative to the tangents.
+    fn attempt<D: Copy>(&mut self, path: &Path<'_, D>, [start, end]: [f64; 2], tangents: &DMatrix<f64>) -> f64 {
+        let n = path.step.layout.states;
+        for (states, column) in self.before.chunks_exact_mut(n).zip(tangents.column_iter()) {
+            states.iter_mut().zip(&column).for_each(|(place, value)| *place = *value);
+        }
+        for node in 0..NODES {
+            self.evaluate(path, node, start, end, tangents);
+        }
+        if !self.iterate(path) {
+            self.eliminate(n);
+        }
+        self.error(path)
+    }
+
+    /// J and F at one node.
+    fn evaluate<D: Copy>(&mut self, path: &Path<'_, D>, node: usize, start: f64, end: f64, tangents: &DMatrix<f64>) {
+        let Path { system, discrete, step, roots, parameters, .. } = *path;
+        let n = step.layout.states;
+        let (share, slope) = roots.share(start + (end - start) * SHARES[node]);
+        let length = (end - start) * slope * step.h;
+        let (mut y, t) = ([0.0; MAX_STATES], step.t + share * step.h);
+        let y = &mut y[..n];
+        step.state(share, self.correction.coefficients(), y);
+        system.system().jacobian(discrete, t, y, &mut self.jacobian);
+        for i in 0..n {
+            for (j, slope) in self.jacobian.row(i).iter().enumerate() {
+                self.turning[node][j * n + i] = length * slope;
+            }
+        }
+        let push = &mut self.pushing[node];
+        push.fill(0.0);
+        let mut slopes = [0.0; MAX_STATES];
+        let slopes = &mut slopes[..n];
+        let mut along = |slopes: &[f64], shares: &DMatrix<f64>, row: usize| {
+            for (column, place) in push.chunks_exact_mut(n).enumerate() {
+                add(place, length * shares[(row, column)], slopes);
+            }
+        };
+        for memory in 0..system.memories() {
+            let moved = tangents.row(n + memory).iter().any(|share| *share != 0.0);
+            if moved && system.write_rates_by_memory(memory, discrete, t, y, slopes) {
+                along(slopes, tangents, n + memory);
+            }
+        }
+        for parameter in 0..system.parameters() {
+            system.write_rates_by_parameter(parameter, discrete, t, y, slopes);
+            along(slopes, parameters, parameter);
+        }
+    }
+
+    /// Finds the stages by fixed-point iteration; returns whether it has converged.
+    fn iterate<D: Copy>(&mut self, path: &Path<'_, D>) -> bool {
+        let n = path.step.layout.states;
+        let Self { legendre, turning, pushing, stages, before, inner, found, .. } = self;
+        for (stage, (turning, pushing)) in stages.iter_mut().zip(turning.iter().zip(&*pushing)) {
+            stage.copy_from_slice(pushing);
+            add_product(stage, turning, before, n);
+        }
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            let mut change = 0.0_f64;
+            for node in 0..NODES {
+                inner.copy_from_slice(before);
+                for (integral, stage) in legendre.integrals[node].iter().zip(&*stages) {
+                    add(inner, *integral, stage);
+                }
+                found.copy_from_slice(&pushing[node]);
+                add_product(found, &turning[node], inner, n);
+                add(&mut stages[node], -1.0, found);
+                change = change.max(size(path, &stages[node], before));
+                stages[node].copy_from_slice(found);
+            }
+            if change <= (CONVERGED * path.tolerance).max(ROUNDING) {
+                return true;
+            }
+            // Of several iterations the first may grow.
+            if change > SLOWEST * last {
+                return false;
+            }
+            last = if last.is_infinite() { 2.0 * change } else { change };
+        }
+        false
+    }
+
+    /// Finds the stages by elimination: K_i − J_i·Σ a_ij·K_j = J_i·v + F_i.
+    fn eliminate(&mut self, n: usize) {
+        let Self { legendre, turning, pushing, stages, before, .. } = self;
+        let columns = before.len() / n;
+        let mut matrix = DMatrix::identity(NODES * n, NODES * n);
+        let mut right = DMatrix::zeros(NODES * n, columns);
+        for i in 0..NODES {
+            let turning = DMatrixView::from_slice(&turning[i], n, n);
+            for j in 0..NODES {
+                let mut block = matrix.view_mut((i * n, j * n), (n, n));
+                block.zip_apply(&turning, |place, slope| *place -= legendre.integrals[i][j] * slope);
+            }
+            let mut rows = right.rows_mut(i * n, n);
+            rows.copy_from(&DMatrixView::from_slice(&pushing[i], n, columns));
+            rows.gemm(1.0, &turning, &DMatrixView::from_slice(before, n, columns), 1.0);
+        }
+        // A singular matrix has no solution; the part is then halved.
+        if !matrix.lu().solve_mut(&mut right) {
+            right.fill(f64::INFINITY);
+        }
+        for (i, stage) in stages.iter_mut().enumerate() {
+            DMatrixViewMut::from_slice(stage, n, columns).copy_from(&right.rows(i * n, n));
+        }
+    }
+
+    /// Error of the part relative to the tangents. With coefficients that fall like ρ^m the error at the end falls like
+    /// ρ^(2·NODES), and the last coefficient is ρ^(NODES − 1).
+    fn error<D: Copy>(&mut self, path: &Path<'_, D>) -> f64 {
+        let Self { legendre, stages, before, inner, .. } = self;
+        let sizes = legendre.analysis.map(|row| {
+            inner.fill(0.0);
+            for (share, stage) in row.iter().zip(&*stages) {
+                add(inner, *share, stage);
+            }
+            size(path, inner, before)
+        });
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        if largest == 0.0 {
+            return 0.0;
+        }
+        let last = sizes[NODES - 1] / largest;
+        let error = largest * last.powf(2.0 * NODES as f64 / (NODES - 1) as f64);
+        if error.is_finite() { error } else { f64::INFINITY }
+    }
+}
+
+/// Adds `share`·`more` to `sum`.
+#[inline(always)]
+fn add(sum: &mut [f64], share: f64, more: &[f64]) {
+    sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += share * more);
+}
+
+/// Adds to `sum` the product of a square matrix of `n` rows with `directions`.
+fn add_product(sum: &mut [f64], matrix: &[f64], directions: &[f64], n: usize) {
+    for (sum, direction) in sum.chunks_exact_mut(n).zip(directions.chunks_exact(n)) {
+        for (column, share) in matrix.chunks_exact(n).zip(direction) {
+            add(sum, *share, column);
+        }
+    }
+}
+
+/// Largest change of a direction relative to the direction itself, states in units of their scales.
+fn size<D: Copy>(path: &Path<'_, D>, changes: &[f64], directions: &[f64]) -> f64 {
+    let (scales, n) = (path.system.system().scales(), path.step.layout.states);
+    let norm = |column: &[f64]| {
+        let scaled = column.iter().zip(scales).filter(|(_, scale)| **scale > 0.0);
+        scaled
+            .map(|(value, scale)| (value / scale).abs())
+            .fold(0.0, |norm: f64, value| if value > norm { value } else { norm })
+    };
+    let mut largest = 0.0_f64;
+    for ((change, direction), least) in changes.chunks_exact(n).zip(directions.chunks_exact(n)).zip(path.least) {
+        largest = largest.max(norm(change) / norm(direction).max(*least));
+        if change.iter().any(|value| !value.is_finite()) {
+            return f64::INFINITY;
+        }
+    }
+    largest
+}
