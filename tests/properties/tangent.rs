@@ -3,7 +3,7 @@
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::parameter::Parameter;
 use slidercrank::scene::read::read;
-use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, Method, Scene, Surface};
+use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, Lubrication, Method, Scene, Surface};
 use slidercrank::simulation::variation::{Seed, Variation};
 use slidercrank::simulation::{Phase, Simulation};
 
@@ -103,8 +103,8 @@ fn check_to(agreement: f64, name: &str, scene: &Scene, from: f64, span: f64, par
         }
         let miss = plateau(&exact, &rows, |share| flat(&run(share).phase()));
         assert!(miss < agreement, "{name}, {what}: states miss by {miss:e}");
-        if exact.iter().zip(&rows).all(|(slope, scale)| (slope / scale).abs() < 0.1) {
-            continue; // Forces of neighbours that have met differ by the errors of steps.
+        if scene.joint.b.lubrication != Lubrication::None {
+            continue; // The forces of oil follow the velocities, and so the errors of steps, too closely for differences.
         }
         let exact: Vec<f64> = observed(&derivatives[column]).iter().map(|slope| slope * unit).collect();
         // Each output by itself.
