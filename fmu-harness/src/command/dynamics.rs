@@ -13,10 +13,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Poincaré sections, phase portrait, journal orbits, impacts, spectrum, largest Lyapunov exponent and a verdict.
+/// Poincaré sections, phase portrait, journal orbits, impacts, spectrum, Lyapunov exponents and a verdict.
 ///
-/// `--parameter` adds a bifurcation diagram over the range of a parameter. Runs in this process; the exponent is
-/// measured with a second, neighbouring motion. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
+/// `--parameter` adds a bifurcation diagram over the range of a parameter. Runs in this process. The largest exponent is
+/// measured with a second, neighbouring motion; all of them are measured with the tangent of the motion, which is exact
+/// through impacts. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
 /// with `--parameter` dynamics-SCENE-bifurcation.svg with data.
 #[derive(Args)]
 pub struct Dynamics {
@@ -35,7 +36,10 @@ pub struct Dynamics {
     /// Crank angle of the section, relative to the start angle
     #[arg(long, default_value_t = 0.0, value_name = "DEGREES")]
     section: f64,
-    /// Number of measurements of the exponent in each turn
+    /// Crank turns in which all Lyapunov exponents are measured from the tangent of the motion; 0 for none
+    #[arg(long, default_value_t = 100, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    tangent_turns: u32,
+    /// Number of measurements of the exponents in each turn
     #[arg(long, default_value_t = 25, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     per_turn: u32,
     /// Draw a bifurcation diagram over this parameter
@@ -76,6 +80,7 @@ impl Dynamics {
             turns: self.turns as usize,
             section: self.section.to_radians(),
             per_turn: self.per_turn as usize,
+            tangent_turns: self.tangent_turns as usize,
         };
         let style = ProgressStyle::with_template("{msg:14} {wide_bar:.cyan/blue} {percent}% {elapsed:>4} (eta {eta})")?;
         let bar = ProgressBar::new(plan.ticks() as u64).with_style(style.clone()).with_message("portrait");
@@ -85,8 +90,13 @@ impl Dynamics {
         let base = out.join(format!("dynamics-{name}"));
         let table = report::table(&portrait);
         println!("{}\n{name}: {}\n", table.print(), report::sentence(&portrait));
+        let mut tables = vec![table];
+        if let Some(exponents) = report::exponent_table(&portrait) {
+            println!("{}", exponents.print());
+            tables.push(exponents);
+        }
         let mut written = vec![write(&base, "svg", &report::sheet(name, scene, &portrait).svg()?)?];
-        let (mut page, mut tables) = (table.markdown(), vec![table]);
+        let mut page = tables.iter().map(Table::markdown).collect::<Vec<_>>().join("\n");
         for (part, frame) in [
             ("section", report::visits(&portrait.visits)),
             ("path", report::visits(&portrait.path)),
@@ -98,7 +108,7 @@ impl Dynamics {
             written.extend([file.with_extension("csv"), file]);
         }
         if let Some(range) = range {
-            let plan = Plan { turns: self.value_turns as usize, ..plan };
+            let plan = Plan { turns: self.value_turns as usize, tangent_turns: 0, ..plan };
             let bar = ProgressBar::new(range.values.len() as u64).with_style(style).with_message("bifurcation");
             let from = if self.follow { From::Before } else { From::Fresh };
             let branches = range.branches(&scenario.file, &plan, from, || bar.inc(1))?;

@@ -100,8 +100,8 @@ fn nearer(here: &Point, there: &Point, share: f64) -> Point {
     Point { coordinates: between.collect(), ..here.clone() }
 }
 
-/// Standard error of the mean rate, by batch means.
-fn standard_error(growths: &[(f64, f64)]) -> f64 {
+/// Standard error of the mean rate of growths in times [s], by batch means.
+pub fn standard_error(growths: &[(f64, f64)]) -> f64 {
     let size = growths.len() / BATCHES;
     if size == 0 {
         return f64::INFINITY;

@@ -14,9 +14,28 @@ const LOOKS: f64 = 400.0;
 /// A crank counts as stopped if a turn takes this many times as long as at the start speed.
 const SLOWEST: f64 = 100.0;
 
+/// A simulation that a [`Machine`] runs.
+pub trait Simulated {
+    /// [s] The time reached.
+    fn time(&self) -> f64;
+    /// Advances to `time` [s].
+    ///
+    /// # Errors
+    /// If it cannot go on.
+    fn advance_to(&mut self, time: f64) -> Result<()>;
+    /// Outputs at the time reached.
+    fn outputs(&mut self) -> Outputs;
+    /// Sets the inputs to those of the profiles at the time reached.
+    fn apply(&mut self, inputs: &Profiles);
+    /// The point of phase space at the time reached.
+    fn phase(&mut self) -> Phase;
+    /// Continues from another point of phase space.
+    fn place(&mut self, phase: &Phase);
+}
+
 /// A running mechanism.
-pub struct Machine {
-    simulation: Simulation,
+pub struct Machine<S = Simulation> {
+    pub(super) simulation: S,
     scene: Scene,
     inputs: Profiles,
     /// [s] Time between two updates of changing inputs.
@@ -30,6 +49,34 @@ impl Machine {
     /// # Errors
     /// If it cannot start, or its crank does not turn.
     pub fn start(file: &SceneFile) -> Result<Self> {
+        let simulation = Simulation::start(&file.scene, start_values(file))?;
+        let scales = simulation.phase_scales();
+        Self::of(file, simulation, scales)
+    }
+
+    /// Advances to the next instant at which a contact closes or opens, or to `time`. Returns whether there was an
+    /// event.
+    ///
+    /// # Errors
+    /// If it cannot go on.
+    pub fn advance_to_event(&mut self, time: f64) -> Result<bool> {
+        while self.time() < time {
+            let next = self.next_look(time);
+            if self.simulation.advance_to_event(next)? {
+                return Ok(true);
+            }
+            self.look();
+        }
+        Ok(false)
+    }
+}
+
+impl<S: Simulated> Machine<S> {
+    /// The machine of a scene that `simulation` simulates.
+    ///
+    /// # Errors
+    /// If its crank does not turn.
+    pub fn of(file: &SceneFile, simulation: S, scales: PhaseScales) -> Result<Self> {
         let SceneFile { scene, inputs, run, .. } = file;
         ensure!(
             scene.crank.speed_start != 0.0,
@@ -37,8 +84,6 @@ impl Machine {
         );
         let changes = |profile: &Profile| !matches!(profile, Profile::Constant(_));
         let step = (changes(&inputs.crank_torque) || changes(&inputs.slider_load)).then_some(run.step);
-        let simulation = Simulation::start(scene, values(inputs, 0.0, scene.crank.angle_start))?;
-        let scales = simulation.phase_scales();
         Ok(Self { simulation, scene: scene.clone(), inputs: inputs.clone(), step, scales })
     }
 
@@ -88,29 +133,13 @@ impl Machine {
         bail!("the crank does not turn on: at {} s it has made {:.3} turns", self.time(), self.turned() / TAU)
     }
 
-    /// Advances to the next instant at which a contact closes or opens, or to `time`. Returns whether there was an
-    /// event.
-    ///
-    /// # Errors
-    /// If it cannot go on.
-    pub fn advance_to_event(&mut self, time: f64) -> Result<bool> {
-        while self.time() < time {
-            let next = self.next_look(time);
-            if self.simulation.advance_to_event(next)? {
-                return Ok(true);
-            }
-            self.look();
-        }
-        Ok(false)
-    }
-
     /// [m/s] Approach speed of the closed contact in joint A, B or C (index 0, 1, 2).
     pub fn approach(&mut self, joint: usize) -> Option<f64> {
         self.simulation.phase().approach.get(joint).copied().flatten()
     }
 
     /// Takes over the state of another machine with the same joints, at the same crank angle.
-    pub fn take_over(&mut self, other: &mut Self) {
+    pub fn take_over<O: Simulated>(&mut self, other: &mut Machine<O>) {
         let mut phase = other.simulation.phase();
         if self.scene.drive.mode == DriveMode::Speed {
             phase.time = other.turned() / self.scene.crank.speed_start.abs();
@@ -126,10 +155,41 @@ impl Machine {
     /// Sets the inputs to their current values.
     fn look(&mut self) {
         if self.step.is_some() {
-            let angle = self.outputs().crank.angle;
-            self.simulation.set_inputs(values(&self.inputs, self.time(), angle), Inputs::default());
+            self.simulation.apply(&self.inputs);
         }
     }
+}
+
+impl Simulated for Simulation {
+    fn time(&self) -> f64 {
+        self.time()
+    }
+
+    fn advance_to(&mut self, time: f64) -> Result<()> {
+        Ok(self.advance_to(time)?)
+    }
+
+    fn outputs(&mut self) -> Outputs {
+        self.outputs()
+    }
+
+    fn apply(&mut self, inputs: &Profiles) {
+        let angle = self.outputs().crank.angle;
+        self.set_inputs(values(inputs, self.time(), angle), Inputs::default());
+    }
+
+    fn phase(&mut self) -> Phase {
+        self.phase()
+    }
+
+    fn place(&mut self, phase: &Phase) {
+        self.place(phase);
+    }
+}
+
+/// The inputs of a scene at its start.
+pub fn start_values(file: &SceneFile) -> Inputs {
+    values(&file.inputs, 0.0, file.scene.crank.angle_start)
 }
 
 /// Name and clearance [m] of every joint that has clearance.
@@ -145,12 +205,13 @@ pub fn clearances(scene: &Scene) -> Vec<(char, f64)> {
     there.map(|(name, _, clearance)| (name, clearance)).collect()
 }
 
-fn values(profiles: &Profiles, time: f64, angle: f64) -> Inputs {
+/// The inputs at a time [s] and a crank angle [rad].
+pub fn values(profiles: &Profiles, time: f64, angle: f64) -> Inputs {
     let Profiles { crank_torque, slider_load } = profiles;
     Inputs { crank_torque: crank_torque.value(time, angle), slider_load: slider_load.value(time, angle) }
 }
 
-impl Flow for Machine {
+impl<S: Simulated> Flow for Machine<S> {
     fn time(&self) -> f64 {
         self.simulation.time()
     }

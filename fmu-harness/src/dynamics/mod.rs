@@ -1,14 +1,16 @@
 //! Classification of a motion over many turns: Poincaré sections, divergence of neighbouring motions, periods.
 //!
-//! [`lyapunov`] and [`verdict`] use no mechanism, only a [`Flow`], so that they can be tested on motions with known
+//! [`lyapunov`], [`exponents`] and [`verdict`] use no mechanism, only a [`Flow`], so that they can be tested on motions with known
 //! results.
 
 pub mod bifurcation;
+pub mod exponents;
 pub mod lyapunov;
 pub mod machine;
 pub mod portrait;
 pub mod section;
 pub mod spectrum;
+pub mod tangent;
 pub mod verdict;
 
 pub use machine::Machine;

@@ -1,7 +1,9 @@
 //! Classifies one scene's motion with one long run and a neighbouring run.
 
+use super::exponents::{Exponents, Measurement};
 use super::lyapunov::{Exponent, Probe};
 use super::section::{Impact, Visit, impacts, stroboscope};
+use super::tangent::all_states;
 use super::verdict::{Evidence, judge};
 use super::{Flow, Machine, machine, spectrum};
 use anyhow::Result;
@@ -18,8 +20,10 @@ pub struct Plan {
     pub turns: usize,
     /// [rad] Crank angle of the section, relative to the start angle.
     pub section: f64,
-    /// Number of measurements of the exponent in each turn.
+    /// Number of measurements of the exponents in each turn.
     pub per_turn: usize,
+    /// Turns in which all exponents are measured; 0: none are.
+    pub tangent_turns: usize,
 }
 
 /// Number of turns of the stored path, points per turn of the path, and points per turn for the spectrum.
@@ -45,8 +49,10 @@ pub struct Portrait {
     pub impacts: Vec<Impact>,
     /// Power spectral density of the slider's acceleration: frequency [Hz], density [(m/s²)²/Hz].
     pub spectrum: Vec<(f64, f64)>,
-    /// The largest Lyapunov exponent.
+    /// The largest Lyapunov exponent, by two trajectories.
     pub exponent: Exponent,
+    /// All exponents, from the tangent, or why there are none; `None` if they were not asked for.
+    pub exponents: Option<Result<Exponents>>,
     /// [s] Time of one turn.
     pub turn: f64,
     /// The verdict with its evidence.
@@ -56,7 +62,7 @@ pub struct Portrait {
 impl Plan {
     /// Number of progress ticks of one portrait.
     pub fn ticks(&self) -> usize {
-        self.turns * (1 + self.per_turn)
+        self.turns * (1 + self.per_turn) + self.tangent_turns * self.per_turn
     }
 
     /// Classifies the motion of a scene.
@@ -72,10 +78,12 @@ impl Plan {
         let spectrum = spectrum::density(&accelerations, machine.turn() / PATH_POINTS as f64, SEGMENT);
         let impacts = impacts(&mut machine, PATH_TURNS as f64, MOST_IMPACTS)?;
         machine.place(&begin);
-        let exponent = self.exponent(file, &mut machine, tick)?;
+        let exponent = self.exponent(file, &mut machine, &mut tick)?;
+        machine.place(&begin);
+        let exponents = (self.tangent_turns > 0).then(|| self.exponents(file, &mut machine, &mut tick));
         let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(machine.scene(), &visit.outputs)).collect();
         let evidence = judge(&vectors, &exponent);
-        Ok(Portrait { visits, path, impacts, spectrum, exponent, turn: machine.turn(), evidence })
+        Ok(Portrait { visits, path, impacts, spectrum, exponent, exponents, turn: machine.turn(), evidence })
     }
 
     /// The exponent, measured from the machine's current state.
@@ -88,6 +96,19 @@ impl Plan {
         let settling = (SETTLING * count as f64) as usize;
         let probe = Probe { interval, count, settling, distance: DISTANCE };
         probe.measure(machine, &mut Machine::start(file)?, tick)
+    }
+
+    /// All exponents, measured from the state of `machine`.
+    ///
+    /// # Errors
+    /// If the scene has no tangent, cannot run or comes near grazing.
+    pub fn exponents(&self, file: &SceneFile, machine: &mut Machine, tick: impl FnMut()) -> Result<Exponents> {
+        let mut moving = Machine::with_tangent(file, &all_states(file)?)?;
+        moving.take_over(machine);
+        let count = self.tangent_turns * self.per_turn;
+        let interval = moving.turn() / self.per_turn as f64;
+        let settling = (SETTLING * count as f64) as usize;
+        Measurement { interval, count, settling }.run(&mut moving, tick)
     }
 
     /// The machine after the transient.

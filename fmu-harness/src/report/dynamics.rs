@@ -4,6 +4,8 @@ use super::plot::{Curve, Mark, Panel, Role, Sheet};
 use super::table::Table;
 use super::units::{Shown, significant, three_digits};
 use crate::dynamics::bifurcation::{Branch, Range};
+use crate::dynamics::exponents::Exponents;
+use crate::dynamics::lyapunov::Exponent;
 use crate::dynamics::machine::clearances;
 use crate::dynamics::portrait::Portrait;
 use crate::dynamics::section::Visit;
@@ -40,6 +42,9 @@ pub fn sheet(title: &str, scene: &Scene, portrait: &Portrait) -> Sheet {
     }
     panels.push(spectrum(&portrait.spectrum));
     panels.push(convergence(portrait));
+    if let Some(Ok(exponents)) = &portrait.exponents {
+        panels.push(all_exponents(exponents, portrait.turn));
+    }
     let legend = vec![(Role::Actual, "motion, and its passages once a turn".into()), (Role::Limit, "clearance".into())];
     Sheet { title: format!("{title}: {}", sentence(portrait)), legend, panels, columns: 3, panel_size: (440, 400) }
 }
@@ -140,6 +145,56 @@ fn convergence(portrait: &Portrait) -> Panel {
         curves: vec![curve(Role::Limit, ends, Mark::Line), curve(Role::Actual, points, Mark::Line)],
         square: false,
     }
+}
+
+/// All exponents with their standard errors, in order.
+fn all_exponents(exponents: &Exponents, turn: f64) -> Panel {
+    let bars = exponents.all.iter().enumerate().map(|(number, Exponent { value, error, .. })| {
+        let (place, reach) = (1.0 + number as f64, if error.is_finite() { *error } else { 0.0 });
+        let ends = [-reach, reach].map(|reach| (place, (value + reach) * turn));
+        curve(Role::Actual, ends.to_vec(), Mark::Line)
+    });
+    let points = exponents.all.iter().zip(1..).map(|(exponent, number)| (f64::from(number), exponent.value * turn));
+    let zero = vec![(1.0, 0.0), (exponents.all.len() as f64, 0.0)];
+    let mut curves = vec![curve(Role::Limit, zero, Mark::Line), curve(Role::Actual, points.collect(), Mark::Dots)];
+    curves.extend(bars);
+    Panel {
+        x_label: "number of the exponent".into(),
+        y_label: "exponent [1/turn]".into(),
+        curves,
+        square: false,
+    }
+}
+
+/// All exponents with their sum and dimension; `None` if they were not asked for.
+pub fn exponent_table(portrait: &Portrait) -> Option<Table> {
+    let mut table = Table::default();
+    table.row(["exponents from the tangent", "[1/s]", "standard error [1/s]", "[1/turn]"]);
+    let exponents = match portrait.exponents.as_ref()? {
+        Ok(exponents) => exponents,
+        Err(error) => {
+            table.gap(["all", "–", "–", "–"].map(Into::into).to_vec(), &format!("{error:#}"));
+            return Some(table);
+        }
+    };
+    let shown = |value: f64| [value, value * portrait.turn].map(three_digits);
+    for (number, Exponent { value, error, .. }) in exponents.all.iter().enumerate() {
+        let [second, turn] = shown(*value);
+        table.row([(number + 1).to_string(), second, three_digits(*error), turn]);
+    }
+    let [second, turn] = shown(exponents.sum());
+    table.row(["sum".into(), second, String::new(), turn]);
+    table.row(["dimension of Kaplan and Yorke".into(), format!("{:.3}", exponents.dimension()), String::new(), String::new()]);
+    let largest = exponents.all.first()?;
+    let both = largest.error.hypot(portrait.exponent.error);
+    let apart = (largest.value - portrait.exponent.value).abs() / both;
+    table.row([
+        "largest less that of two trajectories, in standard errors".into(),
+        three_digits(apart),
+        String::new(),
+        String::new(),
+    ]);
+    Some(table)
 }
 
 /// The verdict with its evidence.

@@ -10,7 +10,7 @@ use slidercrank::scene::FrictionLaw;
 use slidercrank::scene::read::SceneFile;
 use std::f64::consts::TAU;
 
-const PLAN: Plan = Plan { transient: 30, turns: 60, section: 0.0, per_turn: 25 };
+const PLAN: Plan = Plan { transient: 30, turns: 60, section: 0.0, per_turn: 25, tangent_turns: 0 };
 
 fn wornpin(clearance: f64) -> SceneFile {
     let mut file = Scenario::find("wornpin").expect("a shipped scene").file;

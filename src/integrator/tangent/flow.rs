@@ -256,6 +256,9 @@ impl Flow {
             }
         }
         for parameter in 0..system.parameters() {
+            if parameters.row(parameter).iter().all(|share| *share == 0.0) {
+                continue;
+            }
             system.write_rates_by_parameter(parameter, discrete, t, y, slopes);
             along(slopes, parameters, parameter);
         }

@@ -5,7 +5,7 @@ use super::flow::{Flow, Path, Roots};
 use super::saltation::{Grazing, cross, near_miss};
 use crate::integrator::dense_output::Step;
 use crate::integrator::{EventFunction, MAX_EVENTS, MAX_STATES, SolverState, StepPoint};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, RowDVector};
 
 /// Directions of neighbouring motions, in columns: states in the first rows, then memories, in the order of the
 /// [`Variational`] system.
@@ -74,6 +74,14 @@ impl<D: Copy> Tangents<D> {
     /// motion must not be shortened beyond.
     pub fn set_directions(&mut self, directions: DMatrix<f64>) {
         self.front.directions = directions;
+    }
+
+    /// Replaces the share of each direction in one parameter, from the front on.
+    ///
+    /// # Panics
+    /// If there is no such parameter, or not one share for each direction.
+    pub fn set_shares(&mut self, parameter: usize, shares: impl Iterator<Item = f64>) {
+        self.parameters.set_row(parameter, &RowDVector::from_iterator(self.parameters.ncols(), shares));
     }
 
     /// Follows the last step of `state`, which was accepted after the last call.

@@ -48,7 +48,7 @@ pub struct Variation {
     time: f64,
     scales: PhaseScales,
     seeds: Vec<Seed>,
-    /// Parameters among the seeds, then torque and load.
+    /// Those of the parameters among the seeds, then those of torque and load.
     neighbours: Vec<Neighbours>,
     tangents: Tangents<Conditions>,
     tolerance: f64,
@@ -119,10 +119,10 @@ impl Variation {
                     return Err(SimulationError::Scene(format!("{} is not a real number", parameter.name)));
                 }
                 Seed::Parameter(parameter) => neighbours.push(Neighbours::of_parameter(scene, parameter)?),
-                Seed::CrankTorque | Seed::SliderLoad => neighbours.push(Neighbours::of_input(*seed)),
-                Seed::State(_) | Seed::Approach(_) => {}
+                _ => {}
             }
         }
+        neighbours.extend([Seed::CrankTorque, Seed::SliderLoad].map(Neighbours::of_input));
         let tolerance = scene.solver.tolerance.min(LOOSEST);
         let scales = run.phase_scales();
         let tangents = {
@@ -165,6 +165,11 @@ impl Variation {
         self.time
     }
 
+    /// Number of states, including those of an energy audit: the first rows of [`Variation::directions`].
+    pub fn states(&mut self) -> usize {
+        self.run.parts().0.layout().states
+    }
+
     /// By what the motion is differentiated, in the order of the columns of [`Variation::directions`].
     pub fn seeds(&self) -> &[Seed] {
         &self.seeds
@@ -195,6 +200,18 @@ impl Variation {
     pub fn set_inputs(&mut self, inputs: Inputs, rates: Inputs) {
         self.run.set_inputs(InputSignal { at: self.time, value: inputs, rate: rates });
         self.shorten();
+    }
+
+    /// Sets inputs that depend on the motion from the communication point on: `slopes` are their derivatives by each
+    /// seed, where the seed is not the input itself.
+    pub fn set_dependent_inputs(&mut self, inputs: Inputs, slopes: impl Fn(usize) -> Inputs) {
+        self.set_inputs(inputs, Inputs::default());
+        self.phase();
+        let own = shares(&self.seeds, &self.neighbours);
+        let (torque, load) = (own.nrows() - 2, own.nrows() - 1);
+        let columns = 0..self.seeds.len();
+        self.tangents.set_shares(torque, columns.clone().map(|seed| own[(torque, seed)] + slopes(seed).crank_torque));
+        self.tangents.set_shares(load, columns.map(|seed| own[(load, seed)] + slopes(seed).slider_load));
     }
 
     /// Follows the last step if it has become shorter.
