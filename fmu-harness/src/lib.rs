@@ -18,6 +18,7 @@ pub mod realtime;
 pub mod report;
 pub mod run;
 pub mod scenes;
+pub mod sensitivity;
 pub mod ssp;
 pub mod sweep;
 pub mod trajectory;

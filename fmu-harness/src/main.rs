@@ -2,8 +2,8 @@
 
 use clap::{Parser, Subcommand};
 use fmu_harness::command::{
-    Accuracy, Campaign, Dynamics, Effects, Inspect, Laws, Package, Peers, Precision, Realtime, Report, Run, Ssp, Sweep,
-    Wear,
+    Accuracy, Campaign, Dynamics, Effects, Inspect, Laws, Package, Peers, Precision, Realtime, Report, Run,
+    Sensitivity, Ssp, Sweep, Wear,
 };
 use std::process::ExitCode;
 
@@ -48,6 +48,8 @@ enum Command {
     Campaign(Campaign),
     /// Writes the press with its controller as an SSP package
     Ssp(Ssp),
+    /// Differentiates quantities of a run by parameters
+    Sensitivity(Sensitivity),
     /// Runs a study: many runs with different parameters
     Sweep(Sweep),
     /// Wears the joints of a scene over many strokes
@@ -71,6 +73,7 @@ fn main() -> ExitCode {
         Some(Command::Report(report)) => report.execute(),
         Some(Command::Campaign(campaign)) => campaign.execute(),
         Some(Command::Ssp(ssp)) => ssp.execute(),
+        Some(Command::Sensitivity(sensitivity)) => sensitivity.execute(),
         Some(Command::Sweep(sweep)) => sweep.execute(),
         Some(Command::Wear(wear)) => wear.execute(),
     };

@@ -14,6 +14,8 @@ use std::process::{Command, ExitStatus};
 const STANDING: &str = "hold";
 /// The one whose prescribed crank leaves nothing free: its motion has no neighbours.
 const PRESCRIBED: &str = "ideal";
+/// A short look at the dynamics.
+const SHORT: [&str; 6] = ["--transient", "1", "--turns", "6", "--tangent-turns", "1"];
 /// Under each table stands a sentence for every row without numbers.
 const GAP: &str = "has no numbers";
 
@@ -60,9 +62,12 @@ fn dynamics_comes_to_a_verdict_on_every_scene() {
     let scenes = shipped();
     let moving = scenes.iter().filter(|scene| ![STANDING, PRESCRIBED].contains(&scene.as_str()));
     let mut commands: Vec<Vec<&str>> =
-        moving.map(|scene| vec!["dynamics", "--scene", scene, "--transient", "1", "--turns", "6"]).collect();
+        moving.map(|scene| [&["dynamics", "--scene", scene], &SHORT[..]].concat()).collect();
     let range = ["--parameter", "joint.C.clearance", "--from", "1e-4", "--to", "5e-4", "--values", "3"];
-    commands.push([&["dynamics", "--transient", "1", "--turns", "6", "--value-turns", "6"], &range[..]].concat());
+    commands.push([&["dynamics", "--value-turns", "6"], &SHORT[..], &range[..]].concat());
+    let range = ["--parameter", "joint.C.clearance", "--from", "2e-5", "--to", "2.01e-5", "--values", "2"];
+    let follow = ["--follow-orbit", "--transient", "40", "--turns", "6", "--tangent-turns", "0", "--value-turns", "6"];
+    commands.push([&["dynamics"], &follow[..], &range[..]].concat());
     all_end_well(&commands);
 }
 
@@ -88,6 +93,15 @@ fn the_other_commands_have_a_number_in_every_row() {
         vec!["report", "--unmeasured", "--transient", "2", "--turns", "6"],
         vec!["campaign", "--kind", "machines", "--scenes", "8", "--turns", "5"],
         vec!["sweep", &study, "--plan"],
+        vec![
+            "sensitivity",
+            "--turns",
+            "0.2",
+            "--of",
+            "accuracy.position@30deg,joint.C.force:peak",
+            "--to",
+            "rod.length",
+        ],
         [&["wear", "--coefficient", "B=1e-17", "--coefficient", "C=1e-17,3e-17", "--strokes", "1e6"], &wear[..]]
             .concat(),
     ];

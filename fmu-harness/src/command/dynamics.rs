@@ -2,6 +2,8 @@
 
 use super::{out_directory, shown};
 use crate::dynamics::bifurcation::{From, Range};
+use crate::dynamics::continuation::{Branch, Continuation};
+use crate::dynamics::orbit::PoincareMap;
 use crate::dynamics::portrait::Plan;
 use crate::host::Setting;
 use crate::report::dynamics as report;
@@ -10,6 +12,7 @@ use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::scene::parameter::Parameter;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -17,7 +20,8 @@ use std::path::{Path, PathBuf};
 ///
 /// `--parameter` adds a bifurcation diagram over the range of a parameter. Runs in this process. The largest exponent is
 /// measured with a second, neighbouring motion; all of them are measured with the tangent of the motion, which is exact
-/// through impacts. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
+/// through impacts. With `--follow-orbit` the diagram shows branches of periodic motions, stable or not, with their
+/// folds, period doublings, Neimark-Sacker bifurcations and grazing. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
 /// with `--parameter` dynamics-SCENE-bifurcation.svg with data.
 #[derive(Args)]
 pub struct Dynamics {
@@ -63,6 +67,12 @@ pub struct Dynamics {
     /// Follow a branch: start each value from the end state of the value before, instead of the scene's start state
     #[arg(long)]
     follow: bool,
+    /// Follow the branch of periodic motions that begins at the first value, stable or not, through folds
+    #[arg(long, requires = "parameter")]
+    follow_orbit: bool,
+    /// How often the branch is left for one of twice the period
+    #[arg(long, default_value_t = 1, value_name = "NUMBER", value_parser = clap::value_parser!(u8).range(0..=4))]
+    doublings: u8,
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
@@ -117,14 +127,42 @@ impl Dynamics {
             println!("{}", verdicts.print());
             page += &format!("\n{}", verdicts.markdown());
             tables.push(verdicts);
+            let orbits = if self.follow_orbit { self.orbits(&scenario, &plan, &range)? } else { vec![] };
+            if self.follow_orbit {
+                for table in [report::bifurcations(&range, &orbits), report::ends(&orbits)] {
+                    println!("{}", table.print());
+                    page += &format!("\n{}", table.markdown());
+                    tables.push(table);
+                }
+                let base = out.join(format!("dynamics-{name}-orbits"));
+                report::orbit_frame(&range, &orbits).save(&base)?;
+                written.extend(["csv", "parquet"].map(|ending| base.with_extension(ending)));
+            }
             let base = out.join(format!("dynamics-{name}-bifurcation"));
-            written.push(write(&base, "svg", &report::bifurcation(name, scene, &range, &branches).svg()?)?);
+            let sheet = report::bifurcation(name, scene, &range, &branches, &orbits);
+            written.push(write(&base, "svg", &sheet.svg()?)?);
             report::bifurcation_frame(&range, &branches).save(&base)?;
             written.extend(["csv", "parquet"].map(|ending| base.with_extension(ending)));
         }
         written.push(write(&base, "md", &page)?);
         written.iter().for_each(|file| println!("{}", shown(file)));
         Table::complete(&tables)
+    }
+
+    /// Branches of periodic motions from the first value of the range on.
+    fn orbits(&self, scenario: &Scenario, plan: &Plan, range: &Range) -> Result<Vec<Branch>> {
+        let parameter = Parameter::named(&range.name).context("a parameter")?;
+        let (from, to) = (range.values[0], range.values[range.values.len() - 1]);
+        let map = PoincareMap::new(&scenario.file, parameter, plan.section)?;
+        let start = plan.periodic(&map, from)?;
+        let bar = ProgressBar::new_spinner().with_message("branches");
+        let continuation = Continuation { map: &map, from, to, doublings: self.doublings.into() };
+        let branches = continuation.follow(start, |value| {
+            bar.set_message(format!("branches: {} = {value:.5e}", range.name));
+            bar.tick();
+        });
+        bar.finish_and_clear();
+        branches
     }
 
     fn range(&self) -> Result<Option<Range>> {

@@ -85,7 +85,8 @@ impl Report {
 
     fn long_run(&self, file: &SceneFile, bar: &ProgressBar) -> Result<Section> {
         let turns = self.turns as usize;
-        let plan = portrait::Plan { transient: self.transient, turns, section: 0.0, per_turn: PER_TURN, tangent_turns: 0 };
+        let plan =
+            portrait::Plan { transient: self.transient, turns, section: 0.0, per_turn: PER_TURN, tangent_turns: 0 };
         begin(bar, "in the long run", plan.ticks());
         let portrait = plan.portrait(file, || bar.inc(1))?;
         let sheet = reports::dynamics::sheet(&file.name, &file.scene, &portrait);

@@ -18,13 +18,10 @@ pub trait TangentFlow {
     /// Directions in columns, in numbers of which each has the same meaning.
     ///
     /// # Errors
-    /// If there are none any more.
+    /// If the first order has ended since they were set.
     fn directions(&mut self) -> Result<DMatrix<f64>>;
     /// Replaces the directions.
-    ///
-    /// # Errors
-    /// If there are none any more.
-    fn set_directions(&mut self, directions: &DMatrix<f64>) -> Result<()>;
+    fn set_directions(&mut self, directions: &DMatrix<f64>);
 }
 
 impl TangentFlow for Machine<tangent::Tangent> {
@@ -40,8 +37,8 @@ impl TangentFlow for Machine<tangent::Tangent> {
         self.directions()
     }
 
-    fn set_directions(&mut self, directions: &DMatrix<f64>) -> Result<()> {
-        self.set_directions(directions)
+    fn set_directions(&mut self, directions: &DMatrix<f64>) {
+        self.set_directions(directions);
     }
 }
 
@@ -61,6 +58,10 @@ pub struct Measurement {
 pub struct Exponents {
     /// All exponents, the largest first.
     pub all: Vec<Exponent>,
+    /// Number of intervals.
+    pub intervals: usize,
+    /// Number of those that were left out because the first order ended in them, near grazing.
+    pub left_out: usize,
 }
 
 impl Exponents {
@@ -88,19 +89,34 @@ impl Measurement {
     /// Measures as many exponents as `flow` has directions.
     ///
     /// # Errors
-    /// If nothing is free to move, the flow cannot go on, or the first order ends near grazing.
+    /// If nothing is free to move, the flow cannot go on, or the first order ends in more than half of the intervals.
     pub fn run<F: TangentFlow>(&self, flow: &mut F, mut tick: impl FnMut()) -> Result<Exponents> {
         let columns = flow.directions()?.ncols();
         ensure!(columns > 0, "the motion is prescribed and has no neighbouring motions");
         let mut growths = vec![vec![]; columns];
         let mut histories = vec![vec![]; columns];
         let (mut sums, mut span, mut last) = (vec![0.0; columns], 0.0, flow.time());
-        orthogonalise(flow)?;
+        let mut directions = orthogonal(&flow.directions()?).0;
+        let mut left_out = 0;
         for number in 0..self.count {
+            flow.set_directions(&directions);
             flow.advance(last + self.interval)?;
-            let grown = orthogonalise(flow)?;
             let passed = flow.time() - last;
             last = flow.time();
+            let grown = match flow.directions() {
+                Ok(grown) => {
+                    let (next, grown) = orthogonal(&grown);
+                    directions = next;
+                    grown
+                }
+                // The same directions go on behind the place.
+                Err(error) => {
+                    left_out += 1;
+                    ensure!(2 * left_out <= self.count, "the first order ends too often: {error:#}");
+                    tick();
+                    continue;
+                }
+            };
             if number >= self.settling {
                 span += passed;
                 for (column, growth) in grown.into_iter().enumerate() {
@@ -118,17 +134,15 @@ impl Measurement {
         };
         let mut all: Vec<Exponent> = sums.into_iter().zip(growths).zip(histories).map(exponent).collect();
         all.sort_by(|a, b| b.value.total_cmp(&a.value));
-        Ok(Exponents { all })
+        Ok(Exponents { all, intervals: self.count, left_out })
     }
 }
 
-/// Makes the directions of a flow orthogonal and of unit length; the logarithms of the lengths.
-fn orthogonalise<F: TangentFlow>(flow: &mut F) -> Result<Vec<f64>> {
-    let directions = flow.directions()?;
-    let lengths = directions.clone().qr();
-    let (q, r) = (lengths.q(), lengths.r());
+/// Orthogonal directions of unit length that span the same spaces, and the logarithms of the lengths.
+fn orthogonal(directions: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
+    let factors = directions.clone().qr();
+    let r = factors.r();
     // A direction that has collapsed on the others has no length; its growth is that of rounding.
     let grown = (0..directions.ncols()).map(|i| r[(i, i)].abs().max(f64::MIN_POSITIVE).ln()).collect();
-    flow.set_directions(&q)?;
-    Ok(grown)
+    (factors.q(), grown)
 }

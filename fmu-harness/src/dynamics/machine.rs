@@ -133,6 +133,11 @@ impl<S: Simulated> Machine<S> {
         bail!("the crank does not turn on: at {} s it has made {:.3} turns", self.time(), self.turned() / TAU)
     }
 
+    /// The point of phase space.
+    pub fn phase(&mut self) -> Phase {
+        self.simulation.phase()
+    }
+
     /// [m/s] Approach speed of the closed contact in joint A, B or C (index 0, 1, 2).
     pub fn approach(&mut self, joint: usize) -> Option<f64> {
         self.simulation.phase().approach.get(joint).copied().flatten()

@@ -4,9 +4,11 @@
 //! results.
 
 pub mod bifurcation;
+pub mod continuation;
 pub mod exponents;
 pub mod lyapunov;
 pub mod machine;
+pub mod orbit;
 pub mod portrait;
 pub mod section;
 pub mod spectrum;

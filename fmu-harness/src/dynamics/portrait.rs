@@ -2,14 +2,16 @@
 
 use super::exponents::{Exponents, Measurement};
 use super::lyapunov::{Exponent, Probe};
+use super::orbit::{PoincareMap, Return};
 use super::section::{Impact, Visit, impacts, stroboscope};
 use super::tangent::all_states;
-use super::verdict::{Evidence, judge};
+use super::verdict::{Evidence, Verdict, judge};
 use super::{Flow, Machine, machine, spectrum};
-use anyhow::Result;
+use anyhow::{Context, Result, bail};
 use slidercrank::model::signals::Outputs;
 use slidercrank::scene::Scene;
 use slidercrank::scene::read::SceneFile;
+use std::f64::consts::TAU;
 
 /// Length of the run, and the section.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,6 +111,28 @@ impl Plan {
         let interval = moving.turn() / self.per_turn as f64;
         let settling = (SETTLING * count as f64) as usize;
         Measurement { interval, count, settling }.run(&mut moving, tick)
+    }
+
+    /// The periodic motion on which the motion settles at a value of the map's parameter.
+    ///
+    /// # Errors
+    /// If it settles on none.
+    pub fn periodic(&self, map: &PoincareMap<'_>, value: f64) -> Result<Return> {
+        let file = map.file(value)?;
+        let mut machine = self.settled(&file)?;
+        let first = ((machine.turned() - self.section) / TAU - 1e-9).ceil();
+        machine.advance_turned(self.section + TAU * first)?;
+        let begin = machine.phase();
+        let visits = stroboscope(&mut machine, self.section, self.turns.max(2), || {})?;
+        let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(&file.scene, &visit.outputs)).collect();
+        let unknown = Exponent { value: 0.0, error: f64::INFINITY, history: vec![] };
+        let name = map.parameter.name;
+        match judge(&vectors, &unknown).verdict {
+            Verdict::Periodic(turns) => map
+                .solve(value, &begin, turns)
+                .with_context(|| format!("at {name} = {value} the motion repeats after {turns} turns")),
+            _ => bail!("at {name} = {value} the motion does not settle on a periodic one; begin at another value"),
+        }
     }
 
     /// The machine after the transient.

@@ -44,26 +44,31 @@ impl Machine<Tangent> {
     /// # Errors
     /// Where the first order has ended near grazing, with joint and time.
     pub fn directions(&mut self) -> Result<DMatrix<f64>> {
-        let rows = self.rows();
-        let directions = self.simulation.directions()?;
-        Ok(DMatrix::from_fn(rows.len(), directions.ncols(), |i, j| directions[(rows[i].0, j)] / rows[i].1))
+        let scales: Vec<f64> = self.rows().into_iter().map(|(_, scale)| scale).collect();
+        self.directions_in(&scales)
     }
 
-    /// Replaces the directions, given as by [`directions`](Self::directions).
+    /// As [`directions`](Self::directions), in units of these scales.
     ///
     /// # Errors
     /// As [`directions`](Self::directions).
-    pub fn set_directions(&mut self, directions: &DMatrix<f64>) -> Result<()> {
+    pub fn directions_in(&mut self, scales: &[f64]) -> Result<DMatrix<f64>> {
         let rows = self.rows();
-        let mut all = self.simulation.directions()?;
-        all.fill(0.0);
+        let directions = self.simulation.directions()?;
+        Ok(DMatrix::from_fn(rows.len(), directions.ncols(), |i, j| directions[(rows[i].0, j)] / scales[i]))
+    }
+
+    /// Replaces the directions, given as by [`directions`](Self::directions). Grazing before no longer counts.
+    pub fn set_directions(&mut self, directions: &DMatrix<f64>) {
+        let rows = self.rows();
+        let states = self.simulation.variation.states();
+        let mut all = DMatrix::zeros(states + slidercrank::simulation::CONTACTS, directions.ncols());
         for (i, (row, scale)) in rows.into_iter().enumerate() {
             for j in 0..directions.ncols() {
                 all[(row, j)] = directions[(i, j)] * scale;
             }
         }
         self.simulation.variation.set_directions(all);
-        Ok(())
     }
 
     /// Row and scale of each number of phase space.
@@ -103,10 +108,14 @@ fn contact_names(scene: &Scene) -> Vec<String> {
 fn explained(grazing: Grazing, names: &[String]) -> anyhow::Error {
     let Grazing { time, contact, speed, missed } = grazing;
     if missed {
-        return anyhow!("at {time} s a contact is just missed (grazing): small changes have no small effect from there on");
+        return anyhow!(
+            "at {time} s a contact is just missed (grazing): small changes have no small effect from there on"
+        );
     }
     let name = names.get(contact).map_or("a contact", String::as_str);
-    anyhow!("at {time} s {name} closes at {speed:.1e} m/s only (grazing): small changes have no small effect from there on")
+    anyhow!(
+        "at {time} s {name} closes at {speed:.1e} m/s only (grazing): small changes have no small effect from there on"
+    )
 }
 
 impl Simulated for Tangent {
@@ -151,7 +160,8 @@ impl Simulated for Tangent {
 /// # Errors
 /// If the scene cannot start.
 pub fn all_states(file: &SceneFile) -> Result<Vec<Seed>> {
-    let simulation = slidercrank::simulation::Simulation::start(&file.scene, start_values(file)).context("the scene")?;
+    let simulation =
+        slidercrank::simulation::Simulation::start(&file.scene, start_values(file)).context("the scene")?;
     Ok((0..simulation.phase_scales().states.len()).map(Seed::State).collect())
 }
 

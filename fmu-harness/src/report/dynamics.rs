@@ -4,13 +4,16 @@ use super::plot::{Curve, Mark, Panel, Role, Sheet};
 use super::table::Table;
 use super::units::{Shown, significant, three_digits};
 use crate::dynamics::bifurcation::{Branch, Range};
+use crate::dynamics::continuation::{Branch as Orbits, Found};
 use crate::dynamics::exponents::Exponents;
 use crate::dynamics::lyapunov::Exponent;
 use crate::dynamics::machine::clearances;
+use crate::dynamics::orbit::Orbit;
 use crate::dynamics::portrait::Portrait;
 use crate::dynamics::section::Visit;
 use crate::dynamics::verdict::{SAME, Verdict};
 use crate::frame::{Column, Frame};
+use nalgebra::Complex;
 use slidercrank::model::signals::{Outputs, RevoluteOutputs};
 use slidercrank::scene::Scene;
 use slidercrank::scene::parameter::{Kind, Parameter};
@@ -158,12 +161,7 @@ fn all_exponents(exponents: &Exponents, turn: f64) -> Panel {
     let zero = vec![(1.0, 0.0), (exponents.all.len() as f64, 0.0)];
     let mut curves = vec![curve(Role::Limit, zero, Mark::Line), curve(Role::Actual, points.collect(), Mark::Dots)];
     curves.extend(bars);
-    Panel {
-        x_label: "number of the exponent".into(),
-        y_label: "exponent [1/turn]".into(),
-        curves,
-        square: false,
-    }
+    Panel { x_label: "number of the exponent".into(), y_label: "exponent [1/turn]".into(), curves, square: false }
 }
 
 /// All exponents with their sum and dimension; `None` if they were not asked for.
@@ -184,7 +182,14 @@ pub fn exponent_table(portrait: &Portrait) -> Option<Table> {
     }
     let [second, turn] = shown(exponents.sum());
     table.row(["sum".into(), second, String::new(), turn]);
-    table.row(["dimension of Kaplan and Yorke".into(), format!("{:.3}", exponents.dimension()), String::new(), String::new()]);
+    table.row([
+        "dimension of Kaplan and Yorke".into(),
+        format!("{:.3}", exponents.dimension()),
+        String::new(),
+        String::new(),
+    ]);
+    let share = format!("{} of {}", exponents.left_out, exponents.intervals);
+    table.row(["intervals left out near grazing".into(), share, String::new(), String::new()]);
     let largest = exponents.all.first()?;
     let both = largest.error.hypot(portrait.exponent.error);
     let apart = (largest.value - portrait.exponent.value).abs() / both;
@@ -269,7 +274,7 @@ pub fn spectrum_frame(portrait: &Portrait) -> Frame {
 
 /// A bifurcation diagram over the parameter: slider velocity and a journal's position at every point of the section,
 /// and the exponent.
-pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch]) -> Sheet {
+pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch], orbits: &[Orbits]) -> Sheet {
     let unit = match Parameter::named(&range.name).map(|parameter| &parameter.kind) {
         Some(Kind::Real { unit, .. }) => *unit,
         _ => "1",
@@ -285,18 +290,15 @@ pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch
             .map(|(x, o)| (x, of(&o)))
             .collect()
     };
-    let dots = |y_label: &str, points| Panel {
-        x_label: x_label.clone(),
-        y_label: y_label.into(),
-        curves: vec![curve(Role::Actual, points, Mark::Dots)],
-        square: false,
+    let dots = |y_label: &str, of: &dyn Fn(&Outputs) -> f64| {
+        let mut curves = vec![curve(Role::Actual, over(of), Mark::Dots)];
+        curves.extend(orbits.iter().flat_map(|branch| orbit_curves(branch, shown.factor, of)));
+        Panel { x_label: x_label.clone(), y_label: y_label.into(), curves, square: false }
     };
-    let mut panels = vec![dots("slider velocity once a turn [m/s]", over(&|outputs| outputs.slider.v))];
+    let mut panels = vec![dots("slider velocity once a turn [m/s]", &|outputs| outputs.slider.v)];
     if let Some((joint, _)) = clearances(scene).into_iter().find(|(joint, _)| *joint != 'T') {
-        panels.push(dots(
-            &format!("journal of {joint} across the guide [µm]"),
-            over(&|outputs| 1e6 * journal(joint, outputs).eccentricity[1]),
-        ));
+        let label = format!("journal of {joint} across the guide [µm]");
+        panels.push(dots(&label, &|outputs| 1e6 * journal(joint, outputs).eccentricity[1]));
     }
     let exponents: Vec<(f64, f64)> = found().map(|(x, (_, evidence))| (x, evidence.exponent)).collect();
     let ends = exponents.first().into_iter().chain(exponents.last()).map(|point| (point.0, 0.0)).collect();
@@ -308,8 +310,93 @@ pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch
     });
     let upper = panels.len() - 1;
     panels[..upper].iter_mut().for_each(|panel| panel.x_label.clear());
-    let legend = vec![(Role::Actual, format!("every visit of {} values", branches.len()))];
+    let mut legend = vec![(Role::Actual, format!("every visit of {} values", branches.len()))];
+    if !orbits.is_empty() {
+        legend.extend([(STABLE, "periodic, stable".into()), (UNSTABLE, "periodic, unstable".into())]);
+        legend.push((SPECIAL, "where they change".into()));
+    }
     Sheet { title: format!("{title}: bifurcation"), legend, panels, columns: 1, panel_size: (1100, 300) }
+}
+
+/// Colours of periodic motions.
+const STABLE: Role = Role::Member(0);
+const UNSTABLE: Role = Role::Member(1);
+const SPECIAL: Role = Role::Member(3);
+
+/// The stable and unstable parts of a branch, one curve for each passage of a period, and its bifurcations.
+fn orbit_curves(branch: &Orbits, factor: f64, of: &dyn Fn(&Outputs) -> f64) -> Vec<Curve> {
+    let mut curves = vec![];
+    for passage in 0..branch.turns {
+        let point = |orbit: &Orbit| Some((orbit.value * factor, of(&orbit.visits.get(passage)?.outputs)));
+        for part in branch.orbits.chunk_by(|one, other| one.is_stable() == other.is_stable()) {
+            let role = if part[0].is_stable() { STABLE } else { UNSTABLE };
+            curves.push(curve(role, part.iter().filter_map(point).collect(), Mark::Path));
+        }
+        curves.push(curve(SPECIAL, branch.found.iter().filter_map(|found| point(&found.orbit)).collect(), Mark::Dots));
+    }
+    curves
+}
+
+/// The bifurcations of all branches.
+pub fn bifurcations(range: &Range, branches: &[Orbits]) -> Table {
+    let mut table = Table::default();
+    table.row([range.name.as_str(), "change", "period [turns]", "largest multiplier", "its modulus"]);
+    for branch in branches {
+        for Found { kind, orbit } in &branch.found {
+            let Complex { re, im } = orbit.largest();
+            let multiplier = if im == 0.0 { format!("{re:.6}") } else { format!("{re:.6} ± {:.6}i", im.abs()) };
+            table.row([
+                format!("{:.6e}", orbit.value),
+                kind.to_string(),
+                branch.turns.to_string(),
+                multiplier,
+                format!("{:.6}", orbit.largest().norm()),
+            ]);
+        }
+    }
+    table
+}
+
+/// The branches, and why they end.
+pub fn ends(branches: &[Orbits]) -> Table {
+    let mut table = Table::default();
+    table.row(["branch", "period [turns]", "motions", "of them stable", "from", "to", "its end"]);
+    for (number, branch) in branches.iter().enumerate() {
+        let stable = branch.orbits.iter().filter(|orbit| orbit.is_stable()).count();
+        let [from, to] = [branch.orbits.first(), branch.orbits.last()]
+            .map(|orbit| orbit.map_or_else(|| "–".into(), |orbit| format!("{:.6e}", orbit.value)));
+        table.row([
+            (number + 1).to_string(),
+            branch.turns.to_string(),
+            branch.orbits.len().to_string(),
+            stable.to_string(),
+            from,
+            to,
+            branch.end.clone(),
+        ]);
+    }
+    table
+}
+
+/// All passages of all periodic motions as columns.
+pub fn orbit_frame(range: &Range, branches: &[Orbits]) -> Frame {
+    let rows: Vec<(usize, &Orbit, Visit)> = (1..)
+        .zip(branches)
+        .flat_map(|(number, branch)| branch.orbits.iter().map(move |orbit| (number, orbit)))
+        .flat_map(|(number, orbit)| orbit.visits.iter().map(move |visit| (number, orbit, *visit)))
+        .collect();
+    let column = |of: &dyn Fn(&(usize, &Orbit, Visit)) -> f64| rows.iter().map(of).collect::<Vec<_>>();
+    let mut frame = Frame::default()
+        .reals(range.name.clone(), column(&|(_, orbit, _)| orbit.value))
+        .reals("branch", column(&|(number, ..)| *number as f64))
+        .reals("turns", column(&|(_, orbit, _)| orbit.turns as f64))
+        .reals("stable", column(&|(_, orbit, _)| f64::from(u8::from(orbit.is_stable()))))
+        .reals("multiplier", column(&|(_, orbit, _)| orbit.largest().norm()));
+    let passages: Vec<Visit> = rows.iter().map(|(.., visit)| *visit).collect();
+    for (name, column) in visits(&passages).columns() {
+        frame = frame.with(name.clone(), column.clone());
+    }
+    frame
 }
 
 /// All points of the section for all values as columns.

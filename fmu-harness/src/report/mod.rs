@@ -18,6 +18,7 @@ pub mod plot;
 pub mod precision;
 pub mod price;
 pub mod realtime;
+pub mod sensitivity;
 pub mod ssp;
 pub mod study;
 pub mod summary;

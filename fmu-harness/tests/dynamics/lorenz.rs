@@ -6,7 +6,7 @@ use fmu_harness::dynamics::Flow;
 use fmu_harness::dynamics::lyapunov::Probe;
 use slidercrank::integrator::{Events, Linearizable, Ode, SeveralInstants, StateLayout};
 
-struct Lorenz;
+pub struct Lorenz;
 
 static SCALES: [f64; 3] = [1.0; 3];
 

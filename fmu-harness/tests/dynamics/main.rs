@@ -4,3 +4,4 @@ mod ball;
 mod lorenz;
 mod mechanism;
 mod system;
+mod tangent;

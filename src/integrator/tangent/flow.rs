@@ -25,7 +25,7 @@ const MAX_ITERATIONS: usize = 24;
 /// Largest contraction of an iteration that goes on.
 const SLOWEST: f64 = 0.5;
 /// Error of an iteration, as a share of the tolerance.
-const CONVERGED: f64 = 1e-3;
+const CONVERGED: f64 = 1e-2;
 /// Share of a step within which a corner is found.
 const RESOLUTION: f64 = 1e-12;
 /// Error of an iteration that stands for rounding.
@@ -103,6 +103,10 @@ pub struct Flow {
     /// Directions at a node, and their slopes.
     inner: Vec<f64>,
     found: Vec<f64>,
+    /// The columns that are not 0 and do not stay so; the matrices have these alone.
+    moving: Vec<usize>,
+    /// The size of each of them below which it counts as none.
+    least: Vec<f64>,
 }
 
 /// A step to integrate along, and the direction of each column in parameters.
@@ -139,6 +143,26 @@ impl Flow {
             before: zeros(),
             inner: zeros(),
             found: zeros(),
+            moving: vec![],
+            least: vec![],
+        }
+    }
+
+    /// Restricts the matrices to the columns that move in a step.
+    fn select<D: Copy>(&mut self, path: &Path<'_, D>, tangents: &DMatrix<f64>) {
+        let moves = |column: usize| {
+            let numbers = tangents.column(column);
+            let shares = path.parameters.column(column);
+            numbers.iter().chain(shares.iter()).any(|number| *number != 0.0)
+        };
+        self.moving = (0..tangents.ncols()).filter(|&column| moves(column)).collect();
+        self.least = self.moving.iter().map(|&column| path.least[column]).collect();
+        let length = self.moving.len() * path.step.layout.states;
+        for matrix in [&mut self.before, &mut self.inner, &mut self.found] {
+            matrix.resize(length, 0.0);
+        }
+        for matrix in self.pushing.iter_mut().chain(&mut self.stages) {
+            matrix.resize(length, 0.0);
         }
     }
 
@@ -149,6 +173,7 @@ impl Flow {
         if step.h == 0.0 || from >= to {
             return;
         }
+        self.select(path, tangents);
         self.correction.forget();
         // The dense output's slack is too much for its second derivatives.
         self.correction.find(&step, system.system(), discrete, 1e-3 * tolerance);
@@ -179,8 +204,8 @@ impl Flow {
                 add(&mut self.before, *weight, &self.stages[place]);
             }
             let n = step.layout.states;
-            for (mut column, states) in tangents.column_iter_mut().zip(self.before.chunks_exact(n)) {
-                column.iter_mut().zip(states).for_each(|(place, value)| *place = *value);
+            for (&column, states) in self.moving.iter().zip(self.before.chunks_exact(n)) {
+                tangents.column_mut(column).iter_mut().zip(states).for_each(|(place, value)| *place = *value);
             }
         }
     }
@@ -213,8 +238,8 @@ impl Flow {
     /// Computes the stages of a part; returns its error relative to the tangents.
     fn attempt<D: Copy>(&mut self, path: &Path<'_, D>, [start, end]: [f64; 2], tangents: &DMatrix<f64>) -> f64 {
         let n = path.step.layout.states;
-        for (states, column) in self.before.chunks_exact_mut(n).zip(tangents.column_iter()) {
-            states.iter_mut().zip(&column).for_each(|(place, value)| *place = *value);
+        for (states, &column) in self.before.chunks_exact_mut(n).zip(&self.moving) {
+            states.iter_mut().zip(&tangents.column(column)).for_each(|(place, value)| *place = *value);
         }
         for node in 0..NODES {
             self.evaluate(path, node, start, end, tangents);
@@ -245,7 +270,7 @@ impl Flow {
         let mut slopes = [0.0; MAX_STATES];
         let slopes = &mut slopes[..n];
         let mut along = |slopes: &[f64], shares: &DMatrix<f64>, row: usize| {
-            for (column, place) in push.chunks_exact_mut(n).enumerate() {
+            for (place, &column) in push.chunks_exact_mut(n).zip(&self.moving) {
                 add(place, length * shares[(row, column)], slopes);
             }
         };
@@ -267,14 +292,14 @@ impl Flow {
     /// Finds the stages by fixed-point iteration; returns whether it has converged.
     fn iterate<D: Copy>(&mut self, path: &Path<'_, D>) -> bool {
         let n = path.step.layout.states;
-        let Self { legendre, turning, pushing, stages, before, inner, found, .. } = self;
+        let Self { legendre, turning, pushing, stages, before, inner, found, least, .. } = self;
         for (stage, (turning, pushing)) in stages.iter_mut().zip(turning.iter().zip(&*pushing)) {
             stage.copy_from_slice(pushing);
             add_product(stage, turning, before, n);
         }
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
-            let mut change = 0.0_f64;
+            let mut change = 0.0;
             for node in 0..NODES {
                 inner.copy_from_slice(before);
                 for (integral, stage) in legendre.integrals[node].iter().zip(&*stages) {
@@ -282,8 +307,11 @@ impl Flow {
                 }
                 found.copy_from_slice(&pushing[node]);
                 add_product(found, &turning[node], inner, n);
-                add(&mut stages[node], -1.0, found);
-                change = change.max(size(path, &stages[node], before));
+                if node == NODES - 1 {
+                    // All nodes come near at the same rate.
+                    add(&mut stages[node], -1.0, found);
+                    change = size(path, least, &stages[node], before);
+                }
                 stages[node].copy_from_slice(found);
             }
             if change <= (CONVERGED * path.tolerance).max(ROUNDING) {
@@ -326,13 +354,13 @@ impl Flow {
     /// Error of the part relative to the tangents. With coefficients that fall like ρ^m the error at the end falls like
     /// ρ^(2·NODES), and the last coefficient is ρ^(NODES − 1).
     fn error<D: Copy>(&mut self, path: &Path<'_, D>) -> f64 {
-        let Self { legendre, stages, before, inner, .. } = self;
+        let Self { legendre, stages, before, inner, least, .. } = self;
         let sizes = legendre.analysis.map(|row| {
             inner.fill(0.0);
             for (share, stage) in row.iter().zip(&*stages) {
                 add(inner, *share, stage);
             }
-            size(path, inner, before)
+            size(path, least, inner, before)
         });
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         if largest == 0.0 {
@@ -360,7 +388,7 @@ fn add_product(sum: &mut [f64], matrix: &[f64], directions: &[f64], n: usize) {
 }
 
 /// Largest change of a direction relative to the direction itself, states in units of their scales.
-fn size<D: Copy>(path: &Path<'_, D>, changes: &[f64], directions: &[f64]) -> f64 {
+fn size<D: Copy>(path: &Path<'_, D>, least: &[f64], changes: &[f64], directions: &[f64]) -> f64 {
     let (scales, n) = (path.system.system().scales(), path.step.layout.states);
     let norm = |column: &[f64]| {
         let scaled = column.iter().zip(scales).filter(|(_, scale)| **scale > 0.0);
@@ -369,7 +397,7 @@ fn size<D: Copy>(path: &Path<'_, D>, changes: &[f64], directions: &[f64]) -> f64
             .fold(0.0, |norm: f64, value| if value > norm { value } else { norm })
     };
     let mut largest = 0.0_f64;
-    for ((change, direction), least) in changes.chunks_exact(n).zip(directions.chunks_exact(n)).zip(path.least) {
+    for ((change, direction), least) in changes.chunks_exact(n).zip(directions.chunks_exact(n)).zip(least) {
         largest = largest.max(norm(change) / norm(direction).max(*least));
         if change.iter().any(|value| !value.is_finite()) {
             return f64::INFINITY;

@@ -71,9 +71,10 @@ impl<D: Copy> Tangents<D> {
     }
 
     /// Replaces the directions at the front, for instance by orthogonal ones. Directions before are then unknown: the
-    /// motion must not be shortened beyond.
+    /// motion must not be shortened beyond. What came near grazing before no longer counts.
     pub fn set_directions(&mut self, directions: DMatrix<f64>) {
         self.front.directions = directions;
+        self.grazing = None;
     }
 
     /// Replaces the share of each direction in one parameter, from the front on.

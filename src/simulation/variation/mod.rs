@@ -249,7 +249,7 @@ impl Variation {
         self.tangents.at(&Varied { model, neighbours: &self.neighbours }, integrator.state(), self.time)
     }
 
-    /// Replaces the directions at the communication point, where the last step then ends.
+    /// Replaces the directions at the communication point, where the last step then ends. Grazing before no longer counts.
     pub fn set_directions(&mut self, directions: DMatrix<f64>) {
         self.phase();
         self.tangents.set_directions(directions);
@@ -258,6 +258,11 @@ impl Variation {
     /// Outputs at the communication point.
     pub fn outputs(&mut self) -> Outputs {
         self.run.outputs(self.time, Side::After)
+    }
+
+    /// First time derivatives of the real outputs at the communication point; integers and Booleans are meaningless.
+    pub fn output_rates(&mut self) -> Outputs {
+        self.run.output_rates(self.time, Side::After)
     }
 
     /// Rates of the states at the communication point.

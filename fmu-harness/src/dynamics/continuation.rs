@@ -1,0 +1,326 @@
+//! Branches of periodic motions, followed in a parameter by pseudo-arclength through folds (H. B. Keller, in
+//! Applications of Bifurcation Theory, Academic Press 1977, 359; Yu. A. Kuznetsov, Elements of Applied Bifurcation
+//! Theory, Springer 2004, 10), and the points at which they change.
+
+use super::orbit::{Orbit, PoincareMap, Return, size};
+use anyhow::{Context, Result, bail};
+use nalgebra::{Complex, DMatrix, DVector};
+use std::fmt;
+
+/// Lengths of steps: the first, the shortest, the longest. A length of 1 is the whole range of the parameter, or a
+/// noticeable difference in all unknowns.
+const FIRST: f64 = 0.01;
+const SHORTEST: f64 = 1e-5;
+const LONGEST: f64 = 0.05;
+/// Most points of a branch.
+const MOST: usize = 400;
+/// Most iterations of a corrector, and how many are few.
+const ITERATIONS: usize = 8;
+const FEW: usize = 3;
+/// Largest miss and error of length.
+const CLOSED: f64 = 1e-7;
+/// Number of secant steps towards a bifurcation.
+const REFINEMENTS: usize = 5;
+/// Share of a noticeable difference by which a branch is left for the doubled one.
+const ASIDE: f64 = 0.02;
+/// A multiplier whose imaginary part is less than this share of it is real.
+const REAL: f64 = 1e-6;
+
+/// How a branch of periodic motions changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bifurcation {
+    /// The branch turns back: a multiplier passes 1.
+    Fold,
+    /// A multiplier passes −1: a motion of twice the period begins.
+    PeriodDoubling,
+    /// A pair of complex multipliers leaves or enters the unit circle.
+    NeimarkSacker,
+    /// A touch begins or ceases to exist.
+    Grazing,
+}
+
+impl fmt::Display for Bifurcation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fold => "fold",
+            Self::PeriodDoubling => "period doubling",
+            Self::NeimarkSacker => "Neimark-Sacker",
+            Self::Grazing => "grazing",
+        })
+    }
+}
+
+/// A bifurcation on a branch.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// What happens.
+    pub kind: Bifurcation,
+    /// The motion there, or the nearest one before it.
+    pub orbit: Orbit,
+}
+
+/// A branch of periodic motions.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Turns of one period.
+    pub turns: usize,
+    /// Its motions, in order.
+    pub orbits: Vec<Orbit>,
+    /// Its bifurcations, in order.
+    pub found: Vec<Found>,
+    /// Why it ends.
+    pub end: String,
+}
+
+/// A parameter's range in which branches are followed.
+pub struct Continuation<'a> {
+    /// The map.
+    pub map: &'a PoincareMap<'a>,
+    /// Ends of the range.
+    pub from: f64,
+    /// See `from`.
+    pub to: f64,
+    /// How often a branch is left for one of twice the period.
+    pub doublings: usize,
+}
+
+/// A point of a branch with its direction.
+struct Point {
+    at: Return,
+    /// Change of the unknowns and of the parameter along the branch; its length is 1.
+    along: DVector<f64>,
+}
+
+impl Continuation<'_> {
+    /// The branch through `start`, a periodic motion, in the direction of `to`, and those of twice its period.
+    ///
+    /// # Errors
+    /// If the first step fails.
+    pub fn follow(&self, start: Return, mut tick: impl FnMut(f64)) -> Result<Vec<Branch>> {
+        let along = self.along(&start, None)?;
+        let mut branches = vec![self.branch(Point { at: start, along }, &mut tick)];
+        let mut first = 0;
+        for _ in 0..self.doublings {
+            let last = branches.len();
+            for place in first..last {
+                let doubled: Vec<Orbit> = branches[place]
+                    .found
+                    .iter()
+                    .filter(|found| found.kind == Bifurcation::PeriodDoubling)
+                    .map(|found| found.orbit.clone())
+                    .collect();
+                for orbit in doubled {
+                    match self.doubled(&orbit) {
+                        Ok(point) => branches.push(self.branch(point, &mut tick)),
+                        Err(error) => {
+                            let end = format!(
+                                "the branch from {} = {:.6e} is not reached: {error:#}",
+                                self.name(),
+                                orbit.value
+                            );
+                            branches.push(Branch { turns: 2 * orbit.turns, orbits: vec![], found: vec![], end });
+                        }
+                    }
+                }
+            }
+            first = last;
+        }
+        Ok(branches)
+    }
+
+    fn name(&self) -> &'static str {
+        self.map.parameter.name
+    }
+
+    /// Change of the parameter that counts as much as a noticeable difference of all unknowns.
+    fn range(&self) -> f64 {
+        (self.to - self.from).abs()
+    }
+
+    /// Follows a branch from one of its points until it leaves the range.
+    fn branch(&self, start: Point, tick: &mut impl FnMut(f64)) -> Branch {
+        let mut branch = Branch {
+            turns: start.at.orbit.turns,
+            orbits: vec![start.at.orbit.clone()],
+            found: vec![],
+            end: String::new(),
+        };
+        let (mut point, mut length) = (start, FIRST);
+        let (low, high) = (self.from.min(self.to), self.from.max(self.to));
+        while branch.orbits.len() < MOST {
+            match self.step(&point, length) {
+                Ok((next, iterations)) => {
+                    let found = self.between(&point, &next, length);
+                    branch.found.extend(found);
+                    branch.orbits.push(next.at.orbit.clone());
+                    tick(next.at.orbit.value);
+                    point = next;
+                    if !(low..=high).contains(&point.at.orbit.value) {
+                        branch.end = format!("{} leaves the range", self.name());
+                        return branch;
+                    }
+                    if iterations <= FEW {
+                        length = (1.5 * length).min(LONGEST);
+                    }
+                }
+                Err(error) => {
+                    length *= 0.5;
+                    if length < SHORTEST {
+                        branch.end = format!("{error:#}");
+                        return branch;
+                    }
+                }
+            }
+        }
+        branch.end = format!("it has {MOST} points");
+        branch
+    }
+
+    /// The direction of a branch at a point: the kernel of (DP − 1 | ∂P/∂p), oriented like the direction `before` or
+    /// towards the end of the range.
+    fn along(&self, at: &Return, before: Option<&DVector<f64>>) -> Result<DVector<f64>> {
+        let n = at.unknowns.len();
+        let mut matrix = DMatrix::zeros(n + 1, n + 1);
+        matrix.view_mut((0, 0), (n, n)).copy_from(&(&at.by_unknowns - DMatrix::identity(n, n)));
+        matrix.view_mut((0, n), (n, 1)).copy_from(&(&at.by_parameter * self.range()));
+        let svd = matrix.svd(false, true);
+        let rows = svd.v_t.context("a decomposition")?;
+        let smallest = svd.singular_values.imin();
+        let kernel = rows.row(smallest).transpose();
+        let kernel = &kernel / self.length(&kernel);
+        let sign = match before {
+            Some(before) if before.len() == kernel.len() => self.product(before, &kernel),
+            _ => kernel[n] * (self.to - self.from),
+        };
+        Ok(if sign < 0.0 { -kernel } else { kernel })
+    }
+
+    /// Product of two directions: the mean over the unknowns, and the parameter.
+    fn product(&self, a: &DVector<f64>, b: &DVector<f64>) -> f64 {
+        let n = a.len() - 1;
+        a.rows(0, n).dot(&b.rows(0, n)) / n.max(1) as f64 + a[n] * b[n]
+    }
+
+    fn length(&self, a: &DVector<f64>) -> f64 {
+        self.product(a, a).sqrt()
+    }
+
+    /// The point of the branch at this length from `point`, and the number of iterations.
+    fn step(&self, point: &Point, length: f64) -> Result<(Point, usize)> {
+        let n = point.at.unknowns.len();
+        let start = &point.at.orbit;
+        let mut change = &point.along * length;
+        for iteration in 1..=ITERATIONS {
+            let value = start.value + change[n] * self.range();
+            let phase = self.map.moved(&start.phase, &point.at.unknowns, &change.rows(0, n).into_owned());
+            let at = self.map.apply(value, &phase, start.turns)?;
+            if at.unknowns != point.at.unknowns {
+                bail!("other contacts last over the period");
+            }
+            let error = self.product(&point.along, &change) - length;
+            if size(&at.miss) <= CLOSED && error.abs() <= CLOSED {
+                let along = self.along(&at, Some(&point.along))?;
+                return Ok((Point { at, along }, iteration));
+            }
+            let mut matrix = DMatrix::zeros(n + 1, n + 1);
+            matrix.view_mut((0, 0), (n, n)).copy_from(&(&at.by_unknowns - DMatrix::identity(n, n)));
+            matrix.view_mut((0, n), (n, 1)).copy_from(&(&at.by_parameter * self.range()));
+            for column in 0..n {
+                matrix[(n, column)] = point.along[column] / n.max(1) as f64;
+            }
+            matrix[(n, n)] = point.along[n];
+            let mut right = DVector::zeros(n + 1);
+            right.rows_mut(0, n).copy_from(&-&at.miss);
+            right[n] = -error;
+            change += matrix.lu().solve(&right).context("the branch has no direction")?;
+        }
+        bail!("the corrector does not converge at {} = {:.6e}", self.name(), start.value)
+    }
+
+    /// The bifurcations between two points of a branch.
+    fn between(&self, before: &Point, after: &Point, length: f64) -> Vec<Found> {
+        let [one, other] = [&before.at.orbit, &after.at.orbit];
+        if one.events != other.events {
+            return vec![Found { kind: Bifurcation::Grazing, orbit: one.clone() }];
+        }
+        let mut found = vec![];
+        let n = before.along.len() - 1;
+        if after.along.len() == n + 1 && before.along[n] * after.along[n] < 0.0 {
+            found.push((Bifurcation::Fold, before.along[n], after.along[n]));
+        }
+        for (kind, test) in [
+            (Bifurcation::PeriodDoubling, flip as fn(&Orbit) -> Option<f64>),
+            (Bifurcation::NeimarkSacker, pair as fn(&Orbit) -> Option<f64>),
+        ] {
+            if let (Some(a), Some(b)) = (test(one), test(other)) {
+                if a * b < 0.0 {
+                    found.push((kind, a, b));
+                }
+            }
+        }
+        found
+            .into_iter()
+            .map(|(kind, a, b)| Found { kind, orbit: self.located(kind, before, [a, b], length) })
+            .collect()
+    }
+
+    /// The motion at a bifurcation within `length` of a point, by the rule of false position; the point itself if it is not
+    /// reached. `ends` are the values of the test at both ends.
+    fn located(&self, kind: Bifurcation, before: &Point, ends: [f64; 2], length: f64) -> Orbit {
+        let n = before.along.len() - 1;
+        let (mut low, mut high) = ((0.0, ends[0]), (length, ends[1]));
+        let mut best = before.at.orbit.clone();
+        for _ in 0..REFINEMENTS {
+            let share = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            let Ok((point, _)) = self.step(before, share) else { return best };
+            let test = match kind {
+                Bifurcation::Fold => Some(point.along[n]),
+                Bifurcation::PeriodDoubling => flip(&point.at.orbit),
+                _ => pair(&point.at.orbit),
+            };
+            let Some(test) = test else { return best };
+            best = point.at.orbit;
+            if test * low.1 > 0.0 {
+                low = (share, test)
+            } else {
+                high = (share, test)
+            }
+            if test.abs() < 1e-9 {
+                break;
+            }
+        }
+        best
+    }
+
+    /// A point of the branch of twice the period that begins at a motion with a multiplier of −1.
+    fn doubled(&self, orbit: &Orbit) -> Result<Point> {
+        let at = self.map.apply(orbit.value, &orbit.phase, orbit.turns)?;
+        let n = at.unknowns.len();
+        let svd = (&at.by_unknowns + DMatrix::identity(n, n)).svd(false, true);
+        let rows = svd.v_t.context("a decomposition")?;
+        let aside = rows.row(svd.singular_values.imin()).transpose();
+        let mut along = DVector::zeros(n + 1);
+        along.rows_mut(0, n).copy_from(&aside);
+        let along = &along / self.length(&along);
+        let twice = self.map.apply(orbit.value, &orbit.phase, 2 * orbit.turns)?;
+        let start = Point { at: twice, along };
+        let (point, _) = self.step(&start, ASIDE)?;
+        Ok(point)
+    }
+}
+
+/// 1 + μ of the real multiplier nearest to −1, which is 0 where a period doubles; `None` without real multipliers.
+fn flip(orbit: &Orbit) -> Option<f64> {
+    let real = orbit.multipliers.iter().filter(|multiplier| is_real(multiplier));
+    real.map(|multiplier| 1.0 + multiplier.re).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+}
+
+/// Modulus less 1 of the pair of complex multipliers nearest to the unit circle; `None` without pairs.
+fn pair(orbit: &Orbit) -> Option<f64> {
+    let pairs = orbit.multipliers.iter().filter(|multiplier| !is_real(multiplier));
+    pairs.map(|multiplier| multiplier.norm() - 1.0).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+}
+
+fn is_real(multiplier: &Complex<f64>) -> bool {
+    multiplier.im.abs() <= REAL * multiplier.norm()
+}

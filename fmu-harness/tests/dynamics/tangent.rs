@@ -1,0 +1,160 @@
+//! All exponents, where they are known, and periodic motions against simulated ones.
+
+use super::lorenz::Lorenz;
+use anyhow::Result;
+use fmu_harness::dynamics::exponents::{Measurement, TangentFlow};
+use fmu_harness::dynamics::orbit::PoincareMap;
+use fmu_harness::dynamics::portrait::Plan;
+use fmu_harness::dynamics::{Flow, Machine};
+use fmu_harness::scenes::Scenario;
+use fmu_harness::sensitivity::{Experiment, Wanted, differences, parameters};
+use nalgebra::DMatrix;
+use slidercrank::integrator::methods::named;
+use slidercrank::integrator::tangent::{Crossing, Tangents, Variational};
+use slidercrank::integrator::{Integrator, Settings, System, WorkLimit};
+use slidercrank::scene::parameter::Parameter;
+
+impl Variational for Lorenz {
+    type Discrete = ();
+
+    fn system(&self) -> &dyn System<Discrete = ()> {
+        self
+    }
+
+    fn crossings(&self, (): &(), (): &(), _: f64, _: &[f64]) -> Vec<Crossing<()>> {
+        vec![]
+    }
+
+    fn differ(&self, (): &(), (): &()) -> bool {
+        false
+    }
+}
+
+struct Tangent {
+    integrator: Integrator<()>,
+    tangents: Tangents<()>,
+    time: f64,
+}
+
+impl TangentFlow for Tangent {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn advance(&mut self, time: f64) -> Result<()> {
+        let Self { integrator, tangents, .. } = self;
+        integrator.advance_watched(&Lorenz, time, &mut |integrator| tangents.follow(&Lorenz, integrator.state()))?;
+        integrator.truncate(&Lorenz, time);
+        tangents.shorten(&Lorenz, integrator.state());
+        self.time = time;
+        Ok(())
+    }
+
+    fn directions(&mut self) -> Result<DMatrix<f64>> {
+        Ok(self.tangents.directions().expect("no events").clone())
+    }
+
+    fn set_directions(&mut self, directions: &DMatrix<f64>) {
+        self.tangents.set_directions(directions.clone());
+    }
+}
+
+#[test]
+fn all_exponents_of_lorenz_are_found() {
+    let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: WorkLimit::ANY };
+    let start = [1.0, 1.0, 20.0];
+    let integrator = Integrator::start(&Lorenz, named("verner7", 3).expect("a method"), settings, 0.0, &start, ());
+    let (all, none) = (DMatrix::identity(3, 3), DMatrix::zeros(0, 3));
+    let tangents = Tangents::new(&Lorenz, integrator.state(), all, none, vec![1.0; 3], 1e-8);
+    let mut flow = Tangent { integrator, tangents, time: 0.0 };
+    let exponents = Measurement { interval: 0.5, count: 4000, settling: 100 }.run(&mut flow, || {}).expect("exponents");
+    // J. C. Sprott, Chaos and Time-Series Analysis, Oxford 2003, appendix A; the sum is the trace of the Jacobian.
+    for (exponent, known) in exponents.all.iter().zip([0.9056, 0.0, -14.5723]) {
+        let apart = (exponent.value - known).abs();
+        assert!(apart < (4.0 * exponent.error).max(5e-3) && exponent.error < 0.02, "{} for {known}", exponent.value);
+    }
+    let trace = -(10.0 + 1.0 + 8.0 / 3.0);
+    assert!((exponents.sum() - trace).abs() < 1e-6, "{}", exponents.sum());
+    assert!((exponents.dimension() - 2.062).abs() < 5e-3, "{}", exponents.dimension());
+}
+
+fn wornpin(clearance: f64) -> slidercrank::scene::read::SceneFile {
+    let mut file = Scenario::find("wornpin").expect("a shipped scene").file;
+    file.scene.joint.c.clearance = clearance;
+    file
+}
+
+#[test]
+fn the_largest_exponent_of_the_worn_pin_is_that_of_two_trajectories() {
+    let plan = Plan { transient: 20, turns: 200, section: 0.0, per_turn: 25, tangent_turns: 200 };
+    let portrait = plan.portrait(&wornpin(0.5e-3), || {}).expect("a portrait");
+    let exponents = portrait.exponents.expect("asked for").expect("a tangent");
+    let (one, other) = (&exponents.all[0], &portrait.exponent);
+    let error = one.error.hypot(other.error);
+    assert!((one.value - other.value).abs() < 4.0 * error && error < 0.1 * one.value, "{} {}", one.value, other.value);
+    assert!(exponents.sum() < 0.0 && exponents.all.len() == 4);
+    assert!(exponents.left_out * 10 < exponents.intervals, "{}", exponents.left_out);
+}
+
+#[test]
+fn a_periodic_motion_is_the_simulated_one_and_its_multipliers_are_how_neighbours_come_nearer() {
+    let file = wornpin(0.02e-3);
+    let parameter = Parameter::named("joint.C.clearance").expect("a parameter");
+    let map = PoincareMap::new(&file, parameter, 0.3).expect("a map");
+    let plan = Plan { transient: 40, turns: 20, section: 0.3, per_turn: 1, tangent_turns: 0 };
+    let found = plan.periodic(&map, 0.02e-3).expect("a periodic motion");
+    let orbit = &found.orbit;
+    assert!(orbit.is_stable() && orbit.turns == 1, "{:?}", orbit.multipliers);
+    // A neighbour after one period against the linear map.
+    let change = nalgebra::DVector::from_fn(found.unknowns.len(), |i, _| if i % 2 == 0 { 1e-4 } else { -1e-4 });
+    let moved = map.moved(&orbit.phase, &found.unknowns, &change);
+    let image = map.apply(orbit.value, &moved, 1).expect("a return");
+    // The miss is image minus point.
+    let grown = &image.miss + &change - &found.miss;
+    let linear = &found.by_unknowns * &change;
+    assert!((&grown - &linear).amax() < 1e-3 * linear.amax().max(1e-3 * change.amax()), "{grown} {linear}");
+    // The simulated motion comes to the same passage.
+    let mut machine = Machine::start(&map.file(0.02e-3).expect("a scene")).expect("a machine");
+    machine.advance_turned(0.3 + 60.0 * std::f64::consts::TAU).expect("a motion");
+    let (simulated, closed) = (machine.outputs(), orbit.visits[0].outputs);
+    assert!((simulated.slider.v - closed.slider.v).abs() < 1e-6 * closed.slider.v.abs().max(1.0));
+    assert!(machine.time() > 0.0);
+}
+
+#[test]
+fn sensitivities_are_the_differences_of_neighbouring_runs() {
+    let file = Scenario::find("wornpin").expect("a shipped scene").file;
+    let experiment = Experiment { file: &file, turns: 0.2, transient: 0.0 };
+    let wanted = ["accuracy.position@50deg", "joint.C.force:peak", "slider.v:mean", "joint.C.force.x:range"];
+    let wanted: Vec<Wanted> = wanted.iter().map(|text| text.parse().expect("a quantity")).collect();
+    let names = ["joint.C.clearance", "slider.mass"].map(|name| parameters(name).expect("a parameter")[0]);
+    let found = experiment.run(&wanted, &names).expect("a run");
+    for (k, parameter) in names.into_iter().enumerate() {
+        let differences = differences(&experiment, &wanted, parameter).expect("neighbours");
+        for (row, difference) in found.rows.iter().zip(differences) {
+            let slope = row.slopes.as_ref().expect("no grazing")[k];
+            let text = &row.wanted.text;
+            assert!(
+                (slope - difference).abs() < 1e-3 * difference.abs(),
+                "{text}, {}: {slope} {difference}",
+                parameter.name
+            );
+        }
+    }
+    assert!(found.growth > 0.0 && found.reach.iter().all(|reach| *reach > 0.0));
+}
+
+#[test]
+fn what_is_no_quantity_is_refused_by_name() {
+    for (text, part) in [
+        ("slider.q", "slider.q"),
+        ("slider.x@noon", "noon"),
+        ("slider.x:most", "most"),
+        ("joint.C.contact", "joint.C.contact"),
+    ] {
+        let refusal = format!("{:#}", text.parse::<Wanted>().expect_err("a refusal"));
+        assert!(refusal.contains(part), "{refusal}");
+    }
+    assert!(parameters("joint.*.clearance").expect("four").len() == 4);
+    assert!(parameters("joint.*.clearence").is_err() && parameters("solver.method").is_err());
+}
