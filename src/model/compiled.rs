@@ -1,18 +1,20 @@
 //! The equations of motion compiled for several number types and for constant structures.
 //!
 //! The generic equations are compiled once per number type for any structure: for one state, for eight states and for a
-//! state with derivatives. With a flexible rod they are compiled for three array sizes. If there is little to compute,
-//! the branches on the structure take about as long as the computation, and if the number of modes is unknown, arrays
-//! stay in memory. For the structures listed here, those of the usual studies, the same source is therefore compiled
-//! again with the structure as a constant. `cargo bench --bench compiled` measures the saving in a stage of a step:
-//! about a tenth with four clearances, half with one, and half with a flexible rod. A structure with a smaller saving
-//! does not belong here. Code for eight states is specialised only where steps in blocks are usual.
+//! state with derivatives. With a flexible rod they are compiled for three array sizes; with derivatives, for the two
+//! larger ones, where few modes cost up to a sixth more (`cargo bench --bench jacobian`) and a twentieth of the library's
+//! code is saved. If there is little to compute, the branches on the structure take about as long as the computation, and
+//! if the number of modes is unknown, arrays stay in memory. For the structures listed here, those of the usual studies,
+//! the same source is therefore compiled again with the structure as a constant. `cargo bench --bench compiled` measures
+//! the saving in a stage of a step: about a tenth with four clearances, half with one, and half with a flexible rod. A
+//! structure with a smaller saving does not belong here. Code for eight states is specialised only where steps in blocks
+//! are usual.
 //!
 //! The loop over the stages of a step is compiled together with the equations, so that the results of a stage do not
 //! pass through memory in other portions than they are read in.
 
 use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
-use super::rod::{Chord, CompiledCounts, FixedCounts, Inertia, RodCapacity, RuntimeCounts};
+use super::rod::{ALL_FUNCTIONS, ALL_MODES, Chord, CompiledCounts, FixedCounts, Inertia, RodCapacity, RuntimeCounts};
 use super::scalar::{Scalar, Tangent};
 use super::stages::run_stages;
 use super::state::{Conditions, Evaluation, Pose};
@@ -43,12 +45,16 @@ pub struct Compiled {
 }
 
 /// The code of a constant structure with `$states` states: the methods `$rates` and `$ends` of a mechanism, with a
-/// flexible rod for the counts `$counts`.
+/// flexible rod for the counts `$counts`. Steps are made of stages and ends; rates alone, which are seldom asked for,
+/// are those of an end.
 macro_rules! code {
-    ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {
+    ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {{
+        const ENDS: Ends = |mechanism, conditions, t, y, rates, event_functions| {
+            mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
+        };
         Compiled {
             rates: |mechanism, conditions, t, y, rates| {
-                mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
+                ENDS(mechanism, conditions, t, y, rates, &mut EventFunctions::default());
             },
             rates_of_eight: if const { suits_blocks(&$structure) } {
                 |mechanism, conditions, t, y, rates| {
@@ -57,16 +63,14 @@ macro_rules! code {
             } else {
                 Mechanism::rates_of_eight
             },
-            ends: |mechanism, conditions, t, y, rates, event_functions| {
-                mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
-            },
+            ends: ENDS,
             stages: |mechanism, tableau, conditions, t, y, h, k| {
                 run_stages::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 })
             },
         }
-    };
+    }};
 }
 
 /// Selects the code of the structure as a constant, or `$all` if the structure is not in the list. Each entry of the
@@ -172,12 +176,23 @@ macro_rules! with_capacity {
         match $rod.modes.room {
             RodCapacity::Few => $own.$name::<$($number,)? 4, 12>($($argument),*),
             RodCapacity::Many => $own.$name::<$($number,)? 8, 40>($($argument),*),
-            RodCapacity::All => $own.$name::<$($number,)? 16, 48>($($argument),*),
+            RodCapacity::All => $own.$name::<$($number,)? ALL_MODES, ALL_FUNCTIONS>($($argument),*),
         }
     };
 }
 
-/// Code compiled once per number type for any structure; with a flexible rod, once per array size.
+/// As `with_capacity!`, for numbers with derivatives. Few modes are computed in the arrays for many: loops end where the
+/// modes do.
+macro_rules! with_derivatives {
+    ($rod:expr, $own:ident . $name:ident :: <$number:ty> ($($argument:expr),*)) => {
+        match $rod.modes.room {
+            RodCapacity::Few | RodCapacity::Many => $own.$name::<$number, 8, 40>($($argument),*),
+            RodCapacity::All => $own.$name::<$number, ALL_MODES, ALL_FUNCTIONS>($($argument),*),
+        }
+    };
+}
+
+/// Code compiled once per number type for any structure; with a flexible rod, once per array size in use.
 impl Mechanism {
     /// Writes the rates of a state.
     #[inline(never)]
@@ -225,7 +240,7 @@ impl Mechanism {
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
             None => self.rigid_tangent_rates(conditions, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates)),
+            Some(rod) => with_derivatives!(rod, self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates)),
         }
     }
 
@@ -285,7 +300,7 @@ impl Mechanism {
     ) -> Evaluation<Tangent> {
         match &self.rod {
             None => self.rigid_tangent_evaluation(conditions, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.flexible_instant::<Tangent>(rod, conditions, t, y, rates)),
+            Some(rod) => with_derivatives!(rod, self.flexible_instant::<Tangent>(rod, conditions, t, y, rates)),
         }
     }
 

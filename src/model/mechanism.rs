@@ -182,12 +182,22 @@ impl Mechanism {
         let (positions, speeds) = (&y[..p], &y[p..2 * p]);
         let (eta, rate) = (&positions[rigid..], &speeds[rigid..]);
         let shape = part!(R, C, modes.shape::<R, C>(eta, rate));
-        let configuration = part!(R, C, self.flexible_configuration(of, t, positions, speeds, &shape));
+        let Shape { chord, chord_slope, slope_rate, .. } = shape;
+        let shared = const { !(R::PLAIN || C::KNOWN) };
+        let configuration = if shared {
+            self.flexible_configuration_apart(of, t, positions, speeds, &chord, slope_rate)
+        } else {
+            self.flexible_configuration(of, t, positions, speeds, &chord, slope_rate)
+        };
         let (moving, bristle_rates) = rates.split_at_mut(2 * p);
         let (velocities, forced) = moving.split_at_mut(p);
         let Configuration { pose, arms, closing } = &configuration;
         let bristles = &y[2 * p..];
-        let loads = part!(R, C, self.loads(of, conditions, t, bristles, pose, bristle_rates));
+        let loads = if shared {
+            self.loads_apart(of, conditions, t, bristles, pose, bristle_rates)
+        } else {
+            self.loads(of, conditions, t, bristles, pose, bristle_rates)
+        };
         let speed = pose.rotations.speed[ROD];
         part!(R, C, modes.inertia::<R, C>(&shape, eta, rate, speed, inertia));
         let bent = BentRod { modes, chain: rod.chain, shape: &shape, inertia, eta, rate };
@@ -197,7 +207,6 @@ impl Mechanism {
         velocities.copy_from_slice(speeds);
         of.set_roots(&accelerations.roots, forced);
         of.set_angles(accelerations.angle, forced);
-        let Shape { chord, chord_slope, .. } = shape;
         FlexibleMotion { configuration, chord, chord_slope, loads, accelerations }
     }
 
@@ -226,17 +235,18 @@ impl Mechanism {
         Configuration { pose, arms, closing }
     }
 
-    /// The configuration with a flexible rod, at `positions` and their `rates`.
+    /// The configuration with a flexible rod, at `positions` and their `rates`: with its chord and the rates of the slopes
+    /// at both ends.
     #[inline(always)]
-    fn flexible_configuration<R: Scalar, const K: usize, const F: usize>(
+    fn flexible_configuration<R: Scalar>(
         &self,
         of: &Structure,
         t: R,
         positions: &[R],
         rates: &[R],
-        shape: &Shape<R, K, F>,
+        chord: &Chord<R>,
+        [big_end, small_end]: [R; 2],
     ) -> Configuration<R> {
-        let chord = &shape.chord;
         let mut rotations = rotations_at(of, &self.rotor, t, positions, rates);
         let mut closing = IdealMotion::default();
         if of.closed {
@@ -248,10 +258,24 @@ impl Mechanism {
         let mut moving = arms.moving(rotations.speed);
         moving.reach.velocity += rotations.rotation[ROD].axis(chord.rate);
         let centres = self.centres(of, positions, rates, &moving);
-        let ([big_end, small_end], speed) = (shape.slope_rate, rotations.speed[ROD]);
+        let speed = rotations.speed[ROD];
         let section_speed = [speed + big_end, speed + small_end];
         let pose = Pose { rotations, place: centres.places(), velocity: centres.velocities(), section_speed };
         Configuration { pose, arms, closing }
+    }
+
+    /// As [`flexible_configuration`](Self::flexible_configuration), compiled once for all array sizes of a rod.
+    #[inline(never)]
+    fn flexible_configuration_apart<R: Scalar>(
+        &self,
+        of: &Structure,
+        t: R,
+        positions: &[R],
+        rates: &[R],
+        chord: &Chord<R>,
+        slope_rate: [R; 2],
+    ) -> Configuration<R> {
+        self.flexible_configuration(of, t, positions, rates, chord, slope_rate)
     }
 
     /// Places and velocities of the joint centres.
@@ -308,6 +332,20 @@ impl Mechanism {
         loads
     }
 
+    /// As [`loads`](Self::loads), compiled once for all array sizes of a rod.
+    #[inline(never)]
+    fn loads_apart<R: Scalar>(
+        &self,
+        of: &Structure,
+        conditions: &Conditions,
+        t: R,
+        bristles: &[R],
+        pose: &Pose<R>,
+        bristle_rates: &mut [R],
+    ) -> Loads<R> {
+        self.loads(of, conditions, t, bristles, pose, bristle_rates)
+    }
+
     /// Accelerations from the loads, accumulated inwards.
     #[inline(always)]
     pub(super) fn accelerations<R: Scalar>(
@@ -356,7 +394,8 @@ impl Mechanism {
         let (positions, rates) = y[..2 * p].split_at(p);
         let modes: Arrays<'_, K, F> = rod.modes.arrays();
         let shape = modes.shape::<R, super::rod::RuntimeCounts>(&positions[of.positions..], &rates[of.positions..]);
-        (self.flexible_configuration(of, t, positions, rates, &shape).pose, shape.chord)
+        let configuration = self.flexible_configuration(of, t, positions, rates, &shape.chord, shape.slope_rate);
+        (configuration.pose, shape.chord)
     }
 }
 

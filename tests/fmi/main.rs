@@ -5,8 +5,10 @@
 #[path = "../host/mod.rs"]
 mod host;
 
+mod calls;
 mod dead_ends;
 mod derivatives;
+mod engine;
 mod exchange;
 mod hosted;
 mod instantiate;

@@ -7,6 +7,7 @@ mod clearance_to_zero;
 mod compiled;
 mod conservation;
 mod consistency;
+mod coordinates;
 mod differences;
 mod elasticity;
 mod film;

@@ -31,7 +31,9 @@ macro_rules! functions {
         /// The names of all functions.
         pub const NAMES: &[&str] = &[$(stringify!($name)),+];
 
-        /// The exports of the library: the functions of the standard, and nothing else.
+        /// The exports of the library: the functions of the standard, and nothing else. The program of the unit tests has
+        /// none: they would bring the whole library into it.
+        #[cfg(not(test))]
         mod exports {
             use super::*;
             $(

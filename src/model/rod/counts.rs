@@ -83,6 +83,11 @@ impl CompiledCounts for RuntimeCounts {
     const COUNTS: Option<Counts> = None;
 }
 
+/// Modes of any rod.
+pub const ALL_MODES: usize = 16;
+/// Functions along x of any rod.
+pub const ALL_FUNCTIONS: usize = 48;
+
 /// Array sizes for a rod: maximum numbers of modes and of functions along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RodCapacity {
@@ -90,7 +95,7 @@ pub enum RodCapacity {
     Few,
     /// 8 modes and 40 functions.
     Many,
-    /// 16 modes and 48 functions, which suffice for any rod.
+    /// [`ALL_MODES`] and [`ALL_FUNCTIONS`], which suffice for any rod.
     All,
 }
 
@@ -100,7 +105,7 @@ impl RodCapacity {
         match self {
             Self::Few => [4, 12],
             Self::Many => [8, 40],
-            Self::All => [16, 48],
+            Self::All => [ALL_MODES, ALL_FUNCTIONS],
         }
     }
 

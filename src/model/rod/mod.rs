@@ -47,7 +47,7 @@ mod shape;
 mod sums;
 mod tables;
 
-pub use counts::{CompiledCounts, Counts, FixedCounts, RodCapacity, RuntimeCounts};
+pub use counts::{ALL_FUNCTIONS, ALL_MODES, CompiledCounts, Counts, FixedCounts, RodCapacity, RuntimeCounts};
 pub use elastic::Elastic;
 pub use flexible::Rod;
 pub use inertia::Inertia;

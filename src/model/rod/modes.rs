@@ -1,16 +1,16 @@
 //! The rod's modes in the arrays that the equations read.
 
-use super::counts::{Counts, RodCapacity};
+use super::counts::{ALL_FUNCTIONS, ALL_MODES, Counts, RodCapacity};
 use super::flexible::Rod;
 use super::tables::{TableView, Tables};
 use crate::math::Real;
 
-/// The modes of a rod in lists with the sizes of a [`RodCapacity`].
+/// The modes of a rod in lists of the largest size, and its tables in the sizes of a [`RodCapacity`].
 #[derive(Clone, Debug)]
 pub struct Modes {
     /// Numbers of modes.
     pub counts: Counts,
-    /// Sizes of the lists.
+    /// Sizes of the tables.
     pub room: RodCapacity,
     /// [m] Undeformed length.
     length: f64,
@@ -23,6 +23,8 @@ pub struct Modes {
     /// [N·s/m] Modal damping: 2·ζ·ω times the modal mass.
     damping: Vec<f64>,
     tables: Tables,
+    /// The tables of few modes in the size for many, which numbers with derivatives need.
+    wider: Option<Tables>,
     /// [kg] ∫φ dm.
     moment: Vec<f64>,
     /// [kg] ∫φ² dm.
@@ -53,7 +55,6 @@ impl Modes {
     /// The modes of a rod, with the capacity `room`.
     pub fn with_capacity(rod: &Rod, room: RodCapacity) -> Self {
         let counts = rod.counts;
-        let [modes, functions] = room.size();
         let padded = |numbers: &[f64], width: usize| {
             let mut list = vec![0.0; width];
             list[..numbers.len()].copy_from_slice(numbers);
@@ -61,25 +62,30 @@ impl Modes {
         };
         let of_modes = |of: &dyn Fn(f64, f64) -> f64| {
             let found: Vec<f64> = rod.modal_mass.iter().zip(&rod.frequency).map(|(m, omega)| of(*m, *omega)).collect();
-            padded(&found, modes)
+            padded(&found, ALL_MODES)
         };
         Self {
             counts,
             room,
             length: rod.length,
-            end: padded(&rod.end, functions),
-            slope: [padded(&rod.slope[0], modes), padded(&rod.slope[1], modes)],
+            end: padded(&rod.end, ALL_FUNCTIONS),
+            slope: [padded(&rod.slope[0], ALL_MODES), padded(&rod.slope[1], ALL_MODES)],
             stiffness: of_modes(&|mass, omega| mass * omega * omega),
             damping: of_modes(&|mass, omega| 2.0 * rod.damping_ratio * mass * omega),
             tables: Tables::new(rod, room),
-            moment: padded(&rod.moment, modes),
-            modal_mass: padded(&rod.modal_mass, modes),
+            wider: (room == RodCapacity::Few).then(|| Tables::new(rod, RodCapacity::Many)),
+            moment: padded(&rod.moment, ALL_MODES),
+            modal_mass: padded(&rod.modal_mass, ALL_MODES),
         }
     }
 
-    /// Views the lists as arrays of their own sizes.
+    /// Views the lists as arrays of the sizes of the modes' own capacity; few modes also as arrays for many.
     #[inline(always)]
     pub(crate) fn arrays<const K: usize, const F: usize>(&self) -> Arrays<'_, K, F> {
+        let tables = match &self.wider {
+            Some(wider) if const { F == RodCapacity::Many.size()[1] } => wider,
+            _ => &self.tables,
+        };
         Arrays {
             counts: self.counts,
             length: self.length,
@@ -87,19 +93,19 @@ impl Modes {
             slope: [array(&self.slope[0]), array(&self.slope[1])],
             stiffness: array(&self.stiffness),
             damping: array(&self.damping),
-            tables: self.tables.viewed(),
+            tables: tables.viewed(),
             moment: array(&self.moment),
             modal_mass: array(&self.modal_mass),
         }
     }
 }
 
-/// Views a list as an array of its own length.
+/// Views the first numbers of a list as an array.
 #[inline(always)]
 fn array<const N: usize>(list: &[f64]) -> &[f64; N] {
     match list.first_chunk() {
         Some(array) => array,
-        None => unreachable!("a rod's lists have the sizes of its capacity"),
+        None => unreachable!("a rod's lists have the largest size"),
     }
 }
 

@@ -39,6 +39,11 @@ struct BorrowedRun {
 unsafe impl Send for BorrowedRun {}
 
 impl Borrowed {
+    /// The engine with these functions.
+    pub const fn from_table(table: &'static Table) -> Self {
+        Self { table }
+    }
+
     /// The engine of a library, if the library provides one for builds of the same sources.
     fn of(library: &Library) -> Option<Self> {
         let offer = library.find(OFFER)?;
@@ -46,7 +51,7 @@ impl Borrowed {
         let offer = unsafe { transmute::<*const (), Offer>(offer) };
         // SAFETY: the digest has the required length; library and table exist until the process ends.
         let table = unsafe { offer(DECLARATION.as_ptr(), size_of::<Outputs>()).as_ref() }?;
-        Some(Self { table })
+        Some(Self::from_table(table))
     }
 
     fn run(self, run: *mut c_void, failure: Letter) -> Result<Box<dyn Run>, SimulationError> {
@@ -205,99 +210,4 @@ fn encoded(data: &impl Serialize) -> Result<Vec<u8>, SimulationError> {
 
 fn lend(bytes: &[u8]) -> Bytes {
     Bytes { data: bytes.as_ptr(), length: bytes.len() }
-}
-
-#[cfg(test)]
-#[allow(clippy::panic, reason = "a fault on purpose")]
-mod tests {
-    use super::super::offered::TABLE;
-    use super::*;
-    use crate::fmi::slave::engine::Own;
-    use crate::scene::JointModel;
-
-    /// This library as the engine of another library.
-    const ACROSS: Borrowed = Borrowed { table: &TABLE };
-
-    fn worn() -> Scene {
-        let mut scene = Scene::default();
-        scene.joint.c.model = JointModel::Clearance;
-        scene.crank.speed_start = 500.0;
-        scene
-    }
-
-    /// All results of a run, after some steps with changing inputs.
-    fn course(engine: &dyn Engine) -> (Vec<Outputs>, Snapshot) {
-        let mut run = engine.start(&worn(), Inputs::default()).expect("a start");
-        let mut seen = vec![run.outputs()];
-        for point in 1..=20 {
-            let inputs = Inputs { crank_torque: f64::from(point), slider_load: -2.0 };
-            run.set_inputs(inputs, Inputs { crank_torque: 3.0, slider_load: 0.0 });
-            let end = f64::from(point) * 1e-3;
-            while run.time() < end {
-                let event = run.advance(end, Stops::Events).expect("a step");
-                assert!(event || run.time() == end);
-                run.look(Side::Before);
-                seen.push(run.outputs());
-                run.look(Side::After);
-            }
-            seen.extend([run.outputs(), run.output_rates(), run.output_sensitivity(inputs)]);
-        }
-        assert_eq!(run.time(), 20.0 * 1e-3);
-        (seen, run.snapshot())
-    }
-
-    #[test]
-    fn a_run_across_the_border_is_the_same_run() {
-        assert_eq!(course(&ACROSS), course(&Own));
-    }
-
-    #[test]
-    fn a_snapshot_is_the_same_for_every_engine() {
-        let (_, snapshot) = course(&Own);
-        let ends = [&ACROSS as &dyn Engine, &Own].map(|engine| {
-            let mut run = engine.restore(&worn(), &snapshot).expect("its own snapshot");
-            run.advance(0.03, Stops::Steps).expect("a step");
-            (run.outputs(), run.snapshot())
-        });
-        assert_eq!(ends[0], ends[1]);
-    }
-
-    #[test]
-    fn errors_cross_the_border_as_they_are() {
-        let error = |engine: &dyn Engine, edit: fn(&mut Scene)| {
-            let mut scene = worn();
-            edit(&mut scene);
-            engine.start(&scene, Inputs::default()).map(drop).expect_err("no start")
-        };
-        for edit in [
-            |scene: &mut Scene| scene.guide.offset = 0.3,
-            |scene: &mut Scene| {
-                scene.solver.method = crate::scene::Method::Moreau;
-                scene.energy.audit = true;
-            },
-        ] {
-            assert_eq!(error(&ACROSS, edit), error(&Own, edit));
-        }
-        let broken = |engine: &dyn Engine| engine.restore(&worn(), &Snapshot::default()).map(drop).expect_err("no run");
-        assert_eq!(broken(&ACROSS), broken(&Own));
-        let lost = |engine: &dyn Engine| {
-            let load = Inputs { crank_torque: 0.0, slider_load: 1e308 };
-            let mut run = engine.start(&worn(), load).expect("a start");
-            (run.advance(1.0, Stops::Nowhere).expect_err("no step"), run.time().to_bits())
-        };
-        assert_eq!(lost(&ACROSS), lost(&Own));
-    }
-
-    #[test]
-    fn a_panic_crosses_the_border_as_a_panic() {
-        unsafe extern "C" fn breaks(_: *mut c_void, _: f64, _: Stops, sink: Sink) -> bool {
-            super::super::offered::attempt::<()>(sink, || std::panic::panic_any("a fault on purpose"));
-            false
-        }
-        static BROKEN: Table = Table { advance: breaks, ..TABLE };
-        let engine = Borrowed { table: &BROKEN };
-        let mut run = engine.start(&worn(), Inputs::default()).expect("a start");
-        let caught = guarded(|| run.advance(1.0, Stops::Nowhere));
-        assert_eq!(caught, Err("a fault on purpose".into()));
-    }
 }

@@ -55,19 +55,29 @@ pub enum Reading {
 /// other functions receive a failure if there is one. A run that cannot be started is NULL.
 #[repr(C)]
 pub struct Table {
-    start: unsafe extern "C" fn(scene: Bytes, inputs: *const Inputs, sink: Sink) -> *mut c_void,
-    restore: unsafe extern "C" fn(scene: Bytes, snapshot: Bytes, sink: Sink) -> *mut c_void,
-    free: unsafe extern "C" fn(run: *mut c_void),
-    time: unsafe extern "C" fn(run: *mut c_void) -> f64,
-    set_inputs: unsafe extern "C" fn(run: *mut c_void, inputs: *const Inputs, rates: *const Inputs, sink: Sink),
+    /// Starts a run.
+    pub start: unsafe extern "C" fn(scene: Bytes, inputs: *const Inputs, sink: Sink) -> *mut c_void,
+    /// Starts a run where a snapshot was taken.
+    pub restore: unsafe extern "C" fn(scene: Bytes, snapshot: Bytes, sink: Sink) -> *mut c_void,
+    /// Ends a run.
+    pub free: unsafe extern "C" fn(run: *mut c_void),
+    /// The time that a run has reached.
+    pub time: unsafe extern "C" fn(run: *mut c_void) -> f64,
+    /// Sets the inputs and their rates.
+    pub set_inputs: unsafe extern "C" fn(run: *mut c_void, inputs: *const Inputs, rates: *const Inputs, sink: Sink),
     /// Returns whether a contact has closed or opened at the end.
-    advance: unsafe extern "C" fn(run: *mut c_void, time: f64, stops: Stops, sink: Sink) -> bool,
-    look: unsafe extern "C" fn(run: *mut c_void, side: Side, sink: Sink),
-    read: unsafe extern "C" fn(run: *mut c_void, what: Reading, seed: *const Inputs, outputs: *mut Outputs, sink: Sink),
-    contacts: unsafe extern "C" fn(run: *mut c_void, report: *mut ContactReport, sink: Sink),
+    pub advance: unsafe extern "C" fn(run: *mut c_void, time: f64, stops: Stops, sink: Sink) -> bool,
+    /// Chooses the side of an event that outputs are read on.
+    pub look: unsafe extern "C" fn(run: *mut c_void, side: Side, sink: Sink),
+    /// Writes outputs.
+    pub read:
+        unsafe extern "C" fn(run: *mut c_void, what: Reading, seed: *const Inputs, outputs: *mut Outputs, sink: Sink),
+    /// Writes what the contacts are doing.
+    pub contacts: unsafe extern "C" fn(run: *mut c_void, report: *mut ContactReport, sink: Sink),
     /// Writes states and rates, each of which have room for `MAX_STATES`, and returns their number.
-    write_states: unsafe extern "C" fn(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize,
-    snapshot: unsafe extern "C" fn(run: *mut c_void, sink: Sink),
+    pub write_states: unsafe extern "C" fn(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize,
+    /// Takes a snapshot.
+    pub snapshot: unsafe extern "C" fn(run: *mut c_void, sink: Sink),
 }
 
 /// The reason why a call failed.

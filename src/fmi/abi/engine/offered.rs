@@ -121,7 +121,7 @@ unsafe extern "C" fn snapshot(run: *mut c_void, sink: Sink) {
 }
 
 /// Runs a body. Errors and panics are passed to the sink.
-pub(super) fn attempt<T>(sink: Sink, body: impl FnOnce() -> Result<T, SimulationError>) -> Option<T> {
+pub fn attempt<T>(sink: Sink, body: impl FnOnce() -> Result<T, SimulationError>) -> Option<T> {
     let outcome = guarded(body).map_err(Failure::Panic).and_then(|outcome| outcome.map_err(Failure::Simulation));
     outcome.map_err(|failure| sink.send(&Err::<(), _>(failure))).ok()
 }
