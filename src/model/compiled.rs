@@ -275,7 +275,7 @@ impl Mechanism {
     #[inline(never)]
     pub(super) fn tangent_pose(&self, t: Tangent, y: &[Tangent]) -> Pose<Tangent> {
         match &self.rod {
-            Some(rod) => with_capacity!(rod, self.flexible_pose::<Tangent>(rod, t, y)).0,
+            Some(rod) => with_derivatives!(rod, self.flexible_pose::<Tangent>(rod, t, y)).0,
             None => self.configuration(&self.structure, t, y).pose,
         }
     }
