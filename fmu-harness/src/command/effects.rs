@@ -1,7 +1,7 @@
 //! `effects`: the cost of every effect.
 
 use super::{out_directory, shown};
-use crate::effects::Price;
+use crate::effects::{Price, TangentPrice};
 use crate::host::Fmu;
 use crate::package::Stock;
 use crate::report::docs::{Docs, Section};
@@ -15,13 +15,16 @@ use std::path::PathBuf;
 
 /// Share of each scene's time that `--quick` runs.
 const QUICK: f64 = 0.1;
+/// Scenes whose tangent is timed, too.
+const WITH_TANGENT: [&str; 4] = ["02-one-play", "04-four-plays", "06-faces", "08-rod-4-modes"];
 
 /// Measures the cost of every effect: runs a series of scenes, each with one effect more than the scene before.
 ///
 /// The scenes are those in fmu-harness/scenes/effects. Each scene is packaged, and the package is run over the scene's
 /// whole time on one thread, at least three times; the fastest run counts. "All in" is its CPU time in fmi2DoStep
 /// divided by its number of evaluations; "bare" is the right-hand side alone, called by this program at states of the
-/// run. Writes effects.csv, effects.md, effects.svg and the packaged scenes.
+/// run. The last table is about the tangent of the motion, in this program: the CPU time of a run with it over that of the
+/// same run without. Writes effects.csv, effects.md, effects.svg and the packaged scenes.
 #[derive(Args)]
 pub struct Effects {
     /// Run every scene for only a tenth of its time
@@ -44,7 +47,7 @@ impl Effects {
         let scenes = ladder();
         let style = ProgressStyle::with_template("{msg:30} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4}")?;
         let bar = ProgressBar::new(scenes.len() as u64).with_style(style);
-        let mut prices = Vec::new();
+        let (mut prices, mut tangents) = (vec![], vec![]);
         for scene in &scenes {
             bar.set_message(scene.clone());
             let scenario = Scenario::find(scene)?;
@@ -52,14 +55,23 @@ impl Effects {
             stock.package(&scenario)?.save(&file)?;
             let span = scenario.file.run.stop(&scenario.file.scene) * if self.quick { QUICK } else { 1.0 };
             prices.push(Price::of(&scenario.file, &Fmu::open(&file)?, span).with_context(|| scene.clone())?);
+            if WITH_TANGENT.contains(&scene.as_str()) {
+                tangents.extend(TangentPrice::of(&scenario.file, span)?);
+            }
             bar.inc(1);
         }
         bar.finish_and_clear();
-        self.report(&prices, &out, section)
+        self.report(&prices, &tangents, &out, section)
     }
 
-    fn report(&self, prices: &[Price], out: &std::path::Path, section: Option<Section>) -> Result<()> {
-        let tables = [price::prices(prices), price::increments(prices)];
+    fn report(
+        &self,
+        prices: &[Price],
+        tangents: &[TangentPrice],
+        out: &std::path::Path,
+        section: Option<Section>,
+    ) -> Result<()> {
+        let tables = [price::prices(prices), price::increments(prices), price::tangents(tangents)];
         tables.iter().for_each(|table| println!("{}", table.print()));
         let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("effects.{ending}")));
         price::write_csv(prices, &csv)?;

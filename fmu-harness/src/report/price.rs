@@ -4,7 +4,7 @@ use super::bars::{Bar, Bars};
 use super::plot::{Role, Sheet};
 use super::table::Table;
 use super::units::{grouped, three_digits};
-use crate::effects::Price;
+use crate::effects::{Price, TangentPrice};
 use anyhow::Result;
 use std::path::Path;
 
@@ -51,6 +51,17 @@ pub fn increments(prices: &[Price]) -> Table {
         line.extend(COLUMNS.iter().map(|(_, number, print)| signed(number(after) - number(before), *print)));
         line.push(format!("{:.2}", after.time / before.time));
         table.line(line);
+    }
+    table
+}
+
+/// Cost of tangents.
+pub fn tangents(prices: &[TangentPrice]) -> Table {
+    let mut table = Table::default();
+    table.row(["tangent of", "directions", "× CPU", "more for each direction"]);
+    for TangentPrice { scene, directions, ratio } in prices {
+        let each = (ratio - 1.0) / *directions as f64;
+        table.row([scene.clone(), directions.to_string(), three_digits(*ratio), three_digits(each)]);
     }
     table
 }
