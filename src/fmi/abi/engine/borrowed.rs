@@ -8,7 +8,8 @@ use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::scene::parameter::DECLARATION;
-use crate::simulation::{ContactReport, Side, SimulationError, Snapshot};
+use crate::simulation::step_map::{StepMap, StepRequest};
+use crate::simulation::{ContactReport, Phase, Side, SimulationError, Snapshot};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_void;
@@ -69,6 +70,23 @@ impl Engine for Borrowed {
         // SAFETY: bytes and sink outlive the call.
         let run = unsafe { (self.table.restore)(lend(&scene), lend(&snapshot), letter.sink()) };
         self.run(run, letter)
+    }
+
+    fn step_map(
+        &self,
+        scene: &Scene,
+        snapshot: &Snapshot,
+        request: &StepRequest,
+        outputs: &mut [Outputs],
+    ) -> Result<StepMap, SimulationError> {
+        let (scene, snapshot, request) = (encoded(scene)?, encoded(snapshot)?, encoded(request)?);
+        let mut letter = Letter::default();
+        // SAFETY: bytes, places for outputs and sink outlive the call.
+        unsafe {
+            let (places, count) = (outputs.as_mut_ptr(), outputs.len());
+            (self.table.step_map)(lend(&scene), lend(&snapshot), lend(&request), places, count, letter.sink());
+        }
+        letter.opened()
     }
 }
 
@@ -144,6 +162,13 @@ impl Run for BorrowedRun {
         count.min(MAX_STATES)
     }
 
+    fn place(&mut self, phase: &Phase) {
+        let (phase, mut letter) = (encoded(phase).unwrap_or_else(fault), Letter::default());
+        // SAFETY: a live run, lent to this call alone; bytes and sink outlive the call.
+        unsafe { (self.table.place)(self.run.as_ptr(), lend(&phase), letter.sink()) };
+        letter.infallible();
+    }
+
     fn snapshot(&self) -> Snapshot {
         let mut letter = Letter::default();
         // SAFETY: a live run, lent to this call alone; the sink outlives the call.
@@ -214,6 +239,7 @@ mod tests {
     use super::*;
     use crate::fmi::slave::engine::Own;
     use crate::scene::JointModel;
+    use crate::simulation::step_map::{By, PhaseNumbers};
 
     /// This library as the engine of another library.
     const ACROSS: Borrowed = Borrowed { table: &TABLE };
@@ -260,6 +286,27 @@ mod tests {
             (run.outputs(), run.snapshot())
         });
         assert_eq!(ends[0], ends[1]);
+    }
+
+    #[test]
+    fn a_step_map_and_a_placed_phase_are_the_same_across_the_border() {
+        let (_, snapshot) = course(&Own);
+        let by = vec![By::Parameter("joint.C.clearance".into()), By::SliderLoad];
+        let request = StepRequest { end: 0.0205, derivatives: true, by };
+        let numbers = PhaseNumbers::of(&worn());
+        let found = [&ACROSS as &dyn Engine, &Own].map(|engine| {
+            let mut outputs = vec![Outputs::default(); request.output_sets(&numbers)];
+            let map = engine.step_map(&worn(), &snapshot, &request, &mut outputs).expect("no grazing");
+            let mut run = engine.restore(&worn(), &snapshot).expect("its own snapshot");
+            run.place(&numbers.phase(run.time(), &map.next));
+            (map, outputs, run.outputs(), run.snapshot())
+        });
+        assert_eq!(found[0], found[1]);
+        let (map, outputs, ..) = &found[0];
+        assert!(map.jacobian.len() == numbers.count() && outputs.last().is_some_and(|last| last.slider.v != 0.0));
+        let wrong = StepRequest { by: vec![By::Parameter("solver.method".into())], ..request };
+        let error = |engine: &dyn Engine| engine.step_map(&worn(), &snapshot, &wrong, &mut [Outputs::default()]);
+        assert_eq!(error(&ACROSS), error(&Own));
     }
 
     #[test]

@@ -51,12 +51,21 @@ pub enum Reading {
 }
 
 /// The functions that another library calls. A run is a pointer from `start` or `restore` that has not been passed to
-/// `free`; it is used in one call at a time. The sink of `snapshot` receives a snapshot or a failure, the sinks of
-/// other functions receive a failure if there is one. A run that cannot be started is NULL.
+/// `free`; it is used in one call at a time. The sinks of `step_map` and `snapshot` receive a result or a failure, the
+/// sinks of other functions receive a failure if there is one. A run that cannot be started is NULL.
 #[repr(C)]
 pub struct Table {
     start: unsafe extern "C" fn(scene: Bytes, inputs: *const Inputs, sink: Sink) -> *mut c_void,
     restore: unsafe extern "C" fn(scene: Bytes, snapshot: Bytes, sink: Sink) -> *mut c_void,
+    /// Writes `count` sets of outputs.
+    step_map: unsafe extern "C" fn(
+        scene: Bytes,
+        snapshot: Bytes,
+        request: Bytes,
+        outputs: *mut Outputs,
+        count: usize,
+        sink: Sink,
+    ),
     free: unsafe extern "C" fn(run: *mut c_void),
     time: unsafe extern "C" fn(run: *mut c_void) -> f64,
     set_inputs: unsafe extern "C" fn(run: *mut c_void, inputs: *const Inputs, rates: *const Inputs, sink: Sink),
@@ -67,6 +76,7 @@ pub struct Table {
     contacts: unsafe extern "C" fn(run: *mut c_void, report: *mut ContactReport, sink: Sink),
     /// Writes states and rates, each of which have room for `MAX_STATES`, and returns their number.
     write_states: unsafe extern "C" fn(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize,
+    place: unsafe extern "C" fn(run: *mut c_void, phase: Bytes, sink: Sink),
     snapshot: unsafe extern "C" fn(run: *mut c_void, sink: Sink),
 }
 
