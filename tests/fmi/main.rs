@@ -7,6 +7,7 @@ mod host;
 
 mod dead_ends;
 mod derivatives;
+mod estimation;
 mod exchange;
 mod hosted;
 mod instantiate;

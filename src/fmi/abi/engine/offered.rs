@@ -27,8 +27,8 @@ pub const TABLE: Table = Table {
     snapshot,
 };
 
-/// Exported only by the build for newer processors. Importers load the other build, which exports the functions of the
-/// standard and no others.
+/// Exported only by the build for newer processors. Importers load the other build, which does not export this
+/// function.
 #[cfg(target_feature = "fma")]
 mod export {
     use super::super::Table;
@@ -73,7 +73,8 @@ unsafe extern "C" fn step_map(
     let (scene, snapshot, request) = unsafe { (scene.borrow(), snapshot.borrow(), request.borrow()) };
     // SAFETY: the caller lends this many places for outputs, whose pointer comes from a slice, for this call.
     let outputs = unsafe { std::slice::from_raw_parts_mut(outputs, count) };
-    let found = attempt(sink, || step_map::step_map(&decoded(scene)?, &decoded(snapshot)?, &decoded(request)?, outputs));
+    let found =
+        attempt(sink, || step_map::step_map(&decoded(scene)?, &decoded(snapshot)?, &decoded(request)?, outputs));
     if let Some(found) = found {
         sink.send(&Ok::<_, Failure>(found));
     }
