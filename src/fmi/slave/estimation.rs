@@ -108,10 +108,15 @@ impl Slave {
             parameter.write(&mut settings.scene, finite(variable, *value)?)?;
             settings.tolerance_set |= parameter.name == TOLERANCE;
         }
-        let scene = settings.simulated_scene()?;
-        let snapshot = self.live()?.snapshot();
-        let mut run = engine_of(self.newer, &scene).restore(&scene, &snapshot)?;
-        run.place(&numbers.phase(run.time(), phase));
+        let (present, scene) = (self.settings.simulated_scene()?, settings.simulated_scene()?);
+        let mut run = engine_of(self.newer, &present).restore(&present, &self.live()?.snapshot())?;
+        let phase = numbers.phase(run.time(), phase);
+        run.place(&phase);
+        if !parameters.is_empty() {
+            // The last step is over now. It may have been longer than any step with the new values.
+            run = engine_of(self.newer, &scene).restore(&scene, &run.snapshot())?;
+            run.place(&phase);
+        }
         (self.settings.scene, self.settings.tolerance_set) = (settings.scene, settings.tolerance_set);
         (self.course, self.outputs) = (Some(Course::Own(run)), None);
         Ok(())

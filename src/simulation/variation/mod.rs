@@ -268,7 +268,7 @@ impl Variation {
                 let along_states = along(model, observer, &conditions, time, y, direction.as_slice());
                 let neighbours = self.neighbours.iter().find(|neighbours| neighbours.is_of(seed));
                 let explicit = neighbours.map(|of| derivative(of, model, observer, &conditions, time, y));
-                explicit.map_or(along_states.clone(), |explicit| along_states.combined(&explicit, |a, b| a + b))
+                explicit.map_or(along_states, |explicit| along_states.combined(&explicit, |a, b| a + b))
             })
             .collect())
     }
