@@ -241,6 +241,32 @@ fn check_differences(closed: bool) {
 }
 
 #[test]
+fn a_jacobian_begins_within_a_step_as_well_as_at_its_end() {
+    let slave = Slave::initializing();
+    slave.wear();
+    assert_eq!(slave.set("solver.tolerance", 1e-11), Status::Ok);
+    assert_eq!(slave.exit(), Status::Ok);
+    let mut point = 0.0;
+    for _ in 0..6 {
+        point = slave.steps(point, STEP, 1);
+        let within = step_jacobian(&slave, STEP, &["joint.C.clearance"]);
+        assert_eq!(set_phase(&slave, &within.phase, &[], &[]), Status::Ok);
+        let at_end = step_jacobian(&slave, STEP, &["joint.C.clearance"]);
+        assert_eq!(within.phase, at_end.phase);
+        for (one, other) in [
+            (&within.phase_by_phase, &at_end.phase_by_phase),
+            (&within.phase_by_others, &at_end.phase_by_others),
+            (&within.outputs_by_phase, &at_end.outputs_by_phase),
+        ] {
+            let largest = other.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+            for (one, other) in one.iter().zip(other) {
+                assert!((one - other).abs() <= 1e-6 * largest, "at {point} s: {one} is not {other}, of {largest}");
+            }
+        }
+    }
+}
+
+#[test]
 fn from_a_phase_that_was_set_the_step_is_that_of_the_instance() {
     let (slave, point) = worn(false);
     let told = step_jacobian(&slave, STEP, &[]);

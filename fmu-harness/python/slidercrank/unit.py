@@ -98,6 +98,12 @@ class Unit:
         self._started = Estimated(self, settings or {})
         self._started.__enter__()
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
     def stop(self) -> None:
         """Frees the instance, if one was started."""
         if self._started is not None:
