@@ -167,6 +167,20 @@ pub fn contacts(scene: &Scene) -> Vec<usize> {
     watched(scene).into_iter().map(|contact| contact.place).collect()
 }
 
+/// What has this event function, in words.
+pub fn subject_of_event(scene: &Scene, event: usize) -> String {
+    let contact = watched(scene).into_iter().find(|contact| contact.events.contains(&event));
+    contact.map_or_else(|| "the rod across the guide".into(), |contact| subject(contact.place))
+}
+
+/// A contact in words. Those of the guide are its corners or, where faces touch, its two faces.
+pub fn subject(contact: usize) -> String {
+    match ["A", "B", "C"].get(contact) {
+        Some(joint) => format!("joint {joint}'s contact"),
+        None => format!("joint T's contact {}", contact + 1 - PINS),
+    }
+}
+
 /// The contacts of a scene that may close, in the order of their event functions.
 fn watched(scene: &Scene) -> Vec<WatchedContact> {
     let joint = &scene.joint;

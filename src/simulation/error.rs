@@ -19,6 +19,13 @@ pub enum SimulationError {
     },
     /// A snapshot does not fit the scene.
     Snapshot(String),
+    /// The motion has no derivative, because a contact closes or opens too slowly, or just fails to.
+    Grazing {
+        /// [s] When, relative to the start.
+        time: f64,
+        /// What grazes, in words.
+        contact: String,
+    },
 }
 
 impl SimulationError {
@@ -26,6 +33,7 @@ impl SimulationError {
     pub fn counted_from(self, start: f64) -> Self {
         match self {
             Self::Integration { time, cause, dead_end } => Self::Integration { time: start + time, cause, dead_end },
+            Self::Grazing { time, contact } => Self::Grazing { time: start + time, contact },
             other => other,
         }
     }
@@ -36,6 +44,9 @@ impl fmt::Display for SimulationError {
         match self {
             Self::Scene(text) | Self::Snapshot(text) => f.write_str(text),
             Self::Integration { time, cause, .. } => write!(f, "at t = {time:.9} s: {cause}"),
+            Self::Grazing { time, contact } => {
+                write!(f, "at t = {time:.9} s: {contact} grazes, so that the motion has no derivative there")
+            }
         }
     }
 }

@@ -16,12 +16,13 @@ mod run;
 mod settings;
 mod side;
 mod start;
+pub mod step_map;
 mod system;
 mod time_stepping;
 pub mod variation;
 
 pub use crate::integrator::Snapshot;
-pub use contacts::{CONTACTS, ContactReport, PINS, contacts};
+pub use contacts::{CONTACTS, ContactReport, PINS, contacts, subject};
 pub use equations::Size;
 pub use error::SimulationError;
 pub use hosted::{Direction, HostedMechanism, Update, nominals};
@@ -178,9 +179,7 @@ impl Simulation {
 
     /// Outputs at the communication point.
     pub fn outputs(&mut self) -> Outputs {
-        let mut outputs = self.motion.outputs(self.time, self.side);
-        (outputs.solver.tolerance_used, outputs.solver.portable_used) = (self.tolerance, PORTABLE);
-        outputs
+        with_settings(self.motion.outputs(self.time, self.side), self.tolerance)
     }
 
     /// First time derivatives of the real outputs at the communication point; integers and Booleans are meaningless.
@@ -217,7 +216,7 @@ impl Simulation {
     }
 
     /// Continues from `phase`, a point of a simulation with the same joints, drive and method, or near one. The inputs
-    /// are kept.
+    /// are kept. An open contact that penetrates closes, and a closed one across a gap opens.
     pub fn place(&mut self, phase: &Phase) {
         self.motion.place(phase);
         self.time = phase.time;
@@ -282,6 +281,12 @@ impl Simulation {
             )),
         }
     }
+}
+
+/// Outputs with the settings in use.
+fn with_settings(mut outputs: Outputs, tolerance: f64) -> Outputs {
+    (outputs.solver.tolerance_used, outputs.solver.portable_used) = (tolerance, PORTABLE);
+    outputs
 }
 
 /// An integrator's error as a simulation's.

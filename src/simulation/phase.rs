@@ -1,11 +1,13 @@
 //! Points of phase space, from which motions are compared, perturbed and started.
 
+use serde::{Deserialize, Serialize};
+
 /// A point of phase space: all quantities that determine how a motion continues under given inputs.
 ///
 /// The approach speed of a closed contact belongs to it: two motions through the same states with different approach
 /// speeds differ later, because the damping of the contact depends on how it closed. The states of an energy audit do
 /// not belong to it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Phase {
     /// [s] Time.
     pub time: f64,

@@ -144,10 +144,17 @@ impl Motion for Run {
         let (y, mut conditions) = self.integrator.state_at(self.model.as_ref(), phase.time);
         let mut y = y.to_vec();
         write(&phase.states, &mut y);
-        for (contact, approach) in conditions.contacts.iter_mut().zip(&phase.approach) {
-            *contact = approach.map_or(ContactState::default(), |approach| ContactState::closing(approach, approach));
+        let model = self.model.as_ref();
+        for (place, (contact, approach)) in conditions.contacts.iter_mut().zip(&phase.approach).enumerate() {
+            let closing = |approach: &f64| ContactState::closing(*approach, model.speed_floor(place));
+            *contact = approach.as_ref().map_or(ContactState::default(), closing);
         }
-        self.integrator.place(self.model.as_ref(), phase.time, &y, conditions);
+        let at = Instant { model, conditions: &conditions, time: phase.time, states: &y };
+        let due = self.watch.due(&at);
+        if due.contains(&true) {
+            conditions = model.reset(&conditions, phase.time, &mut y, &due).discrete;
+        }
+        self.integrator.place(model, phase.time, &y, conditions);
     }
 
     fn phase_scales(&self) -> PhaseScales {

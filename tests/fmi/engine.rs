@@ -7,6 +7,7 @@ use slidercrank::fmi::abi::panic_guard::guarded;
 use slidercrank::fmi::slave::engine::{Engine, Own, Stops};
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::{JointModel, Method, Scene};
+use slidercrank::simulation::step_map::{By, PhaseNumbers, StepRequest};
 use slidercrank::simulation::{Side, Snapshot};
 use std::ffi::c_void;
 
@@ -44,6 +45,27 @@ fn course(engine: &dyn Engine) -> (Vec<Outputs>, Snapshot) {
 #[test]
 fn a_run_across_the_border_is_the_same_run() {
     assert_eq!(course(&ACROSS), course(&Own));
+}
+
+#[test]
+fn a_step_map_and_a_placed_phase_are_the_same_across_the_border() {
+    let (_, snapshot) = course(&Own);
+    let by = vec![By::Parameter("joint.C.clearance".into()), By::SliderLoad];
+    let request = StepRequest { end: 0.0205, derivatives: true, by };
+    let numbers = PhaseNumbers::of(&worn());
+    let found = [&ACROSS as &dyn Engine, &Own].map(|engine| {
+        let mut outputs = vec![Outputs::default(); request.output_sets(&numbers)];
+        let map = engine.step_map(&worn(), &snapshot, &request, &mut outputs).expect("no grazing");
+        let mut run = engine.restore(&worn(), &snapshot).expect("its own snapshot");
+        run.place(&numbers.phase(run.time(), &map.next));
+        (map, outputs, run.outputs(), run.snapshot())
+    });
+    assert_eq!(found[0], found[1]);
+    let (map, outputs, ..) = &found[0];
+    assert!(map.jacobian.len() == numbers.count() && outputs.last().is_some_and(|last| last.slider.v != 0.0));
+    let wrong = StepRequest { by: vec![By::Parameter("solver.method".into())], ..request };
+    let error = |engine: &dyn Engine| engine.step_map(&worn(), &snapshot, &wrong, &mut [Outputs::default()]);
+    assert_eq!(error(&ACROSS), error(&Own));
 }
 
 #[test]

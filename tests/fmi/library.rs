@@ -2,7 +2,7 @@
 
 use crate::host::api::Api;
 use crate::host::library;
-use slidercrank::fmi::v2::abi::functions;
+use slidercrank::fmi::v2::abi::{estimation, functions};
 use slidercrank::fmi::v2::lifecycle::Call;
 use slidercrank::fmi::v3;
 use std::process::Command;
@@ -22,11 +22,11 @@ fn the_library_the_lifecycle_and_the_standard_have_the_same_functions() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn the_functions_of_the_standard_are_exported_and_nothing_else() {
+fn the_functions_of_the_standard_and_of_estimation_are_exported_and_nothing_else() {
     let output = Command::new("nm").args(["-D", "--defined-only"]).arg(library()).output().expect("nm");
     let text = String::from_utf8(output.stdout).expect("text");
     let mut exported: Vec<_> = text.lines().filter_map(|line| line.split(' ').nth(2)).collect();
-    let mut expected = [Api::NAMES, v3::abi::functions::NAMES].concat();
+    let mut expected = [Api::NAMES, estimation::NAMES, v3::abi::functions::NAMES].concat();
     exported.sort_unstable();
     expected.sort_unstable();
     assert_eq!(exported, expected);

@@ -9,6 +9,7 @@ mod calls;
 mod dead_ends;
 mod derivatives;
 mod engine;
+mod estimation;
 mod exchange;
 mod hosted;
 mod instantiate;

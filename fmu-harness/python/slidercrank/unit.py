@@ -7,9 +7,12 @@ import math
 import threading
 import time
 from array import array
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Self
 
 import numpy
 from fmpy import calloc, extract, free, read_model_description
@@ -39,9 +42,17 @@ _loading = threading.Lock()  # FMPy changes the working directory while it loads
 
 
 class Unit:
-    """An FMU unpacked into a directory, its library loaded."""
+    """An FMU unpacked into a directory, its library loaded.
 
-    def __init__(self, fmu: Path, into: Path):
+    `run` makes one run of a study. `start`, `step`, `read`, `predict`, `step_jacobian` and `set_phase` are for estimators.
+    Without a directory the FMU is unpacked into a temporary one.
+    """
+
+    def __init__(self, fmu: str | Path, into: Path | None = None):
+        if into is None:
+            self._folder = TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True)
+            into = Path(self._folder.name)
+        self._started: Estimated | None = None
         with _loading:
             extract(str(fmu), unzipdir=str(into))
             self.description = read_model_description(str(fmu))
@@ -81,6 +92,99 @@ class Unit:
                 raise RunError(f"{name}: {error}") from error
         return values
 
+    def start(self, settings: Mapping[str, float] | None = None) -> None:
+        """Starts an instance with these parameters and inputs at time 0, in place of the one before."""
+        self.stop()
+        self._started = Estimated(self, settings or {})
+        self._started.__enter__()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
+    def stop(self) -> None:
+        """Frees the instance, if one was started."""
+        if self._started is not None:
+            self._started.__exit__()
+            self._started = None
+
+    @property
+    def time(self) -> float:
+        """[s] The communication point reached."""
+        return self._estimated.time
+
+    def step(self, size: float) -> None:
+        """Moves the instance by a step [s]."""
+        self._estimated.step(size)
+
+    def read(self, names: Sequence[str]) -> numpy.ndarray:
+        """Real variables at the communication point."""
+        return self._estimated.read(names)
+
+    def set_inputs(self, values: Mapping[str, float]) -> None:
+        """Sets inputs from the communication point on."""
+        self._estimated.set_inputs(values)
+
+    @property
+    def phase_names(self) -> list[str]:
+        """Names of the numbers of a phase: `state.…`, then `joint.….approach`."""
+        return self._estimated.phase_names
+
+    def predict(self, step: float, outputs: Sequence[str] = ()) -> Step:
+        """Where a step [s] leads; the instance stays where it is."""
+        return self._estimated.predict(step, outputs)
+
+    def step_jacobian(
+        self, step: float, parameters: Sequence[str] = (), outputs: Sequence[str] = ()
+    ) -> StepJacobian:
+        """Where a step [s] leads, and its derivatives by the phase and by real parameters and inputs.
+
+        They are exact, through impacts. The instance stays where it is. Where a contact grazes, there is no derivative
+        and so a `RunError`.
+        """
+        return self._estimated.step_jacobian(step, parameters, outputs)
+
+    def set_phase(self, phase: numpy.ndarray, parameters: Mapping[str, float] | None = None) -> None:
+        """Continues from this phase, with these values of real parameters.
+
+        A contact without a positive approach speed is open, and a contact that contradicts its penetration follows it.
+        """
+        self._estimated.set_phase(phase, parameters or {})
+
+    @property
+    def _estimated(self) -> Estimated:
+        if self._started is None:
+            raise RunError("no instance was started")
+        return self._started
+
+
+@dataclass(frozen=True)
+class Step:
+    """Both ends of a step."""
+
+    phase_names: list[str]
+    outputs: list[str]
+    """Names of `next_outputs`."""
+    phase: numpy.ndarray
+    """Where the step begins."""
+    next_phase: numpy.ndarray
+    """Where it ends."""
+    next_outputs: numpy.ndarray
+
+
+@dataclass(frozen=True)
+class StepJacobian(Step):
+    """A step with its derivatives. Rows are those of the phase or the outputs, columns of the phase or `parameters`."""
+
+    parameters: list[str]
+    """Names of columns."""
+    phase_by_phase: numpy.ndarray
+    phase_by_parameters: numpy.ndarray
+    outputs_by_phase: numpy.ndarray
+    outputs_by_parameters: numpy.ndarray
+
 
 class Selection:
     """Outputs of one type, read together."""
@@ -105,11 +209,11 @@ class Selection:
         return {name: numpy.ascontiguousarray(table[:, place], float) for place, name in enumerate(self.names)}
 
 
-class Instance:
-    """One run: instantiated, initialised, marched."""
+class Session:
+    """One instance: instantiated with parameters, initialised, freed."""
 
-    def __init__(self, unit: Unit, recipe: Recipe, settings: Mapping[str, float], names: list[str]):
-        self.unit, self.recipe, self.slave = unit, recipe, unit.slave
+    def __init__(self, unit: Unit, settings: Mapping[str, float]):
+        self.unit, self.slave = unit, unit.slave
         self.said: str | None = None
         # Kept, since the FMU calls them as long as it lives.
         self.callbacks = fmi2CallbackFunctions()
@@ -118,25 +222,8 @@ class Instance:
         self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self.settings = settings
         self.component: int | None = None
-        calls: dict[str, tuple[Callable[..., int], Number]] = {
-            "Real": (self.slave.fmi2GetReal, ctypes.c_double),
-            "Integer": (self.slave.fmi2GetInteger, ctypes.c_int),
-            "Boolean": (self.slave.fmi2GetBoolean, ctypes.c_int),
-        }
-        groups: dict[str, list[ModelVariable]] = {kind: [] for kind in calls}
-        for name in names:
-            if name not in unit.outputs:
-                raise RunError(f"turns cannot be counted: `{name}` is not an output of this FMU")
-            variable = unit.outputs[name]
-            groups["Integer" if variable.type == "Enumeration" else variable.type].append(variable)
-        self.selections = [Selection(*calls[kind], group) for kind, group in groups.items() if group]
-        self.angle = Selection(*calls["Real"], [unit.outputs[ANGLE]])
-        inputs = [unit.variables[own.name] for own in recipe.inputs]
-        self.inputs = (ctypes.c_uint * len(inputs))(*(variable.valueReference for variable in inputs))
-        self.values = (ctypes.c_double * len(inputs))()
-        self.wants_angle = any(own.wants_angle for own in recipe.inputs)
 
-    def __enter__(self) -> Instance:
+    def __enter__(self) -> Self:
         slave = self.slave
         description = self.unit.description
         self.component = slave.fmi2Instantiate(
@@ -155,9 +242,9 @@ class Instance:
                 self._try(f"setting `{name}`", self._set, name, value)
             self._try("fmi2SetupExperiment", slave.fmi2SetupExperiment, self.component, 0, 0.0, 0.0, 0, 0.0)
             self._try("fmi2EnterInitializationMode", slave.fmi2EnterInitializationMode, self.component)
-            self._apply_inputs(0.0)
+            self._initialize()
             self._try("fmi2ExitInitializationMode", slave.fmi2ExitInitializationMode, self.component)
-            self._record()
+            self._initialized()
         except BaseException:
             self.__exit__()
             raise
@@ -167,6 +254,81 @@ class Instance:
         if self.component:
             self.slave.fmi2FreeInstance(self.component)
             self.component = None
+
+    def _initialize(self) -> None:
+        """What is done in initialization mode."""
+
+    def _initialized(self) -> None:
+        """What is done at the start."""
+
+    def _variable(self, name: str) -> ModelVariable:
+        variable = self.unit.variables.get(name)
+        if variable is None:
+            raise RunError(f"the FMU has no variable `{name}`")
+        return variable
+
+    def _references(self, names: Iterable[str]) -> ctypes.Array[ctypes.c_uint]:
+        variables = [self._variable(name) for name in names]
+        return (ctypes.c_uint * len(variables))(*(variable.valueReference for variable in variables))
+
+    def _set(self, name: str, value: float) -> None:
+        variable, reference = self._variable(name), self._references([name])
+        if variable.type == "Real":
+            self.slave.fmi2SetReal(self.component, reference, 1, (ctypes.c_double * 1)(value))
+        elif variable.type == "Boolean":
+            self.slave.fmi2SetBoolean(self.component, reference, 1, (ctypes.c_int * 1)(int(value)))
+        else:
+            self.slave.fmi2SetInteger(self.component, reference, 1, (ctypes.c_int * 1)(int(value)))
+
+    def _try(self, call: str, function: Callable[..., object], *arguments: object) -> None:
+        try:
+            function(*arguments)
+        except FMICallException as error:
+            raise RunError(self._answer(call, error)) from error
+
+    def _answer(self, call: str, error: FMICallException) -> str:
+        return self._told(call, error.status)
+
+    def _told(self, call: str, status: int) -> str:
+        known = 0 <= status < len(STATUS)
+        name = STATUS[status] if known else f"the unknown status {status}"
+        return f"{call} returned {name}{self._because()}"
+
+    def _because(self) -> str:
+        return "" if self.said is None else f": {self.said}"
+
+    def _log(self, _environment: object, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
+        self.said = message.decode(errors="replace")
+
+
+class Instance(Session):
+    """One run: instantiated, initialised, marched."""
+
+    def __init__(self, unit: Unit, recipe: Recipe, settings: Mapping[str, float], names: list[str]):
+        super().__init__(unit, settings)
+        self.recipe = recipe
+        calls: dict[str, tuple[Callable[..., int], Number]] = {
+            "Real": (self.slave.fmi2GetReal, ctypes.c_double),
+            "Integer": (self.slave.fmi2GetInteger, ctypes.c_int),
+            "Boolean": (self.slave.fmi2GetBoolean, ctypes.c_int),
+        }
+        groups: dict[str, list[ModelVariable]] = {kind: [] for kind in calls}
+        for name in names:
+            if name not in unit.outputs:
+                raise RunError(f"turns cannot be counted: `{name}` is not an output of this FMU")
+            variable = unit.outputs[name]
+            groups["Integer" if variable.type == "Enumeration" else variable.type].append(variable)
+        self.selections = [Selection(*calls[kind], group) for kind, group in groups.items() if group]
+        self.angle = Selection(*calls["Real"], [unit.outputs[ANGLE]])
+        self.inputs = self._references(own.name for own in recipe.inputs)
+        self.values = (ctypes.c_double * len(recipe.inputs))()
+        self.wants_angle = any(own.wants_angle for own in recipe.inputs)
+
+    def _initialize(self) -> None:
+        self._apply_inputs(0.0)
+
+    def _initialized(self) -> None:
+        self._record()
 
     def march(self, latest: float, budget: float) -> None:
         """Steps until the crank has made its turns; an error if `latest` [s] or the budget [s of the wall] comes first."""
@@ -216,34 +378,95 @@ class Instance:
         for selection in self.selections:
             self._try("reading outputs", selection.record, self.component)
 
-    def _set(self, name: str, value: float) -> None:
-        variable = self.unit.variables.get(name)
-        if variable is None:
-            raise RunError(f"the FMU has no variable `{name}`")
-        reference = (ctypes.c_uint * 1)(variable.valueReference)
-        if variable.type == "Real":
-            self.slave.fmi2SetReal(self.component, reference, 1, (ctypes.c_double * 1)(value))
-        elif variable.type == "Boolean":
-            self.slave.fmi2SetBoolean(self.component, reference, 1, (ctypes.c_int * 1)(int(value)))
-        else:
-            self.slave.fmi2SetInteger(self.component, reference, 1, (ctypes.c_int * 1)(int(value)))
 
-    def _try(self, call: str, function: Callable[..., object], *arguments: object) -> None:
-        try:
-            function(*arguments)
-        except FMICallException as error:
-            raise RunError(self._answer(call, error)) from error
+class Estimated(Session):
+    """One instance at a communication point, for an estimator. The functions beside the standard's are in the guide."""
 
-    def _answer(self, call: str, error: FMICallException) -> str:
-        known = 0 <= error.status < len(STATUS)
-        status = STATUS[error.status] if known else f"the unknown status {error.status}"
-        return f"{call} returned {status}{self._because()}"
+    def __init__(self, unit: Unit, settings: Mapping[str, float]):
+        super().__init__(unit, settings)
+        self.time = 0.0
+        self.phase_names: list[str] = []
 
-    def _because(self) -> str:
-        return "" if self.said is None else f": {self.said}"
+    def _initialized(self) -> None:
+        size = ctypes.c_size_t()
+        self._call("slidercrank_phase_names", None, ctypes.byref(size))
+        names = ctypes.create_string_buffer(size.value)
+        self._call("slidercrank_phase_names", names, ctypes.byref(size))
+        self.phase_names = names.value.decode().splitlines()
 
-    def _log(self, _environment: object, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
-        self.said = message.decode(errors="replace")
+    def step(self, size: float) -> None:
+        what = f"fmi2DoStep from {plain(self.time)} s by {plain(size)} s"
+        self._try(what, self.slave.fmi2DoStep, self.component, self.time, size, 1)
+        self.time += size
+
+    def read(self, names: Sequence[str]) -> numpy.ndarray:
+        values = (ctypes.c_double * len(names))()
+        references = self._references(names)
+        self._try("fmi2GetReal", self.slave.fmi2GetReal, self.component, references, len(names), values)
+        return numpy.array(values)
+
+    def set_inputs(self, values: Mapping[str, float]) -> None:
+        for name, value in values.items():
+            self._try(f"setting `{name}`", self._set, name, value)
+
+    def predict(self, step: float, outputs: Sequence[str]) -> Step:
+        count = len(self.phase_names)
+        phase, after, told = numpy.empty(count), numpy.empty(count), numpy.empty(len(outputs))
+        self._map(step, [], outputs, [phase, after, told], [None] * 4)
+        return Step(list(self.phase_names), list(outputs), phase, after, told)
+
+    def step_jacobian(self, step: float, parameters: Sequence[str], outputs: Sequence[str]) -> StepJacobian:
+        count, rows, columns = len(self.phase_names), len(outputs), len(parameters)
+        phase, after, told = numpy.empty(count), numpy.empty(count), numpy.empty(rows)
+        matrices = [numpy.empty(shape) for shape in [(count, count), (count, columns), (rows, count), (rows, columns)]]
+        self._map(step, parameters, outputs, [phase, after, told], matrices)
+        return StepJacobian(list(self.phase_names), list(outputs), phase, after, told, list(parameters), *matrices)
+
+    def set_phase(self, phase: numpy.ndarray, parameters: Mapping[str, float]) -> None:
+        numbers = numpy.ascontiguousarray(phase, float)
+        values = numpy.array([*parameters.values()], float)
+        references = self._references(parameters)
+        self._call(
+            "slidercrank_set_phase",
+            _pointer(numbers),
+            ctypes.c_size_t(numbers.size),
+            references,
+            ctypes.c_size_t(len(references)),
+            _pointer(values),
+        )
+
+    def _map(
+        self,
+        step: float,
+        parameters: Sequence[str],
+        outputs: Sequence[str],
+        vectors: Sequence[numpy.ndarray],
+        matrices: Sequence[numpy.ndarray | None],
+    ) -> None:
+        by, of, count = self._references(parameters), self._references(outputs), ctypes.c_size_t(len(self.phase_names))
+        self._call(
+            "slidercrank_step_jacobian",
+            ctypes.c_double(step),
+            by,
+            ctypes.c_size_t(len(by)),
+            of,
+            ctypes.c_size_t(len(of)),
+            ctypes.byref(count),
+            *map(_pointer, vectors),
+            *map(_pointer, matrices),
+        )
+
+    def _call(self, name: str, *arguments: object) -> None:
+        function = getattr(self.slave.dll, name, None)
+        if function is None:
+            raise RunError(f"the FMU has no function `{name}`")
+        status = function(ctypes.c_void_p(self.component), *arguments)
+        if status != 0:
+            raise RunError(self._told(name, status))
+
+
+def _pointer(array: numpy.ndarray | None) -> ctypes.c_void_p:
+    return ctypes.c_void_p(None if array is None else array.ctypes.data)
 
 
 def plain(number: float) -> str:

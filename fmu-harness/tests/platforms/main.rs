@@ -21,6 +21,7 @@ use fmu_harness::scenes::{Scenario, directory, names};
 use object::read::macho::{FatArch, MachOFatFile32, MachOFile64};
 use object::{Endianness, NameOrOrdinal, Object};
 use scene::{Packaged, STEPS};
+use slidercrank::fmi::v2::abi::estimation;
 use slidercrank::fmi::v2::abi::functions::NAMES;
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -347,7 +348,7 @@ fn the_library_for_macos_is_whole() {
     let Some(stock) = stock(Platform::Darwin64) else { return };
     let bytes = library(stock, Platform::Darwin64, &Scenario::find("wornpin").expect("a shipped scene"));
     let file = MachOFatFile32::parse(&*bytes).expect("a universal file");
-    let wanted: BTreeSet<String> = NAMES.iter().map(|name| format!("_{name}")).collect();
+    let wanted: BTreeSet<String> = NAMES.iter().chain(estimation::NAMES).map(|name| format!("_{name}")).collect();
     assert_eq!(file.arches().len(), 2);
     for arch in file.arches() {
         let slice = arch.data(&*bytes).expect("a library");

@@ -57,6 +57,7 @@ files! { PACKAGE:
     the_press_is_measured_as_a_shop_measures_it "test_press.py"
     a_deck_of_no_rod_is_refused                 "test_decks.py"
     a_solid_model_s_modes_are_those_of_theory   "test_modes.py"
+    filters_find_what_was_put_in                "test_estimation.py"
     figures_show_what_is_in_the_frame           "test_plots.py"
     the_notebook_runs                           "test_notebook.py"
     the_package_can_be_installed                "test_install.py"

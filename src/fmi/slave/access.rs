@@ -160,3 +160,8 @@ pub fn real_parameter(variable: &Variable) -> Option<&'static Parameter> {
         _ => None,
     }
 }
+
+/// Refuses an array that has not as many entries as are needed.
+pub fn check_count(of: &'static str, given: usize, needed: usize) -> Result<(), Error> {
+    if given == needed { Ok(()) } else { Err(Error::Count { of, given, needed }) }
+}

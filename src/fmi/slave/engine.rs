@@ -7,7 +7,8 @@
 use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
-use crate::simulation::{ContactReport, Side, Simulation, SimulationError, Snapshot};
+use crate::simulation::step_map::{StepMap, StepRequest, step_map};
+use crate::simulation::{ContactReport, Phase, Side, Simulation, SimulationError, Snapshot};
 
 /// Assembles mechanisms.
 pub trait Engine: Sync {
@@ -22,6 +23,18 @@ pub trait Engine: Sync {
     /// # Errors
     /// As there.
     fn restore(&self, scene: &Scene, snapshot: &Snapshot) -> Result<Box<dyn Run>, SimulationError>;
+
+    /// As [`step_map`].
+    ///
+    /// # Errors
+    /// As there.
+    fn step_map(
+        &self,
+        scene: &Scene,
+        snapshot: &Snapshot,
+        request: &StepRequest,
+        outputs: &mut [Outputs],
+    ) -> Result<StepMap, SimulationError>;
 }
 
 /// The points at which an advance may stop early.
@@ -36,8 +49,8 @@ pub enum Stops {
     Steps,
 }
 
-/// A mechanism at one communication point: the methods of a [`Simulation`] that a slave uses. Only `snapshot`
-/// allocates.
+/// A mechanism at one communication point: the methods of a [`Simulation`] that a slave uses. Only `place` and `snapshot`
+/// allocate.
 pub trait Run: Send {
     /// [s] The communication point reached.
     fn time(&self) -> f64;
@@ -61,6 +74,8 @@ pub trait Run: Send {
     fn contacts(&mut self) -> ContactReport;
     /// As [`Simulation::write_states`].
     fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize;
+    /// As [`Simulation::place`].
+    fn place(&mut self, phase: &Phase);
     /// As [`Simulation::snapshot`].
     fn snapshot(&self) -> Snapshot;
 }
@@ -75,6 +90,16 @@ impl Engine for Own {
 
     fn restore(&self, scene: &Scene, snapshot: &Snapshot) -> Result<Box<dyn Run>, SimulationError> {
         Ok(Box::new(Simulation::restore(scene, snapshot)?))
+    }
+
+    fn step_map(
+        &self,
+        scene: &Scene,
+        snapshot: &Snapshot,
+        request: &StepRequest,
+        outputs: &mut [Outputs],
+    ) -> Result<StepMap, SimulationError> {
+        step_map(scene, snapshot, request, outputs)
     }
 }
 
@@ -117,6 +142,10 @@ impl Run for Simulation {
 
     fn write_states(&mut self, states: &mut [f64; MAX_STATES], rates: &mut [f64; MAX_STATES]) -> usize {
         self.write_states(states, rates)
+    }
+
+    fn place(&mut self, phase: &Phase) {
+        self.place(phase);
     }
 
     fn snapshot(&self) -> Snapshot {

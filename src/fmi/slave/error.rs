@@ -21,6 +21,8 @@ pub enum Error {
     Scene(SceneError),
     /// An output is NaN or infinite.
     OutputNotFinite(&'static str, f64),
+    /// A number of a phase is NaN or infinite.
+    PhaseNotFinite(String, f64),
     /// An output has no derivative with respect to start values, since it jumps.
     NoDerivative(&'static str),
     /// The mechanism cannot start or go on.
@@ -46,9 +48,12 @@ impl Error {
             | Self::Time(_)
             | Self::SavedState(_)
             | Self::Scene(_)
+            | Self::PhaseNotFinite(..)
             | Self::Interface
             | Self::Count { .. }
-            | Self::Simulation(SimulationError::Scene(_) | SimulationError::Snapshot(_)) => Severity::Error,
+            | Self::Simulation(
+                SimulationError::Scene(_) | SimulationError::Snapshot(_) | SimulationError::Grazing { .. },
+            ) => Severity::Error,
             Self::OutputNotFinite(..)
             | Self::NoDerivative(_)
             | Self::Simulation(SimulationError::Integration { .. }) => Severity::Discard,
@@ -94,6 +99,8 @@ pub enum VariableError {
     Structure(&'static str),
     /// The function is for another kind of variable. The last field says which it needs.
     Kind(&'static str, &'static str),
+    /// The variable is named twice.
+    Twice(&'static str),
 }
 
 /// A time or a tolerance cannot be used.

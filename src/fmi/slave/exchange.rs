@@ -1,7 +1,7 @@
 //! Model exchange: the functions of a slave for an importer that integrates. None of them allocates.
 
 use super::Slave;
-use super::access::{Permission, finite, finite_number, finite_output};
+use super::access::{Permission, check_count, finite, finite_number, finite_output};
 use super::course::{Course, Interface};
 use super::engine::Engine;
 use super::error::{Error, TimeError, VariableError};
@@ -170,8 +170,4 @@ impl Slave {
             Course::Own(_) => Err(Error::Interface),
         }
     }
-}
-
-fn check_count(of: &'static str, given: usize, needed: usize) -> Result<(), Error> {
-    if given == needed { Ok(()) } else { Err(Error::Count { of, given, needed }) }
 }

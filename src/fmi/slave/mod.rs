@@ -17,6 +17,7 @@ pub mod difference;
 mod directional;
 pub mod engine;
 pub mod error;
+pub mod estimation;
 mod exchange;
 pub mod experiment;
 pub mod inputs;

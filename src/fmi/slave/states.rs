@@ -7,7 +7,8 @@ use crate::model::coordinates::{Quantity, Role, StateVariable, event_count, stat
 use crate::model_description::clocks::Clock;
 use crate::model_description::exchange::{Exchange, FIRST_DERIVATIVE, FIRST_STATE, Indicator, State};
 use crate::scene::{Method, Scene};
-use crate::simulation::{PINS, contacts, nominals};
+use crate::simulation::step_map::PhaseNumbers;
+use crate::simulation::{PINS, contacts, nominals, subject};
 
 const _: () = assert!(STATES.len() == MAX_STATES && DERIVATIVES.len() == MAX_STATES, "a variable for every state");
 
@@ -62,16 +63,20 @@ pub fn clocks(scene: &Scene) -> Vec<Clock> {
     contacts(scene).into_iter().map(of_contact).collect()
 }
 
-/// Name of a contact, and what it is called in a sentence. Those of the guide are its corners or, where faces touch, its
-/// two faces.
+/// Name of a contact, and what it is called in a sentence.
 fn contact_name(contact: usize) -> (String, String) {
-    match ["A", "B", "C"].get(contact) {
-        Some(joint) => (format!("joint.{joint}"), format!("joint {joint}'s contact")),
-        None => {
-            let number = contact + 1 - PINS;
-            (format!("joint.T[{number}]"), format!("joint T's contact {number}"))
-        }
-    }
+    let name = match ["A", "B", "C"].get(contact) {
+        Some(joint) => format!("joint.{joint}"),
+        None => format!("joint.T[{}]", contact + 1 - PINS),
+    };
+    (name, subject(contact))
+}
+
+/// Names of the numbers of a phase: of states as in model exchange, of approach speeds by their contacts.
+pub fn phase_names(scene: &Scene) -> Vec<String> {
+    let numbers = PhaseNumbers::of(scene);
+    let states = state_variables(scene).into_iter().take(numbers.states).map(|state| format!("state.{}", state.name));
+    states.chain(numbers.contacts.iter().map(|contact| format!("{}.approach", contact_name(*contact).0))).collect()
 }
 
 /// Refuses a scene whose states or event indicators are not those of the packaged one; `name` is the parameter that made

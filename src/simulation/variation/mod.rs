@@ -51,6 +51,8 @@ pub struct Variation {
     /// Those of the parameters among the seeds, then those of torque and load.
     neighbours: Vec<Neighbours>,
     tangents: Tangents<Conditions>,
+    /// Whether the tangent has followed the last step, which may also lie before where it began.
+    followed: bool,
     tolerance: f64,
 }
 
@@ -138,7 +140,7 @@ impl Variation {
                 tolerance,
             )
         };
-        Ok(Self { run, time: 0.0, scales, seeds: seeds.to_vec(), neighbours, tangents, tolerance })
+        Ok(Self { run, time: 0.0, scales, seeds: seeds.to_vec(), neighbours, tangents, followed: false, tolerance })
     }
 
     /// Begins the tangent at the communication point, where nothing depends on parameters yet.
@@ -158,6 +160,7 @@ impl Variation {
         let shares = shares(&self.seeds, &self.neighbours);
         let least = self.tangents.least().to_vec();
         self.tangents = Tangents::new(&varied, integrator.state(), directions, shares, least, self.tolerance);
+        self.followed = false;
     }
 
     /// [s] The communication point reached.
@@ -180,9 +183,10 @@ impl Variation {
     /// # Errors
     /// As [`Simulation::advance_to`](super::Simulation::advance_to).
     pub fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
-        let Self { run, neighbours, tangents, .. } = self;
+        let Self { run, neighbours, tangents, followed, .. } = self;
         run.begin_interval(self.time);
         let advanced = run.advance_followed(time, &mut |model, state| {
+            *followed = true;
             tangents.follow(&Varied { model, neighbours }, state);
         });
         match advanced {
@@ -216,6 +220,9 @@ impl Variation {
 
     /// Follows the last step if it has become shorter.
     fn shorten(&mut self) {
+        if !self.followed {
+            return;
+        }
         let (model, _, integrator) = self.run.parts();
         self.tangents.shorten(&Varied { model, neighbours: &self.neighbours }, integrator.state());
     }
@@ -290,7 +297,7 @@ impl Variation {
                 let along_states = along(model, observer, &conditions, time, y, direction.as_slice());
                 let neighbours = self.neighbours.iter().find(|neighbours| neighbours.is_of(seed));
                 let explicit = neighbours.map(|of| derivative(of, model, observer, &conditions, time, y));
-                explicit.map_or(along_states.clone(), |explicit| along_states.combined(&explicit, |a, b| a + b))
+                explicit.map_or(along_states, |explicit| along_states.combined(&explicit, |a, b| a + b))
             })
             .collect())
     }

@@ -273,6 +273,10 @@ pub fn along(
     y: &[f64],
     direction: &[f64],
 ) -> Outputs {
+    if direction.iter().all(|slope| *slope == 0.0) {
+        // A difference would be a rounding error.
+        return Outputs::default();
+    }
     let n = y.len();
     let scaled = direction.iter().zip(model.scales()).filter(|(_, scale)| **scale > 0.0);
     let longest = scaled.map(|(slope, scale)| (slope / scale).abs()).fold(0.0, f64::max);

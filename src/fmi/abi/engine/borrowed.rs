@@ -8,7 +8,8 @@ use crate::integrator::MAX_STATES;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use crate::scene::parameter::DECLARATION;
-use crate::simulation::{ContactReport, Side, SimulationError, Snapshot};
+use crate::simulation::step_map::{StepMap, StepRequest};
+use crate::simulation::{ContactReport, Phase, Side, SimulationError, Snapshot};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_void;
@@ -74,6 +75,23 @@ impl Engine for Borrowed {
         // SAFETY: bytes and sink outlive the call.
         let run = unsafe { (self.table.restore)(lend(&scene), lend(&snapshot), letter.sink()) };
         self.run(run, letter)
+    }
+
+    fn step_map(
+        &self,
+        scene: &Scene,
+        snapshot: &Snapshot,
+        request: &StepRequest,
+        outputs: &mut [Outputs],
+    ) -> Result<StepMap, SimulationError> {
+        let (scene, snapshot, request) = (encoded(scene)?, encoded(snapshot)?, encoded(request)?);
+        let mut letter = Letter::default();
+        // SAFETY: bytes, places for outputs and sink outlive the call.
+        unsafe {
+            let (places, count) = (outputs.as_mut_ptr(), outputs.len());
+            (self.table.step_map)(lend(&scene), lend(&snapshot), lend(&request), places, count, letter.sink());
+        }
+        letter.opened()
     }
 }
 
@@ -147,6 +165,13 @@ impl Run for BorrowedRun {
         };
         letter.infallible();
         count.min(MAX_STATES)
+    }
+
+    fn place(&mut self, phase: &Phase) {
+        let (phase, mut letter) = (encoded(phase).unwrap_or_else(fault), Letter::default());
+        // SAFETY: a live run, lent to this call alone; bytes and sink outlive the call.
+        unsafe { (self.table.place)(self.run.as_ptr(), lend(&phase), letter.sink()) };
+        letter.infallible();
     }
 
     fn snapshot(&self) -> Snapshot {

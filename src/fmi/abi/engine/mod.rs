@@ -51,14 +51,23 @@ pub enum Reading {
 }
 
 /// The functions that another library calls. A run is a pointer from `start` or `restore` that has not been passed to
-/// `free`; it is used in one call at a time. The sink of `snapshot` receives a snapshot or a failure, the sinks of
-/// other functions receive a failure if there is one. A run that cannot be started is NULL.
+/// `free`; it is used in one call at a time. The sinks of `step_map` and `snapshot` receive a result or a failure, the
+/// sinks of other functions receive a failure if there is one. A run that cannot be started is NULL.
 #[repr(C)]
 pub struct Table {
     /// Starts a run.
     pub start: unsafe extern "C" fn(scene: Bytes, inputs: *const Inputs, sink: Sink) -> *mut c_void,
     /// Starts a run where a snapshot was taken.
     pub restore: unsafe extern "C" fn(scene: Bytes, snapshot: Bytes, sink: Sink) -> *mut c_void,
+    /// Computes the map of a step from a snapshot; writes `count` sets of outputs.
+    pub step_map: unsafe extern "C" fn(
+        scene: Bytes,
+        snapshot: Bytes,
+        request: Bytes,
+        outputs: *mut Outputs,
+        count: usize,
+        sink: Sink,
+    ),
     /// Ends a run.
     pub free: unsafe extern "C" fn(run: *mut c_void),
     /// The time that a run has reached.
@@ -76,6 +85,8 @@ pub struct Table {
     pub contacts: unsafe extern "C" fn(run: *mut c_void, report: *mut ContactReport, sink: Sink),
     /// Writes states and rates, each of which have room for `MAX_STATES`, and returns their number.
     pub write_states: unsafe extern "C" fn(run: *mut c_void, states: *mut f64, rates: *mut f64, sink: Sink) -> usize,
+    /// Continues from another point of phase space.
+    pub place: unsafe extern "C" fn(run: *mut c_void, phase: Bytes, sink: Sink),
     /// Takes a snapshot.
     pub snapshot: unsafe extern "C" fn(run: *mut c_void, sink: Sink),
 }

@@ -4,18 +4,31 @@ use super::super::panic_guard::guarded;
 use super::{Bytes, Failure, Reading, Sink, Table};
 use crate::fmi::slave::engine::{Run, Stops};
 use crate::model::signals::{Inputs, Outputs};
-use crate::simulation::{ContactReport, Side, Simulation, SimulationError};
+use crate::simulation::{ContactReport, Side, Simulation, SimulationError, step_map};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_void;
 use std::ptr::null_mut;
 
 /// The functions of this library.
-pub const TABLE: Table =
-    Table { start, restore, free, time, set_inputs, advance, look, read, contacts, write_states, snapshot };
+pub const TABLE: Table = Table {
+    start,
+    restore,
+    step_map,
+    free,
+    time,
+    set_inputs,
+    advance,
+    look,
+    read,
+    contacts,
+    write_states,
+    place,
+    snapshot,
+};
 
-/// Exported only by the build for newer processors. Importers load the other build, which exports the functions of the
-/// standard and no others.
+/// Exported only by the build for newer processors. Importers load the other build, which does not export this
+/// function.
 #[cfg(target_feature = "fma")]
 mod export {
     use super::super::Table;
@@ -46,6 +59,25 @@ unsafe extern "C" fn restore(scene: Bytes, snapshot: Bytes, sink: Sink) -> *mut 
     let (scene, snapshot) = unsafe { (scene.borrow(), snapshot.borrow()) };
     let run = attempt(sink, || Simulation::restore(&decoded(scene)?, &decoded(snapshot)?).map(Box::new));
     run.map_or(null_mut(), |run| Box::into_raw(run).cast())
+}
+
+unsafe extern "C" fn step_map(
+    scene: Bytes,
+    snapshot: Bytes,
+    request: Bytes,
+    outputs: *mut Outputs,
+    count: usize,
+    sink: Sink,
+) {
+    // SAFETY: the caller lends bytes for this call.
+    let (scene, snapshot, request) = unsafe { (scene.borrow(), snapshot.borrow(), request.borrow()) };
+    // SAFETY: the caller lends this many places for outputs, whose pointer comes from a slice, for this call.
+    let outputs = unsafe { std::slice::from_raw_parts_mut(outputs, count) };
+    let found =
+        attempt(sink, || step_map::step_map(&decoded(scene)?, &decoded(snapshot)?, &decoded(request)?, outputs));
+    if let Some(found) = found {
+        sink.send(&Ok::<_, Failure>(found));
+    }
 }
 
 unsafe extern "C" fn free(run: *mut c_void) {
@@ -110,6 +142,15 @@ unsafe extern "C" fn write_states(run: *mut c_void, states: *mut f64, rates: *mu
     // SAFETY: a live run, in no other call; the caller lends two arrays of this length for this one.
     let (run, states, rates) = unsafe { (lent(run), &mut *states.cast(), &mut *rates.cast()) };
     attempt(sink, || Ok(run.write_states(states, rates))).unwrap_or_default()
+}
+
+unsafe extern "C" fn place(run: *mut c_void, phase: Bytes, sink: Sink) {
+    // SAFETY: a live run, in no other call; the caller lends bytes for this one.
+    let (run, phase) = unsafe { (lent(run), phase.borrow()) };
+    attempt(sink, || {
+        run.place(&decoded(phase)?);
+        Ok(())
+    });
 }
 
 unsafe extern "C" fn snapshot(run: *mut c_void, sink: Sink) {

@@ -11,6 +11,7 @@ impl fmt::Display for Error {
             Self::Time(error) => error.fmt(f),
             Self::SavedState(error) => error.fmt(f),
             Self::Scene(error) => error.fmt(f),
+            Self::PhaseNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
             Self::OutputNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
             Self::NoDerivative(name) => {
                 write!(f, "{name} has no derivative with respect to these start values: it jumps there")
@@ -43,6 +44,7 @@ impl fmt::Display for VariableError {
                  exchange; co-simulation takes it, and so does a package of a scene that has it"
             ),
             Self::Kind(name, needed) => write!(f, "{name} is not {needed}"),
+            Self::Twice(name) => write!(f, "{name} is named twice"),
         }
     }
 }

@@ -18,16 +18,31 @@ pub unsafe fn call<S: Into<Status>>(
     call: Call,
     body: impl FnOnce(&mut Instance) -> Result<S, Error>,
 ) -> Status {
+    // SAFETY: passed on.
+    unsafe { call_as(component, call.name(), call, body) }
+}
+
+/// Runs one call of the function `name`, which is allowed where `call` is.
+///
+/// # Safety
+/// As [`component::lend`].
+pub unsafe fn call_as<S: Into<Status>>(
+    component: fmi2Component,
+    name: &'static str,
+    call: Call,
+    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
+) -> Status {
     // SAFETY: the caller guarantees that the component is valid.
     match unsafe { component::lend::<Instance>(component) } {
         // A NULL or busy component has no log that could be used.
         None => Status::Error,
-        Some(mut lent) => guarded(|| answer(lent.instance(), call, body)).unwrap_or(Status::Fatal),
+        Some(mut lent) => guarded(|| answer(lent.instance(), name, call, body)).unwrap_or(Status::Fatal),
     }
 }
 
 fn answer<S: Into<Status>>(
     instance: &mut Instance,
+    name: &'static str,
     call: Call,
     body: impl FnOnce(&mut Instance) -> Result<S, Error>,
 ) -> Status {
@@ -41,7 +56,7 @@ fn answer<S: Into<Status>>(
     });
     outcome.map_or_else(
         |error| {
-            instance.logger().say(error.severity(), call.name(), &error);
+            instance.logger().say(error.severity(), name, &error);
             Status::from(&error)
         },
         Into::into,

@@ -2,6 +2,7 @@
 #![allow(unsafe_code, reason = "pointers of the C interface")]
 
 pub mod call;
+pub mod estimation;
 pub mod functions;
 pub mod host_logger;
 pub mod instantiate;
