@@ -68,24 +68,43 @@ pub enum Levels {
     Portable,
 }
 
+/// The profile of a library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profile {
+    /// As it is packaged.
+    Release,
+    /// Not optimised, for tests of its form.
+    Unoptimised,
+}
+
+impl Profile {
+    /// Its name for cargo.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Release => "fmu",
+            Self::Unoptimised => "unoptimised",
+        }
+    }
+}
+
 /// Builds the libraries of this machine. On Linux zig links them for glibc 2.17 if it is installed, or if `zig` is
 /// [`Missing::Make`] and it can be installed; otherwise the machine's own linker does. cargo prints to standard error.
 pub fn for_this_machine(levels: Levels, zig: Missing) -> Result<Vec<Library>> {
-    build(&[own_target(zig)?], levels)
-}
-
-/// Builds the libraries of this machine with its own linker.
-pub fn with_own_linker(levels: Levels) -> Result<Vec<Library>> {
-    build(&[own_linker(Platform::here()?)], levels)
+    build(&[own_target(zig)?], levels, Profile::Release)
 }
 
 /// Builds the libraries of these platforms. The tools are set up first; if one is missing, nothing is built.
 pub fn for_platforms(platforms: &[Platform], levels: Levels) -> Result<Vec<Library>> {
+    in_profile(platforms, levels, Profile::Release)
+}
+
+/// As [`for_platforms`], in this profile.
+pub fn in_profile(platforms: &[Platform], levels: Levels, profile: Profile) -> Result<Vec<Library>> {
     let targets: Result<Vec<Target>> = platforms
         .iter()
         .map(|platform| target(*platform).with_context(|| format!("no library for {}", platform.name())))
         .collect();
-    build(&targets?, levels)
+    build(&targets?, levels, profile)
 }
 
 /// Sets up the tools that build for a platform.
@@ -150,7 +169,7 @@ fn own_linker(platform: Platform) -> Target {
 
 /// Builds all libraries of all targets. One call of cargo builds all libraries of one linker and level; as many calls run at
 /// the same time as there are processors.
-fn build(targets: &[Target], levels: Levels) -> Result<Vec<Library>> {
+fn build(targets: &[Target], levels: Levels, profile: Profile) -> Result<Vec<Library>> {
     let workspace = workspace();
     let manifest = workspace.join("Cargo.toml");
     ensure!(manifest.is_file(), "the source files are missing: there is no {}", manifest.display());
@@ -163,7 +182,9 @@ fn build(targets: &[Target], levels: Levels) -> Result<Vec<Library>> {
             let products = target.triples.iter().map(|triple| (target.platform, *triple));
             match calls.iter_mut().find(|call| call.linker == target.linker && call.level == level) {
                 Some(call) => call.products.extend(products),
-                None => calls.push(Call { linker: target.linker.clone(), level, products: products.collect() }),
+                None => {
+                    calls.push(Call { linker: target.linker.clone(), level, profile, products: products.collect() })
+                }
             }
         }
     }
@@ -177,6 +198,7 @@ fn build(targets: &[Target], levels: Levels) -> Result<Vec<Library>> {
 struct Call {
     linker: Linker,
     level: Option<&'static str>,
+    profile: Profile,
     products: Vec<(Platform, &'static str)>,
 }
 
@@ -192,7 +214,9 @@ impl Call {
         let level = self.level.map(|level| format!("-{level}")).unwrap_or_default();
         // Each linker and level has a directory of its own, so that no build replaces another.
         let directory = workspace.join("target").join(format!("library{linker}{level}"));
-        command.args(["--profile", "fmu", "--lib", "--package", "slidercrank", "--target-dir"]).arg(&directory);
+        command
+            .args(["--profile", self.profile.name(), "--lib", "--package", "slidercrank", "--target-dir"])
+            .arg(&directory);
         for (platform, triple) in &self.products {
             // If a target is named, cargo keeps the flags from build scripts, which run here.
             command.arg("--target").arg(match (&self.linker, platform) {
@@ -210,7 +234,7 @@ impl Call {
         ensure!(status.success(), "cargo could not build the FMU's library ({status})");
         let library = |&(platform, triple): &(Platform, &'static str)| {
             let (prefix, suffix) = platform.affixes();
-            let file = directory.join(triple).join("fmu").join(format!("{prefix}slidercrank{suffix}"));
+            let file = directory.join(triple).join(self.profile.name()).join(format!("{prefix}slidercrank{suffix}"));
             Library { platform, triple, level: self.level, file }
         };
         Ok(self.products.iter().map(library).collect())

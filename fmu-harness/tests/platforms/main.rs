@@ -1,8 +1,9 @@
 //! The library on other platforms: the bits of Linux on x86-64, and states that go on from one to another.
 //!
 //! These tests build the library once more for each platform, which takes minutes. They run for the platforms that the
-//! environment variable `SLIDERCRANK_PLATFORMS` lists, and only where the tools are there: Wine and MinGW-w64 for
-//! win64, QEMU and zig for linux-aarch64, zig for linux64 and darwin64. A test that does not run says why in one line.
+//! environment variable `SLIDERCRANK_PLATFORMS` lists, all of them in `.ci/run`, and only where the tools are there: Wine
+//! and MinGW-w64 for win64, QEMU and zig for linux-aarch64, zig for linux64 and darwin64. A test that does not run says why
+//! in one line. What is not run here, or linked otherwise and the same code, is not optimised.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 mod machine;
@@ -11,7 +12,7 @@ mod scene;
 use clap::ValueEnum;
 use fmu_harness::host::{Archive, Description};
 use fmu_harness::package::Version;
-use fmu_harness::package::build::{Levels, Library};
+use fmu_harness::package::build::{Levels, Library, Profile};
 use fmu_harness::package::elf::{self, Glibc};
 use fmu_harness::package::platform::Platform;
 use fmu_harness::package::{Stock, build, mach_o};
@@ -43,10 +44,10 @@ fn skip(platform: Platform, why: &str) {
     drop(writeln!(std::io::stderr(), "{} is not tested: {why}", platform.name()));
 }
 
-/// The portable library of this machine, linked by its own linker: what the others are compared with.
-fn own() -> &'static Stock {
-    static OWN: OnceLock<Stock> = OnceLock::new();
-    OWN.get_or_init(|| build::with_own_linker(Levels::Portable).and_then(Stock::of).expect("a library"))
+/// The portable library of this machine as it is packaged: what the others are compared with.
+fn reference() -> &'static Stock {
+    static REFERENCE: OnceLock<Stock> = OnceLock::new();
+    REFERENCE.get_or_init(|| Stock::build_for_old_linux(Levels::Portable).expect("a library"))
 }
 
 /// What it takes to build for a platform and, except for macOS, to run what was built.
@@ -57,14 +58,16 @@ fn prepare(platform: Platform) -> Result<(), String> {
     build::prepare(platform).map_err(|error| format!("{error:#}"))
 }
 
-/// The portable libraries of all platforms that are to be tested and can be, built by one call.
+/// The portable libraries of all platforms that are to be tested and can be. Those that are run are built by one call.
 fn built() -> &'static [Library] {
     static BUILT: OnceLock<Vec<Library>> = OnceLock::new();
     BUILT.get_or_init(|| {
         let wanted = Platform::value_variants().iter().copied();
-        let wanted: Vec<Platform> =
-            wanted.filter(|platform| is_asked(*platform) && prepare(*platform).is_ok()).collect();
-        build::for_platforms(&wanted, Levels::Portable).expect("libraries")
+        let wanted = wanted.filter(|platform| is_asked(*platform) && prepare(*platform).is_ok());
+        let (run, seen): (Vec<_>, Vec<_>) = wanted.partition(|platform| *platform != Platform::Darwin64);
+        let libraries = build::for_platforms(&run, Levels::Portable).expect("libraries");
+        let others = build::in_profile(&seen, Levels::Portable, Profile::Unoptimised).expect("libraries");
+        [libraries, others].concat()
     })
 }
 
@@ -93,12 +96,12 @@ fn stock(platform: Platform) -> Option<&'static Stock> {
 }
 
 /// Every output of every shipped scene, and of one scene by every method, at every communication point.
-fn has_the_bits_of_linux64(platform: Platform) {
-    let Some(other) = stock(platform) else { return };
+fn has_the_bits_of_linux64(platform: Platform, other: &Stock) {
     machine::prepare(Platform::Linux64).expect("a C compiler");
     let mut methods = vec![];
     for scene in names(&directory()) {
-        let (own, other) = (Packaged::new(Platform::Linux64, own(), &scene), Packaged::new(platform, other, &scene));
+        let (own, other) =
+            (Packaged::new(Platform::Linux64, reference(), &scene), Packaged::new(platform, other, &scene));
         let wanted = own.run_from_start(&[], None);
         assert!(wanted.succeeded && wanted.numbers.lines().count() > 20 * STEPS, "{scene}\n{}", wanted.numbers);
         assert_same(&other.run_from_start(&[], None), &wanted, &scene);
@@ -122,17 +125,21 @@ fn assert_same(found: &machine::Answer, wanted: &machine::Answer, what: &str) {
 
 #[test]
 fn windows_computes_the_bits_of_linux() {
-    has_the_bits_of_linux64(Platform::Win64);
+    let Some(windows) = stock(Platform::Win64) else { return };
+    has_the_bits_of_linux64(Platform::Win64, windows);
 }
 
 #[test]
 fn arm_computes_the_bits_of_x86_64() {
-    has_the_bits_of_linux64(Platform::LinuxAarch64);
+    let Some(arm) = stock(Platform::LinuxAarch64) else { return };
+    has_the_bits_of_linux64(Platform::LinuxAarch64, arm);
 }
 
 #[test]
-fn the_library_for_an_old_linux_computes_the_bits_of_the_one_for_this_one() {
-    has_the_bits_of_linux64(Platform::Linux64);
+fn the_library_for_this_linux_computes_the_bits_of_the_one_for_an_old_one() {
+    if stock(Platform::Linux64).is_some() {
+        has_the_bits_of_linux64(Platform::Linux64, &without_zig().stock);
+    }
 }
 
 #[test]
@@ -146,7 +153,7 @@ fn a_state_that_is_saved_on_one_platform_goes_on_to_the_bit_on_another() {
     let folder = tempfile::tempdir().expect("a folder");
     let middle = STEPS / 2;
     for scene in TRAVELLERS {
-        let mut places = vec![(Platform::Linux64, Packaged::new(Platform::Linux64, own(), scene))];
+        let mut places = vec![(Platform::Linux64, Packaged::new(Platform::Linux64, reference(), scene))];
         places.extend(others.iter().map(|(platform, stock)| (*platform, Packaged::new(*platform, stock, scene))));
         let states = places.iter().map(|(platform, packaged)| {
             let file = folder.path().join(format!("{scene}-{}", platform.name()));
@@ -181,7 +188,7 @@ fn fmpy_runs_the_package_for_windows() {
     let python = environment("hosts", Missing::Make).expect("the environment of the hosts");
     let folder = tempfile::tempdir().expect("a folder");
     let scenario = Scenario::find("wornpin").expect("a shipped scene");
-    let files = [("linux64", own()), ("win64", windows)].map(|(name, stock)| {
+    let files = [("linux64", reference()), ("win64", windows)].map(|(name, stock)| {
         let file = folder.path().join(format!("{name}.fmu"));
         stock.package(&scenario).expect("a package").save(&file).expect("written");
         file
@@ -289,27 +296,47 @@ fn what_is_missing_is_told_in_one_line_and_nothing_is_written() {
     }
 }
 
+/// What `package` does without zig.
+struct WithoutZig {
+    printed: String,
+    complaint: String,
+    /// The library that it built: linked by this machine's linker and, since only that is in question, not optimised.
+    stock: Stock,
+}
+
 /// `python3` is not on PATH, so zig cannot be installed; the C compiler and Rust are.
+fn without_zig() -> &'static WithoutZig {
+    static WITHOUT_ZIG: OnceLock<WithoutZig> = OnceLock::new();
+    WITHOUT_ZIG.get_or_init(|| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = std::env::var_os("PATH").expect("PATH");
+        for program in ["cc", "ld", "as", "cargo", "rustc"] {
+            let found = std::env::split_paths(&path).map(|folder| folder.join(program)).find(|file| file.is_file());
+            std::os::unix::fs::symlink(found.expect(program), folder.path().join(program)).expect("a link");
+        }
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+        command.args(["package", "--portable", "-o"]).arg(folder.path().join("scene.fmu"));
+        command.env("PATH", folder.path());
+        command.env("CARGO_PROFILE_FMU_OPT_LEVEL", "0").env("CARGO_PROFILE_FMU_CODEGEN_UNITS", "16");
+        let output = command.output().expect("the program starts");
+        let [printed, complaint] =
+            [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+        assert!(output.status.success(), "{complaint}");
+        let (platform, triple) = (Platform::Linux64, Platform::Linux64.triples()[0]);
+        let file = build::workspace().join("target").join("library").join(triple).join("fmu").join("libslidercrank.so");
+        let stock = Stock::of(vec![Library { platform, triple, level: None, file }]).expect("a library");
+        WithoutZig { printed, complaint, stock }
+    })
+}
+
 #[test]
 fn without_zig_the_package_for_this_linux_is_made_and_says_what_it_needs() {
     if !is_asked(Platform::Linux64) {
         return skip(Platform::Linux64, &format!("{ASKED} does not list it"));
     }
-    own();
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = std::env::var_os("PATH").expect("PATH");
-    for program in ["cc", "ld", "as", "cargo", "rustc"] {
-        let found = std::env::split_paths(&path).map(|folder| folder.join(program)).find(|file| file.is_file());
-        std::os::unix::fs::symlink(found.expect(program), folder.path().join(program)).expect("a link");
-    }
-    let file = folder.path().join("scene.fmu");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
-    command.args(["package", "--portable", "-o"]).arg(&file).env("PATH", folder.path());
-    let output = command.output().expect("the program starts");
-    let [printed, complaint] = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    assert!(output.status.success(), "{complaint}");
+    let WithoutZig { printed, complaint, stock } = without_zig();
     assert_eq!(complaint.lines().filter(|line| line.starts_with("zig cannot be set up: ")).count(), 1, "{complaint}");
-    let newest = elf::glibc(&library(own(), Platform::Linux64, &Scenario::find("wornpin").expect("a shipped scene")));
+    let newest = elf::glibc(&library(stock, Platform::Linux64, &Scenario::find("wornpin").expect("a shipped scene")));
     let newest = newest.expect("an ELF library that needs glibc");
     assert!(printed.contains(&format!("needs glibc {newest} or newer")), "{printed}");
 }
