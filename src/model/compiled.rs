@@ -45,8 +45,8 @@ pub struct Compiled {
 }
 
 /// The code of a constant structure with `$states` states: the methods `$rates` and `$ends` of a mechanism, with a
-/// flexible rod for the counts `$counts`. Steps are made of stages and ends; rates alone, which are seldom asked for,
-/// are those of an end.
+/// flexible rod for the counts `$counts`. Steps are made of stages and ends; rates alone, which an importer's integrator
+/// asks for, are those of an end: with one clearance they take a tenth longer for it, with four two thirds.
 macro_rules! code {
     ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {{
         const ENDS: Ends = |mechanism, conditions, t, y, rates, event_functions| {
