@@ -57,25 +57,14 @@ pub struct Account {
     pub looseness: f64,
     /// Number of steps whose error is above the nominal tolerance.
     pub hits: u64,
-    /// Sum of the estimated errors of all steps, in scales of the states.
+    /// Sum of the estimated errors of the steps since the last communication point, in scales of the states.
     pub error: f64,
-    /// The same sum at the last communication point.
-    pub error_before: f64,
 }
 
 impl Account {
     /// The account of a motion that starts.
-    pub const NEW: Self = Self {
-        interval: 0,
-        before: 0,
-        counted: 0,
-        work: 0.0,
-        covered: 0.0,
-        looseness: 1.0,
-        hits: 0,
-        error: 0.0,
-        error_before: 0.0,
-    };
+    pub const NEW: Self =
+        Self { interval: 0, before: 0, counted: 0, work: 0.0, covered: 0.0, looseness: 1.0, hits: 0, error: 0.0 };
 }
 
 impl Deadline {
@@ -98,12 +87,12 @@ impl Deadline {
         let rate = if account.covered > 0.0 { account.work / account.covered } else { 0.0 };
         let needed = rate * predicted + REST * per_second * (ahead - predicted) + RESERVE * budget;
         let most = (LOOSEST / tolerance).max(1.0);
-        if needed <= left {
-            1.0
-        } else if needed >= left * stretch(most, power) {
+        if needed > left * stretch(most, power) {
             most
-        } else {
+        } else if needed > left {
             stretch(needed / left, 1.0 / power).clamp(1.0, most)
+        } else {
+            1.0
         }
     }
 

@@ -294,8 +294,7 @@ impl<D: Copy> Integrator<D> {
 
     /// Begins a communication step: the errors of later steps are counted from here.
     pub fn begin_interval(&mut self) {
-        let account = &mut self.stepper.state.account;
-        account.error_before = account.error;
+        self.stepper.state.account.error = 0.0;
     }
 
     /// Replaces the discrete state at the front; rates and event functions are computed again.

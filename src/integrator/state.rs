@@ -71,7 +71,8 @@ pub struct SolverState<D> {
 
 impl<D: Copy + PartialEq> PartialEq for SolverState<D> {
     fn eq(&self, other: &Self) -> bool {
-        let numbers = |state: &Self| (state.step, state.last_error, state.cuts, state.crossings, state.statistics, state.account);
+        let numbers =
+            |state: &Self| (state.step, state.last_error, state.cuts, state.crossings, state.statistics, state.account);
         let points = |state: &Self| [state.start, state.end, state.front].map(|point| state.points[point].clone());
         numbers(self) == numbers(other) && points(self) == points(other)
     }
@@ -218,13 +219,13 @@ impl<D: Copy> SolverState<D> {
         let length = end.t - start.t;
         let Statistics { steps, rejected, evaluations, events } = *statistics;
         let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MAX_COUNT);
-        let Account { interval, before, counted: accounted, work, covered, looseness, hits, error, error_before } = *account;
+        let Account { interval, before, counted: accounted, work, covered, looseness, hits, error } = *account;
         let accounted = [interval, hits].iter().all(|count| *count <= MAX_COUNT)
             && before.max(accounted) <= evaluations
             && work >= 0.0
             && covered >= 0.0
             && looseness >= 1.0
-            && (0.0..=error).contains(&error_before);
+            && error >= 0.0;
         [start, end, front].iter().all(|front| valid(&front.y) && impacts_end(front))
             && end.t == front.t
             && (start.t..=front.t).contains(&time)

@@ -37,8 +37,18 @@ impl<D: Copy> Stepper<D> {
         let (attempt, correction) = (Attempt::new(n), Correction::new(n));
         let events = attempt.events;
         let (properties, layout) = (*method.properties(), system.layout());
-        let mut stepper =
-            Self { settings, deadline: None, method, properties, layout, state, events, attempt, correction, inside: vec![0.0; n] };
+        let mut stepper = Self {
+            settings,
+            deadline: None,
+            method,
+            properties,
+            layout,
+            state,
+            events,
+            attempt,
+            correction,
+            inside: vec![0.0; n],
+        };
         stepper.update_events(system);
         stepper
     }
@@ -83,8 +93,7 @@ impl<D: Copy> Stepper<D> {
         let Some(deadline) = self.deadline else { return 1.0 };
         let (time, power) = (self.state.start().t, self.properties.error_power);
         let SolverState { account, statistics, .. } = &mut self.state;
-        account.looseness =
-            deadline.looseness(account, time, statistics.evaluations, self.settings.tolerance, power);
+        account.looseness = deadline.looseness(account, time, statistics.evaluations, self.settings.tolerance, power);
         account.looseness
     }
 

@@ -27,7 +27,7 @@ pub fn solver_outputs(statistics: Statistics, account: &Account, relative: f64) 
         evaluations: count(evaluations),
         events: count(events),
         deadline_hits: count(account.hits),
-        error_estimate: relative * (account.error - account.error_before),
+        error_estimate: relative * account.error,
         ..SolverOutputs::default()
     }
 }

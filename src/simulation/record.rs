@@ -85,8 +85,8 @@ pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
     let SolverState { step, last_error, cuts, crossings, statistics, account, .. } = state;
     let states = state.front().y.len();
     snapshot.integers.push(states as u64);
-    let Account { interval, before, counted, work, covered, looseness, hits, error, error_before } = *account;
-    snapshot.reals.extend([*step, *last_error, work, covered, looseness, error, error_before]);
+    let Account { interval, before, counted, work, covered, looseness, hits, error } = *account;
+    snapshot.reals.extend([*step, *last_error, work, covered, looseness, error]);
     for StepPoint { t, y, rates, discrete, impact_end } in [state.start(), state.end(), state.front()] {
         snapshot.reals.extend([*t, *impact_end]);
         snapshot.reals.extend(y.iter().chain(rates));
@@ -103,7 +103,7 @@ pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Rea
     if reader.integer()? != states as u64 {
         return None;
     }
-    let [step, last_error, work, covered, looseness, error, error_before] = reader.reals()?;
+    let [step, last_error, work, covered, looseness, error] = reader.reals()?;
     let points = [take_point(states, reader)?, take_point(states, reader)?, take_point(states, reader)?];
     let mut state = SolverState::of(points, step);
     state.last_error = last_error;
@@ -124,7 +124,6 @@ pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Rea
         looseness,
         hits: reader.integer()?,
         error,
-        error_before,
     };
     state.is_sound(time, model.longest_step()).then_some(state)
 }

@@ -6,6 +6,7 @@
 mod host;
 
 mod dead_ends;
+mod deadline;
 mod derivatives;
 mod exchange;
 mod hosted;

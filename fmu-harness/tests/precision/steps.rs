@@ -4,7 +4,7 @@ use crate::open;
 use fmu_harness::inputs;
 use fmu_harness::precision::ladder::Rung;
 use fmu_harness::precision::{Lengths, Subject};
-use fmu_harness::realtime::deadline::{TRIED, Trials};
+use fmu_harness::realtime::deadline::{Bench, TRIED, Trials};
 use fmu_harness::realtime::{STEP, Timing};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
@@ -57,7 +57,7 @@ fn fixed_steps_cost_the_same_in_every_communication_step() {
     let scenario = Scenario::find("press").expect("a legal scene");
     let fmu = open(&scenario);
     let subject = Subject { file: &scenario.file, fmu: &fmu, lengths: Lengths::OF_SCENE };
-    let trials = Trials::of(&subject, 30, Duration::MAX, |_, _| {}).expect("runs that can be compared");
+    let trials = Trials::of(&Bench::of(&subject), 30, Duration::MAX, |_, _| {}).expect("runs that can be compared");
     assert_eq!(trials.trials.len(), TRIED.len());
     let mut seen = 0;
     for trial in &trials.trials {
