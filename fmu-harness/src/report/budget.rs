@@ -9,6 +9,10 @@ use crate::realtime::{STEP, Timing};
 use anyhow::Result;
 use std::path::Path;
 
+/// Times of a communication step: the most evaluations at the highest usual price, and the longest single steps.
+const TIMES: [fn(&Timing) -> f64; 3] =
+    [Timing::worst, |timing| timing.longest(|step| step.cpu).cpu, |timing| timing.longest(|step| step.wall).wall];
+
 /// Longest step and error of each scene without a deadline and within it.
 pub fn table(scenes: &[Budgeted]) -> Table {
     let mut table = Table::default();
@@ -20,14 +24,7 @@ pub fn table(scenes: &[Budgeted]) -> Table {
         let mut line = vec![scene.scene.clone()];
         line.extend([time(&scene.free, Timing::worst), error(&scene.free), share(scene)]);
         line.push(format!("{:.2e}", scene.deadline));
-        line.extend(
-            [
-                Timing::worst,
-                |timing| timing.longest(|step| step.cpu).cpu,
-                |timing| timing.longest(|step| step.wall).wall,
-            ]
-            .map(|measure| time(&scene.kept, measure)),
-        );
+        line.extend(TIMES.map(|measure| time(&scene.kept, measure)));
         line.push(of_steps(&scene.kept, |timing| grouped(timing.longest(|step| step.evaluations).evaluations)));
         line.push(error(&scene.kept));
         line.push(of_steps(&scene.kept, |timing| format!("{:.0e}", timing.longest(|step| step.error).error)));
