@@ -11,14 +11,16 @@ const INTERVALS: u32 = 40;
 /// Most evaluations of a step of `verner7` with its attempts, and so the most by which an interval exceeds its budget.
 const STEP: u64 = 40;
 
+type Accelerations = Box<dyn Fn(f64, &[f64], &[f64], &mut [f64])>;
+
 /// q̈ = −ω²·q from q = 1 with ω = `slow`, and vibrations forced at ω = `fast` for about a tenth of every interval.
-fn oscillator(fast: f64, slow: f64) -> Free<impl Fn(f64, &[f64], &[f64], &mut [f64]), 2> {
+fn oscillator(fast: f64, slow: f64) -> Free<Accelerations, 2> {
     Free {
-        accelerations: move |t: f64, q: &[f64], _: &[f64], a: &mut [f64]| {
+        accelerations: Box::new(move |t: f64, q: &[f64], _: &[f64], a: &mut [f64]| {
             let from_peak = ((t / INTERVAL).fract() - 0.5) / 0.05;
             let forced = fast * fast * (-from_peak * from_peak).exp() * (fast * t).cos();
             a[0] = forced - slow * slow * q[0];
-        },
+        }),
     }
 }
 

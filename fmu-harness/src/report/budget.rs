@@ -9,8 +9,10 @@ use crate::realtime::{STEP, Timing};
 use anyhow::Result;
 use std::path::Path;
 
+/// A number of a series of steps.
+type Measure = fn(&Timing) -> f64;
 /// Times of a communication step: the most evaluations at the highest usual price, and the longest single steps.
-const TIMES: [fn(&Timing) -> f64; 3] =
+const TIMES: [Measure; 3] =
     [Timing::worst, |timing| timing.longest(|step| step.cpu).cpu, |timing| timing.longest(|step| step.wall).wall];
 
 /// Longest step and error of each scene without a deadline and within it.
@@ -85,7 +87,7 @@ pub fn sentence(scene: &Budgeted) -> String {
 /// All numbers in SI units.
 pub fn write_csv(scenes: &[Budgeted], file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
-    let measures: [(&str, fn(&Timing) -> f64); 6] = [
+    let measures: [(&str, Measure); 6] = [
         ("worst_s", Timing::worst),
         ("worst_cpu_s", |timing| timing.longest(|step| step.cpu).cpu),
         ("worst_wall_s", |timing| timing.longest(|step| step.wall).wall),
