@@ -13,7 +13,7 @@
 //! a tolerance beyond [`LOOSEST`] would lose the contact that they are in and cost more later. An interval that is too
 //! short even for them exceeds its budget: a motion always goes on.
 
-use super::step_control::stretch;
+use crate::math;
 
 /// Share of an interval for which the last steps predict the work.
 const HORIZON: f64 = 0.3;
@@ -106,4 +106,9 @@ impl Deadline {
         *covered += h / stretch(*looseness, power) - WEIGHT * *covered;
         *counted = evaluations;
     }
+}
+
+/// Factor of the step size if the tolerance grows by `factor`, for an error proportional to the step to the `power`.
+pub fn stretch(factor: f64, power: f64) -> f64 {
+    if factor == 1.0 { 1.0 } else { math::rough_power(factor, 1.0 / power) }
 }

@@ -4,11 +4,11 @@
 //! positive at both ends may have dipped below zero in between, and one that rises from zero at the start may have
 //! fallen again. The rate of the event function at both ends tells these cases apart.
 
+use super::deadline::stretch;
 use super::dense_output::Step;
 use super::error::IntegrationError;
 use super::root;
 use super::state::StepPoint;
-use super::step_control::stretch;
 use super::stepper::Stepper;
 use super::system::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, System, Triggered};
 

@@ -144,11 +144,6 @@ pub fn growth(error: f64, last_error: f64, power: f64) -> f64 {
     factor.clamp(MIN_FACTOR, MAX_FACTOR)
 }
 
-/// Factor of the step size if the tolerance grows by `factor`, for an error proportional to the step to the `power`.
-pub fn stretch(factor: f64, power: f64) -> f64 {
-    if factor == 1.0 { 1.0 } else { math::rough_power(factor, 1.0 / power) }
-}
-
 /// Factor of the step size after a rejected step whose `error` is proportional to the step to the `power`.
 pub fn shrinkage(error: f64, power: f64) -> f64 {
     if error.is_finite() { (SAFETY * math::rough_power(error, -1.0 / power)).clamp(MIN_FACTOR, SAFETY) } else { 0.1 }

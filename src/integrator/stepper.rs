@@ -1,10 +1,10 @@
 //! The last step and the operations on it: attempt, evaluate its end, commit, interpolate.
 
-use super::deadline::Deadline;
+use super::deadline::{Deadline, stretch};
 use super::dense_output::Correction;
 use super::method::{Attempt, Method, MethodKind, Properties};
 use super::state::{SolverState, StepPoint, first_invalid};
-use super::step_control::{Settings, stretch};
+use super::step_control::Settings;
 use super::system::{EventFunctions, StateLayout, System};
 
 /// A method, the last step and the attempt at the next step.
