@@ -7,15 +7,15 @@ mod inputs;
 mod mechanisms;
 
 use mechanisms::{
-    Dice, END, INPUTS, METHODS, advance, bits, mechanisms, memory, outputs_at, reached, split, start, stiff,
+    Dice, END, INPUTS, METHODS, advance, bits, hurried, mechanisms, memory, outputs_at, reached, split, start, stiff,
 };
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::{Method, Scene};
 use slidercrank::simulation::{Simulation, Snapshot};
 
-/// Every mechanism under every method, and in stiff motion.
+/// Every mechanism under every method, in stiff motion, and within a deadline.
 fn all() -> impl Iterator<Item = (String, Scene)> {
-    METHODS.into_iter().flat_map(mechanisms).chain(stiff())
+    METHODS.into_iter().flat_map(mechanisms).chain(stiff()).chain(hurried())
 }
 
 #[test]
@@ -31,6 +31,17 @@ fn stiff_runs_are_left_to_the_linearly_implicit_method() {
     // The others ring all the time.
     let count = spared.count();
     assert!(count >= 8, "{count} of 32");
+}
+
+#[test]
+fn runs_within_a_deadline_give_up_accuracy() {
+    for (name, scene) in hurried().filter(|(name, _)| name.ends_with(|letter: char| "ABCT".contains(letter))) {
+        let mut free = scene.clone();
+        free.solver.deadline = 0.0;
+        let [hurried, free] = [&scene, &free].map(|scene| outputs_at(&mut start(scene), END).solver);
+        assert!(hurried.deadline_hits > 0 && free.deadline_hits == 0, "{name}: {hurried:?}");
+        assert!(hurried.evaluations < free.evaluations && hurried.error_estimate > free.error_estimate, "{name}");
+    }
 }
 
 #[test]

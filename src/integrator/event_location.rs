@@ -4,6 +4,7 @@
 //! positive at both ends may have dipped below zero in between, and one that rises from zero at the start may have
 //! fallen again. The rate of the event function at both ends tells these cases apart.
 
+use super::deadline::stretch;
 use super::dense_output::Step;
 use super::error::IntegrationError;
 use super::root;
@@ -88,7 +89,8 @@ pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>
     let start = stepper.state.start().t;
     // The longer step no longer counts.
     stepper.state.statistics.steps -= 1;
-    let close = LANDING_TOLERANCE * stepper.settings.tolerance * system.event_scale();
+    let tolerance = stepper.state.account.looseness * stepper.settings.tolerance;
+    let close = LANDING_TOLERANCE * tolerance * system.event_scale();
     let mut t = start + share * h;
     for landing in 1..=MAX_LANDINGS {
         if t <= start {
@@ -125,16 +127,19 @@ fn cross_with<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = 
 }
 
 fn cross<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, triggered: &Triggered) {
+    let power = stepper.properties.error_power;
     let state = &mut stepper.state;
     let count = triggered.iter().map(|&triggered| u64::from(triggered)).sum::<u64>();
     state.crossings += count;
     state.statistics.events += count;
+    let looseness = state.account.looseness;
     let StepPoint { t, y, discrete, impact_end, .. } = state.front_mut();
     let reset = system.reset(discrete, *t, y, triggered);
     *discrete = reset.discrete;
     if let Some(duration) = reset.impact {
         *impact_end = impact_end.max(*t + duration.min(system.longest_step()));
-        state.step = state.step.min(FIRST_IMPACT_STEP * duration);
+        let share = FIRST_IMPACT_STEP * stretch(looseness, power);
+        state.step = state.step.min(share.min(1.0) * duration);
     }
     stepper.refresh(system);
 }

@@ -10,6 +10,7 @@
 //! not allocate after it has been started.
 
 pub mod complementarity;
+mod deadline;
 pub mod dense_output;
 mod derivative_discontinuity;
 mod error;
@@ -30,6 +31,7 @@ pub mod tangent;
 mod truncate;
 mod unilateral;
 
+pub use deadline::{Account, Deadline};
 pub use error::IntegrationError;
 pub use method::{Method, MethodKind, Properties};
 pub use methods::moreau::Moreau;
@@ -74,6 +76,13 @@ impl<D: Copy> Integrator<D> {
         state: SolverState<D>,
     ) -> Self {
         Self { stepper: Stepper::new(system, method, settings, state) }
+    }
+
+    /// The same integrator with a budget of evaluations.
+    #[must_use]
+    pub fn with_deadline(mut self, deadline: Option<Deadline>) -> Self {
+        self.stepper.deadline = deadline;
+        self
     }
 
     /// The solver's state: all that a later [`resume`](Self::resume) needs apart from the method's memory.
@@ -156,11 +165,11 @@ impl<D: Copy> Integrator<D> {
 
     /// Restarts from the state `y` at `t`, with the present step size and statistics.
     pub fn place(&mut self, system: &dyn System<Discrete = D>, t: f64, y: &[f64], discrete: D) {
-        let SolverState { step, mut statistics, .. } = *self.state();
+        let SolverState { step, mut statistics, account, .. } = *self.state();
         statistics.evaluations += 1;
         self.stepper.with_method(|method| method.begin(system));
         let mut state = state_of_start(system, t, y, discrete);
-        (state.step, state.statistics) = (step, statistics);
+        (state.step, state.statistics, state.account) = (step, statistics, account);
         self.stepper.set_state(system, state);
     }
 
@@ -209,6 +218,7 @@ impl<D: Copy> Integrator<D> {
         let predicted = step_acceptance::predicted_discontinuity(stepper, system);
         let earlier_kind = stepper.method.kind();
         stepper.state.begin_step();
+        stepper.begin_budget();
         stepper.set_kind(stepper.method.next_kind());
         let h = match step_acceptance::accepted(stepper, system, predicted) {
             Ok(h) => h,
@@ -281,6 +291,11 @@ impl<D: Copy> Integrator<D> {
     /// Changes the discrete state at the ends of the last step, in parts that have no influence on the motion.
     pub fn for_each_discrete(&mut self, change: impl FnMut(&mut D)) {
         self.stepper.state.for_each_discrete(change);
+    }
+
+    /// Begins a communication step: the errors of later steps are counted from here.
+    pub fn begin_interval(&mut self) {
+        self.stepper.state.account.error = 0.0;
     }
 
     /// Replaces the discrete state at the front; rates and event functions are computed again.

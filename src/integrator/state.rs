@@ -1,5 +1,6 @@
 //! The memory of an integrator between steps.
 
+use super::deadline::Account;
 use super::dense_output::Step;
 use super::statistics::Statistics;
 use super::system::StateLayout;
@@ -64,11 +65,14 @@ pub struct SolverState<D> {
     pub crossings: u64,
     /// Work done since the start.
     pub statistics: Statistics,
+    /// The budget of evaluations, and the errors of the steps.
+    pub account: Account,
 }
 
 impl<D: Copy + PartialEq> PartialEq for SolverState<D> {
     fn eq(&self, other: &Self) -> bool {
-        let numbers = |state: &Self| (state.step, state.last_error, state.cuts, state.crossings, state.statistics);
+        let numbers =
+            |state: &Self| (state.step, state.last_error, state.cuts, state.crossings, state.statistics, state.account);
         let points = |state: &Self| [state.start, state.end, state.front].map(|point| state.points[point].clone());
         numbers(self) == numbers(other) && points(self) == points(other)
     }
@@ -94,6 +98,7 @@ impl<D: Copy> SolverState<D> {
             cuts: 0,
             crossings: 0,
             statistics: Statistics::default(),
+            account: Account::NEW,
         }
     }
 
@@ -206,7 +211,7 @@ impl<D: Copy> SolverState<D> {
     /// Whether a run at `time` can have produced this state: the last step contains `time`, is at most `longest_step`
     /// [s] long and has valid states.
     pub fn is_sound(&self, time: f64, longest_step: f64) -> bool {
-        let Self { step, cuts, crossings, statistics, .. } = self;
+        let Self { step, cuts, crossings, statistics, account, .. } = self;
         let (start, end, front) = (self.start(), self.end(), self.front());
         let valid = |y: &[f64]| y.iter().all(|y| is_valid(*y));
         let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
@@ -214,6 +219,13 @@ impl<D: Copy> SolverState<D> {
         let length = end.t - start.t;
         let Statistics { steps, rejected, evaluations, events } = *statistics;
         let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MAX_COUNT);
+        let Account { interval, before, counted: accounted, work, covered, looseness, hits, error } = *account;
+        let accounted = [interval, hits].iter().all(|count| *count <= MAX_COUNT)
+            && before.max(accounted) <= evaluations
+            && work >= 0.0
+            && covered >= 0.0
+            && looseness >= 1.0
+            && error >= 0.0;
         [start, end, front].iter().all(|front| valid(&front.y) && impacts_end(front))
             && end.t == front.t
             && (start.t..=front.t).contains(&time)
@@ -223,6 +235,7 @@ impl<D: Copy> SolverState<D> {
             && *cuts <= CREEPING_CUTS
             && *crossings <= events
             && counted
+            && accounted
     }
 
     /// Statistics of the work done to reach `t` in the last step.

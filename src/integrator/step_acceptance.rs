@@ -98,7 +98,7 @@ fn fitted<D: Copy>(
     let time = start.t;
     let resolution = time.next_up() - time;
     let impact_share = if time < start.impact_end { IMPACT_SHARE } else { 1.0 };
-    let tolerance = impact_share * stepper.properties.error_share * stepper.settings.tolerance;
+    let nominal = impact_share * stepper.properties.error_share * stepper.settings.tolerance;
     let (mut first, mut cuts, mut cut) = (None, 0, false);
     let creeping = stepper.state.cuts >= CREEPING_CUTS;
     let mut failed = None;
@@ -113,6 +113,8 @@ fn fitted<D: Copy>(
             break;
         }
         stepper.attempt(system, h);
+        let looseness = stepper.looseness();
+        let tolerance = nominal * looseness;
         let (full, predicts) = (stepper.properties.error_power, stepper.properties.predicts);
         let error = judged(stepper, system, h, tolerance);
         let state = &mut stepper.state;
@@ -125,6 +127,11 @@ fn fitted<D: Copy>(
                 None => h * growth(),
             };
             state.last_error = error.max(1e-4);
+            state.account.error += error * tolerance;
+            state.account.hits += u64::from(error * looseness > 1.0);
+            if let Some(deadline) = &stepper.deadline {
+                deadline.end_step(&mut state.account, h, state.statistics.evaluations, full);
+            }
             state.cuts = match (cut, failed) {
                 (true, _) => state.cuts + 1,
                 (false, Some(_)) if creeping => CREEPING_CUTS,

@@ -1,5 +1,6 @@
 //! The last step and the operations on it: attempt, evaluate its end, commit, interpolate.
 
+use super::deadline::{Deadline, stretch};
 use super::dense_output::Correction;
 use super::method::{Attempt, Method, MethodKind, Properties};
 use super::state::{SolverState, StepPoint, first_invalid};
@@ -9,6 +10,8 @@ use super::system::{EventFunctions, StateLayout, System};
 /// A method, the last step and the attempt at the next step.
 pub struct Stepper<D> {
     pub(super) settings: Settings,
+    /// The budget of evaluations, if there is one.
+    pub(super) deadline: Option<Deadline>,
     pub(super) method: Box<dyn Method<D>>,
     /// Properties of the method's present kind.
     pub(super) properties: Properties,
@@ -34,8 +37,18 @@ impl<D: Copy> Stepper<D> {
         let (attempt, correction) = (Attempt::new(n), Correction::new(n));
         let events = attempt.events;
         let (properties, layout) = (*method.properties(), system.layout());
-        let mut stepper =
-            Self { settings, method, properties, layout, state, events, attempt, correction, inside: vec![0.0; n] };
+        let mut stepper = Self {
+            settings,
+            deadline: None,
+            method,
+            properties,
+            layout,
+            state,
+            events,
+            attempt,
+            correction,
+            inside: vec![0.0; n],
+        };
         stepper.update_events(system);
         stepper
     }
@@ -64,6 +77,24 @@ impl<D: Copy> Stepper<D> {
     fn update_events(&mut self, system: &dyn System<Discrete = D>) {
         let StepPoint { t, y, discrete, .. } = self.state.front();
         system.event_functions(discrete, *t, y, &mut self.events);
+    }
+
+    /// Opens the interval of the next step in the budget, and fits the next step to the tolerance that the budget allows.
+    pub(super) fn begin_budget(&mut self) {
+        let Some(deadline) = self.deadline else { return };
+        let time = self.state.start().t;
+        let before = self.state.account.looseness;
+        deadline.begin_step(&mut self.state.account, time, self.state.statistics.evaluations);
+        self.state.step *= stretch(self.looseness() / before, self.properties.error_power);
+    }
+
+    /// The tolerance of the present step over the nominal tolerance, as the budget allows it.
+    pub(super) fn looseness(&mut self) -> f64 {
+        let Some(deadline) = self.deadline else { return 1.0 };
+        let (time, power) = (self.state.start().t, self.properties.error_power);
+        let SolverState { account, statistics, .. } = &mut self.state;
+        account.looseness = deadline.looseness(account, time, statistics.evaluations, self.settings.tolerance, power);
+        account.looseness
     }
 
     /// Attempts a step of length `h` [s] from the start of the present step.

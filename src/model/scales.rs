@@ -38,6 +38,8 @@ pub struct Scale {
     pub deflection: f64,
     /// [1/s] Scale of rates over that of positions.
     pub frequency: f64,
+    /// Scale of positions over the smallest clearance or, without clearance, over the crank's length.
+    pub relative: f64,
     /// [s] Upper bound of a step.
     pub longest_step: f64,
 }
@@ -66,7 +68,8 @@ impl Scale {
             let swing = (scene.gravity.abs() / scene.crank.length).sqrt();
             let frequency = crank_speed.max(swing);
             let longest_step = within(MAX_ROTATION_WITHOUT_CLEARANCE);
-            return Self { length: ANGLE, angle: [ANGLE; 3], deflection: LENGTH, frequency, longest_step };
+            let (angle, relative) = ([ANGLE; 3], ANGLE);
+            return Self { length: ANGLE, angle, deflection: LENGTH, frequency, relative, longest_step };
         }
         let length = LENGTH * math::powf(clearance / CLEARANCE, 1.0 / 3.0);
         let mut frequency = f64::INFINITY;
@@ -84,6 +87,7 @@ impl Scale {
         let frequency = frequency.max(10.0 * crank_speed);
         let reach = [scene.crank.length, scene.rod.length, 0.5 * scene.slider.length];
         let longest_step = within(MAX_ROTATION);
-        Self { length, angle: reach.map(|reach| length / reach), deflection: length, frequency, longest_step }
+        let (angle, relative) = (reach.map(|reach| length / reach), length / clearance);
+        Self { length, angle, deflection: length, frequency, relative, longest_step }
     }
 }

@@ -198,6 +198,10 @@ pub struct SolverOutputs {
     pub evaluations: i32,
     /// Number of openings and closings of contacts.
     pub events: i32,
+    /// Number of steps with a larger error than the tolerance allows, for lack of evaluations.
+    pub deadline_hits: i32,
+    /// Estimated error of position in the last communication step, in clearances.
+    pub error_estimate: f64,
     /// Relative tolerance in use.
     pub tolerance_used: f64,
     /// Whether the library for every processor computes, rather than that for newer ones.

@@ -289,6 +289,11 @@ pub struct Solver {
     /// Maximum number of evaluations of the equations of motion in one communication step; 0 selects the simulation's
     /// default.
     pub max_evaluations: i32,
+    /// [1/s] Maximum number of evaluations of the equations of motion per second of simulated time, which an adaptive
+    /// method keeps at the cost of accuracy; 0 means none.
+    pub deadline: f64,
+    /// [s] Length of the intervals, each of which has its share of the evaluations of `deadline`.
+    pub deadline_interval: f64,
     /// The same bits on every processor. It is the FMU that has two libraries to choose from.
     pub portable: bool,
 }

@@ -1,7 +1,7 @@
 //! Checks whether an integration method supports a scene. Rigid contacts do not support flexible rods, bristles,
 //! elastic foundations, oil films and energy audits.
 
-use super::data::{Audit, Point, Scene};
+use super::data::{Audit, Point, Scene, Solver};
 use super::enumerations::{FrictionLaw, JointModel, Lubrication, Method, Surface};
 use super::error::{SceneError, rule};
 use crate::model_description::number::number;
@@ -12,7 +12,15 @@ impl Scene {
     /// # Errors
     /// The first parameter that the method does not support.
     pub(crate) fn check_method(&self) -> Result<(), SceneError> {
-        if self.solver.method != Method::Moreau {
+        let Solver { method, deadline, .. } = self.solver;
+        if deadline > 0.0 && method.has("fixed step") {
+            let allowed = format!(
+                "0 for method {}, whose steps have a fixed length; solver.step decides how many evaluations they take",
+                method.name()
+            );
+            return Err(SceneError::Conflict { name: "solver.deadline".into(), value: deadline, allowed });
+        }
+        if method != Method::Moreau {
             return Ok(());
         }
         let flexible = &self.rod.flexible;

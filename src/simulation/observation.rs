@@ -1,6 +1,6 @@
 //! Outputs of a mechanism and of its integrator.
 
-use crate::integrator::Statistics;
+use crate::integrator::{Account, Statistics};
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::signals::{Outputs, SolverOutputs};
@@ -16,8 +16,9 @@ pub fn observe(model: &dyn MechanismModel, observer: &Observer, conditions: &Con
     outputs
 }
 
-/// Counters of the integrator as outputs; larger counts saturate.
-pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
+/// Counters of the integrator as outputs; larger counts saturate. `relative` is the scale of positions over the smallest
+/// clearance.
+pub fn solver_outputs(statistics: Statistics, account: &Account, relative: f64) -> SolverOutputs {
     let Statistics { steps, rejected, evaluations, events } = statistics;
     let count = |n: u64| i32::try_from(n).unwrap_or(i32::MAX);
     SolverOutputs {
@@ -25,6 +26,8 @@ pub fn solver_outputs(statistics: Statistics) -> SolverOutputs {
         rejected: count(rejected),
         evaluations: count(evaluations),
         events: count(events),
+        deadline_hits: count(account.hits),
+        error_estimate: relative * account.error,
         ..SolverOutputs::default()
     }
 }

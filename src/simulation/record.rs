@@ -1,6 +1,6 @@
 //! Conversion between the memory of a run and a snapshot.
 
-use crate::integrator::{Impulses, Reader, Snapshot, SolverState, Statistics, StepPoint};
+use crate::integrator::{Account, Impulses, Reader, Snapshot, SolverState, Statistics, StepPoint};
 use crate::model::contact::ContactState;
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
@@ -82,10 +82,11 @@ impl Discrete for Impulses {
 
 /// Appends the memory of the integrator.
 pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
-    let SolverState { step, last_error, cuts, crossings, statistics, .. } = state;
+    let SolverState { step, last_error, cuts, crossings, statistics, account, .. } = state;
     let states = state.front().y.len();
     snapshot.integers.push(states as u64);
-    snapshot.reals.extend([*step, *last_error]);
+    let Account { interval, before, counted, work, covered, looseness, hits, error } = *account;
+    snapshot.reals.extend([*step, *last_error, work, covered, looseness, error]);
     for StepPoint { t, y, rates, discrete, impact_end } in [state.start(), state.end(), state.front()] {
         snapshot.reals.extend([*t, *impact_end]);
         snapshot.reals.extend(y.iter().chain(rates));
@@ -93,6 +94,7 @@ pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
     }
     let Statistics { steps, rejected, evaluations, events } = *statistics;
     snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
+    snapshot.integers.extend([interval, before, counted, hits]);
 }
 
 /// Reads what [`save`] appended in a run of `model` at `time` [s]; `None` if no run can have produced it.
@@ -101,7 +103,7 @@ pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Rea
     if reader.integer()? != states as u64 {
         return None;
     }
-    let [step, last_error] = reader.reals()?;
+    let [step, last_error, work, covered, looseness, error] = reader.reals()?;
     let points = [take_point(states, reader)?, take_point(states, reader)?, take_point(states, reader)?];
     let mut state = SolverState::of(points, step);
     state.last_error = last_error;
@@ -112,6 +114,16 @@ pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Rea
         rejected: reader.integer()?,
         evaluations: reader.integer()?,
         events: reader.integer()?,
+    };
+    state.account = Account {
+        interval: reader.integer()?,
+        before: reader.integer()?,
+        counted: reader.integer()?,
+        work,
+        covered,
+        looseness,
+        hits: reader.integer()?,
+        error,
     };
     state.is_sound(time, model.longest_step()).then_some(state)
 }

@@ -9,7 +9,7 @@ use super::motion::Motion;
 use super::observation::{observe, solver_outputs};
 use super::phase::{Phase, PhaseScales};
 use super::record;
-use super::settings::settings;
+use super::settings::{deadline, settings};
 use super::side::Side;
 use crate::integrator::methods::named;
 use crate::integrator::{
@@ -36,6 +36,8 @@ pub struct Run {
     audit: Option<Box<IntervalAudit>>,
     /// [m/s] Scale of approach speeds.
     approach_scale: f64,
+    /// Scale of positions over the smallest clearance.
+    relative: f64,
 }
 
 impl Run {
@@ -48,10 +50,12 @@ impl Run {
         let conditions = Conditions::new(model.start_contacts(0.0, &y), inputs);
         let method = named(scene.solver.method.name(), n).expect("every declared method is implemented");
         let integrator = Integrator::start(model.as_ref(), method, settings, 0.0, &y, conditions);
-        let Scale { length, frequency, .. } = Scale::of(scene);
+        let integrator = integrator.with_deadline(deadline(scene));
+        let Scale { length, frequency, relative, .. } = Scale::of(scene);
         let (observer, watch) = (Observer::new(scene), ContactWatch::new(scene));
         let audit = IntervalAudit::new(scene).map(Box::new);
-        let mut run = Self { model, integrator, observer, watch, audit, approach_scale: length * frequency };
+        let approach_scale = length * frequency;
+        let mut run = Self { model, integrator, observer, watch, audit, approach_scale, relative };
         run.begin_interval(0.0);
         run
     }
@@ -122,6 +126,7 @@ impl Motion for Run {
     }
 
     fn begin_interval(&mut self, t: f64) {
+        self.integrator.begin_interval();
         self.integrator.for_each_discrete(|conditions| {
             conditions.touches.iter_mut().for_each(|touches| touches.begin_interval(t));
         });
@@ -176,7 +181,8 @@ impl Motion for Run {
         let mut outputs = observe(self.model.as_ref(), &self.observer, &conditions, t, y);
         // An instant earlier, the events at the end of the step do not count yet.
         let counted = if side == Side::Before { t.next_down() } else { t };
-        outputs.solver = solver_outputs(self.integrator.state().statistics_at(counted));
+        let solver = self.integrator.state();
+        outputs.solver = solver_outputs(solver.statistics_at(counted), &solver.account, self.relative);
         let Self { model, integrator, observer, audit, .. } = self;
         if let Some(audit) = audit {
             audit.set_outputs(&mut Examined { model: model.as_ref(), observer, integrator }, t, &mut outputs);

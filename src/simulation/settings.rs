@@ -1,6 +1,6 @@
 //! Settings of the integrator from a scene.
 
-use crate::integrator::{Settings, WorkLimit};
+use crate::integrator::{Deadline, Settings, WorkLimit};
 use crate::scene::{Scene, Solver};
 
 /// Work limit if the scene sets none: seconds of computation in a communication step that does not end, and several
@@ -15,4 +15,10 @@ pub fn settings(scene: &Scene) -> Settings {
         _ => DEFAULT_WORK_LIMIT,
     };
     Settings { tolerance, fixed_step: step, effort }
+}
+
+/// The budget of evaluations that a scene gives, if it gives one.
+pub fn deadline(scene: &Scene) -> Option<Deadline> {
+    let Solver { deadline, deadline_interval, .. } = scene.solver;
+    (deadline > 0.0).then_some(Deadline { per_second: deadline, interval: deadline_interval })
 }

@@ -11,7 +11,8 @@ use super::record::{self, Discrete};
 use super::settings::settings;
 use super::side::Side;
 use crate::integrator::{
-    Impulses, IntegrationError, Jacobian, MAX_STATES, Moreau, Reader, Settings, Snapshot, StateLayout, StepPoint,
+    Account, Impulses, IntegrationError, Jacobian, MAX_STATES, Moreau, Reader, Settings, Snapshot, StateLayout,
+    StepPoint,
 };
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
@@ -110,7 +111,8 @@ impl Motion for TimeStepping {
     }
 
     fn outputs(&mut self, t: f64, _: Side) -> Outputs {
-        let (solver, inputs) = (solver_outputs(self.integrator.state().statistics_at(t)), self.inputs());
+        let (solver, inputs) =
+            (solver_outputs(self.integrator.state().statistics_at(t), &Account::NEW, 0.0), self.inputs());
         let (y, impulses) = self.integrator.state_at(self.model.as_ref(), t);
         Outputs { solver, ..observe(self.model.as_ref(), &self.observer, &impulses, &inputs, t, y) }
     }

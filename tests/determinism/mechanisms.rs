@@ -66,6 +66,17 @@ pub fn stiff() -> impl Iterator<Item = (String, Scene)> {
     })
 }
 
+/// [1/s] A fraction of the evaluations that these mechanisms take.
+const DEADLINE: f64 = 5e5;
+
+/// The same within a deadline, which they cannot keep at their tolerance.
+pub fn hurried() -> impl Iterator<Item = (String, Scene)> {
+    [Method::Automatic, Method::Dop853].into_iter().flat_map(mechanisms).map(|(name, mut scene)| {
+        scene.solver.deadline = DEADLINE;
+        (format!("deadline, {name}"), scene)
+    })
+}
+
 pub const INPUTS: Inputs = Inputs { crank_torque: 4.0, slider_load: -60.0 };
 
 pub fn start(scene: &Scene) -> Simulation {

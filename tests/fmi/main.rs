@@ -7,6 +7,7 @@ mod host;
 
 mod calls;
 mod dead_ends;
+mod deadline;
 mod derivatives;
 mod engine;
 mod estimation;

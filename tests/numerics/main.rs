@@ -3,6 +3,7 @@
 mod bathe;
 mod complementarity;
 mod conditions;
+mod deadline;
 mod dense_output;
 mod discontinuities;
 mod dual;

@@ -5,6 +5,7 @@
 #![allow(clippy::panic)]
 
 mod claims;
+mod deadline;
 mod ends;
 mod law;
 mod regressions;

@@ -42,7 +42,7 @@ pub fn scene_files(turns: f64) -> impl Strategy<Value = SceneFile> {
             // If rounding puts a value outside its range, the parameter keeps the declared value.
             let _ = parameter.write(&mut scene, value);
         }
-        scene.solver.max_evaluations = 0;
+        (scene.solver.max_evaluations, scene.solver.deadline) = (0, 0.0);
         if scene.solver.method == Method::Moreau {
             stiffen(&mut scene);
         }

@@ -16,20 +16,22 @@ const STEPS: [f64; 9] = [5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7];
 /// A quick overview uses one of so many tolerances or step sizes; of the tolerances, 1e-4 is the first.
 const QUICK: [usize; 2] = [4, 2];
 
-/// Tolerance or step size of a run.
+/// Tolerance, step size or budget of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rung {
     /// `solver.tolerance`.
     Tolerance(f64),
     /// [s] `solver.step`.
     Step(f64),
+    /// [1/s] `solver.deadline`, at the tolerance that the FMU was packaged with.
+    Deadline(f64),
 }
 
 impl Rung {
     /// Its value.
     pub fn number(self) -> f64 {
         match self {
-            Self::Tolerance(number) | Self::Step(number) => number,
+            Self::Tolerance(number) | Self::Step(number) | Self::Deadline(number) => number,
         }
     }
 
@@ -38,6 +40,7 @@ impl Rung {
         match self {
             Self::Tolerance(_) => "solver.tolerance",
             Self::Step(_) => "solver.step",
+            Self::Deadline(_) => "solver.deadline",
         }
     }
 }
@@ -47,6 +50,7 @@ pub fn told(method: Method, rung: Rung) -> String {
     match rung {
         Rung::Tolerance(tolerance) => format!("{} at tolerance {tolerance:e}", method.name()),
         Rung::Step(step) => format!("{} at steps of {} µs", method.name(), step * 1e6),
+        Rung::Deadline(deadline) => format!("{} within {deadline:.2e} evaluations/s", method.name()),
     }
 }
 

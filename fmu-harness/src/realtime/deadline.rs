@@ -54,6 +54,43 @@ impl Trial {
     }
 }
 
+/// A scene and its reference solution.
+pub struct Bench<'a> {
+    /// The scene and its package.
+    pub subject: &'a Subject<'a>,
+    ruler: Ruler,
+    /// The reference, or why there is none.
+    reference: Result<Reference, String>,
+}
+
+impl<'a> Bench<'a> {
+    /// Computes the reference solution of a scene.
+    pub fn of(subject: &'a Subject<'a>) -> Self {
+        let ruler = Ruler::of(&subject.file.scene);
+        let reference = Reference::of(subject, &ruler, BUDGET).map_err(|error| format!("{error:#}"));
+        Self { subject, ruler, reference }
+    }
+
+    /// [s] Time in which errors count, or why there is no reference.
+    pub fn window(&self) -> Result<f64, String> {
+        self.reference.as_ref().map(|reference| reference.window).map_err(Clone::clone)
+    }
+
+    /// Measures the error of a setting, and the times of `count` steps with it, or of as many as `budget` allows.
+    ///
+    /// # Errors
+    /// If the run cannot be compared with the reference.
+    pub fn trial(&self, method: Method, rung: Rung, count: usize, budget: Duration) -> Result<Trial> {
+        let Self { subject, ruler, reference } = self;
+        let point = match reference {
+            Ok(reference) => Point::in_window(subject, ruler, reference, method, rung, BUDGET)?,
+            Err(why) => Point::stopped(method, rung, why),
+        };
+        let timing = Timing::of(subject.file, subject.fmu, settings(method, rung), count, budget, |_| {});
+        Ok(Trial { point, timing: timing.map_err(|error| format!("{error:#}")) })
+    }
+}
+
 /// All settings of one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trials {
@@ -70,21 +107,13 @@ impl Trials {
     ///
     /// # Errors
     /// If a run cannot be compared with the reference.
-    pub fn of(subject: &Subject, count: usize, budget: Duration, tick: impl Fn(Method, Rung)) -> Result<Self> {
-        let ruler = Ruler::of(&subject.file.scene);
-        let reference = Reference::of(subject, &ruler, BUDGET).map_err(|error| format!("{error:#}"));
-        let mut trials = Vec::new();
-        for (method, rung) in TRIED {
+    pub fn of(bench: &Bench, count: usize, budget: Duration, tick: impl Fn(Method, Rung)) -> Result<Self> {
+        let trial = |(method, rung)| {
             tick(method, rung);
-            let point = match &reference {
-                Ok(reference) => Point::in_window(subject, &ruler, reference, method, rung, BUDGET)?,
-                Err(why) => Point::stopped(method, rung, why),
-            };
-            let timing = Timing::of(subject.file, subject.fmu, settings(method, rung), count, budget, |_| {});
-            trials.push(Trial { point, timing: timing.map_err(|error| format!("{error:#}")) });
-        }
-        let window = reference.map(|reference| reference.window);
-        Ok(Self { scene: subject.file.name.clone(), window, trials })
+            bench.trial(method, rung, count, budget)
+        };
+        let trials = TRIED.into_iter().map(trial).collect::<Result<_>>()?;
+        Ok(Self { scene: bench.subject.file.name.clone(), window: bench.window(), trials })
     }
 
     /// The most accurate setting that leaves a loop its share of every step and does not lose the motion.

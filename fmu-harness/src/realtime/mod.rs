@@ -3,7 +3,9 @@
 //! Every step has a wall time, which other programs on the machine lengthen, and a CPU time of this thread, which they
 //! hardly change. If only the wall time is long, the step was interrupted.
 
+pub mod budget;
 pub mod deadline;
+pub mod scheduler;
 
 use crate::host::{Fmu, Log, Selection, Setting};
 use crate::inputs;
@@ -21,7 +23,10 @@ pub const STEP: f64 = 1e-3;
 /// since a mechanism at rest is not a useful measurement.
 const SLOW: f64 = 0.5;
 /// Outputs that are read after every step: counters, and the crank's angle.
-const ASKED: [&str; 4] = ["solver.steps", "solver.evaluations", "solver.events", ANGLE];
+const ASKED: [&str; 6] =
+    ["solver.steps", "solver.evaluations", "solver.events", "solver.deadline_hits", "solver.error_estimate", ANGLE];
+/// Quantile of the price of an evaluation in [`Timing::price`]; steps that were interrupted are beyond it.
+const USUAL: f64 = 0.99;
 
 /// One communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,6 +43,10 @@ pub struct Step {
     pub evaluations: f64,
     /// Number of contacts that opened or closed.
     pub events: f64,
+    /// Number of steps of the integrator with a larger error than the tolerance, for lack of evaluations.
+    pub hits: f64,
+    /// Estimated error of the step, in clearances.
+    pub error: f64,
 }
 
 /// Many steps of one scene.
@@ -118,6 +127,21 @@ impl Timing {
         sum(|step| step.cpu) / sum(|step| step.evaluations)
     }
 
+    /// [s] Price of an evaluation where it is highest: in steps with at least half as many evaluations as the largest, as
+    /// CPU time, with few exceptions. Methods differ in the price of their evaluations, and so do steps.
+    pub fn price(&self) -> f64 {
+        let half = 0.5 * self.longest(|step| step.evaluations).evaluations;
+        let busy = self.steps.iter().filter(|step| step.evaluations >= half.max(1.0));
+        let mut prices: Vec<f64> = busy.map(|step| step.cpu / step.evaluations).collect();
+        prices.sort_by(f64::total_cmp);
+        quantile(&prices, USUAL)
+    }
+
+    /// [s] Time of the step with the most evaluations at the highest usual price.
+    pub fn worst(&self) -> f64 {
+        self.longest(|step| step.evaluations).evaluations * self.price()
+    }
+
     /// [s] Time of the step with the most evaluations on an otherwise idle processor.
     pub fn bound(&self) -> f64 {
         self.longest(|step| step.evaluations).evaluations * self.per_evaluation()
@@ -135,7 +159,7 @@ struct Bench<'a> {
     experiment: &'a Experiment,
     runner: Runner<'a>,
     asked: Selection,
-    counts: [f64; 3],
+    counts: [f64; 4],
     point: usize,
 }
 
@@ -152,7 +176,7 @@ impl<'a> Bench<'a> {
 
     /// [rad] Angle of the crank.
     fn angle(&self) -> f64 {
-        self.asked.values()[3]
+        self.asked.values()[5]
     }
 
     fn step(&mut self) -> Result<Step> {
@@ -164,14 +188,14 @@ impl<'a> Bench<'a> {
         let (wall, cpu) = (wall.elapsed().as_secs_f64(), cpu.elapsed().as_secs_f64());
         self.runner.ask(&mut self.asked)?;
         let after = counts(&self.asked);
-        let [steps, evaluations, events] = std::array::from_fn(|i| after[i] - self.counts[i]);
+        let [steps, evaluations, events, hits] = std::array::from_fn(|i| after[i] - self.counts[i]);
         self.counts = after;
-        Ok(Step { end: to, wall, cpu, steps, evaluations, events })
+        Ok(Step { end: to, wall, cpu, steps, evaluations, events, hits, error: self.asked.values()[4] })
     }
 }
 
-fn counts(asked: &Selection) -> [f64; 3] {
-    [0, 1, 2].map(|place| asked.values()[place])
+fn counts(asked: &Selection) -> [f64; 4] {
+    [0, 1, 2, 3].map(|place| asked.values()[place])
 }
 
 #[cfg(test)]
@@ -186,6 +210,7 @@ mod tests {
             steps: 2.0,
             evaluations,
             events: 1.0,
+            ..Step::default()
         };
         let steps = vec![step(5.0, 1.0, 100.0), step(2.0, 2.0, 200.0), step(3.0, 3.0, 200.0), step(1.0, 1.0, 200.0)];
         Timing { scene: "own".into(), steps, restarts: 0, asked: 4 }
@@ -204,6 +229,16 @@ mod tests {
         let timing = timing();
         assert_eq!((timing.longest(|step| step.wall).cpu, timing.longest(|step| step.cpu).wall), (1.0, 3.0));
         assert_eq!(timing.sorted(|step| step.wall), [1.0, 2.0, 3.0, 5.0]);
+    }
+
+    #[test]
+    fn the_price_is_that_of_the_dearest_of_the_busy_steps() {
+        let mut timing = timing();
+        assert_eq!((timing.price(), timing.worst()), (3.0 / 200.0, 3.0));
+        timing.steps[0].evaluations = 99.0;
+        timing.steps[0].cpu = 1e3;
+        assert_eq!(timing.price(), 3.0 / 200.0, "a step with few evaluations does not count");
+        assert_eq!(Timing::default().worst(), 0.0);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod bars;
+pub mod budget;
 pub mod campaign;
 pub mod contest;
 pub mod deadline;

@@ -124,7 +124,7 @@ pub fn write_csv(timings: &[Timing], file: &Path) -> Result<()> {
         for (measure, ..) in MEASURES {
             let times = timing.sorted(measure);
             numbers.extend(SHARES.iter().map(|share| quantile(&times, *share)));
-            let Step { end, wall, cpu, steps, evaluations, events } = timing.longest(measure);
+            let Step { end, wall, cpu, steps, evaluations, events, .. } = timing.longest(measure);
             numbers.extend([end, wall, cpu, events, steps, evaluations]);
         }
         numbers.extend([timing.longest(|step| step.evaluations).evaluations, timing.per_evaluation(), timing.bound()]);
@@ -148,8 +148,15 @@ mod tests {
 
     #[test]
     fn table_sentence_and_csv_tell_the_same() {
-        let step =
-            |wall: f64, cpu: f64, evaluations: f64| Step { end: 1.25, wall, cpu, steps: 7.0, evaluations, events: 3.0 };
+        let step = |wall: f64, cpu: f64, evaluations: f64| Step {
+            end: 1.25,
+            wall,
+            cpu,
+            steps: 7.0,
+            evaluations,
+            events: 3.0,
+            ..Step::default()
+        };
         let steps = vec![step(5e-5, 4e-5, 500.0), step(9e-4, 6e-5, 700.0)];
         let timing = Timing { scene: "own".into(), steps, restarts: 2, asked: 3 };
         let markdown = table(std::slice::from_ref(&timing)).markdown();

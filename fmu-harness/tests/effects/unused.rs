@@ -149,6 +149,7 @@ fn is_unused(parameter: &str, scene: &Scene) -> bool {
         "slider.length" | "slider.height" | "slider.inertia" => joints.t.model == JointModel::Ideal,
         "gravity.angle" => scene.gravity == 0.0,
         "solver.step" => true,
+        "solver.deadline_interval" => scene.solver.deadline == 0.0,
         _ => false,
     }
 }

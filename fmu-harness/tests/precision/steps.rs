@@ -4,7 +4,8 @@ use crate::open;
 use fmu_harness::inputs;
 use fmu_harness::precision::ladder::Rung;
 use fmu_harness::precision::{Lengths, Subject};
-use fmu_harness::realtime::deadline::{TRIED, Trials};
+use fmu_harness::realtime::budget::Budgeted;
+use fmu_harness::realtime::deadline::{Bench, TRIED, Trial, Trials};
 use fmu_harness::realtime::{STEP, Timing};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
@@ -57,7 +58,7 @@ fn fixed_steps_cost_the_same_in_every_communication_step() {
     let scenario = Scenario::find("press").expect("a legal scene");
     let fmu = open(&scenario);
     let subject = Subject { file: &scenario.file, fmu: &fmu, lengths: Lengths::OF_SCENE };
-    let trials = Trials::of(&subject, 30, Duration::MAX, |_, _| {}).expect("runs that can be compared");
+    let trials = Trials::of(&Bench::of(&subject), 30, Duration::MAX, |_, _| {}).expect("runs that can be compared");
     assert_eq!(trials.trials.len(), TRIED.len());
     let mut seen = 0;
     for trial in &trials.trials {
@@ -76,4 +77,19 @@ fn fixed_steps_cost_the_same_in_every_communication_step() {
     assert_eq!(seen, 3);
     let errors: Vec<f64> = trials.trials.iter().map(|trial| trial.point.error.expect("an error")).collect();
     assert!(errors[0] < errors[2] && errors[3] < errors[5], "{errors:?}");
+}
+
+#[test]
+fn a_deadline_is_found_and_its_steps_keep_to_it() {
+    let scenario = Scenario::find("press").expect("a legal scene");
+    let fmu = open(&scenario);
+    let subject = Subject { file: &scenario.file, fmu: &fmu, lengths: Lengths::OF_SCENE };
+    // So small a share that steps must give up accuracy.
+    let found = Budgeted::of(&Bench::of(&subject), &[0.02], 30, Duration::MAX, || ()).expect("runs to compare");
+    let [own] = found.as_slice() else { unreachable!("one share, one row") };
+    assert_eq!((own.kept.failure(), own.free.failure()), (None, None));
+    let most =
+        |trial: &Trial| trial.timing.as_ref().map_or(f64::NAN, |t| t.longest(|step| step.evaluations).evaluations);
+    assert!(own.deadline > 0.0 && own.hits() > 0.0);
+    assert!(most(&own.kept) < most(&own.free), "{} of {}", most(&own.kept), most(&own.free));
 }

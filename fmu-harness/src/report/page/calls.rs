@@ -58,6 +58,8 @@ pub fn table(file: &SceneFile) -> Table {
     let fixed = solver.method.has(FIXED_STEP);
     let how = if fixed { format!("steps of {} s", solver.step) } else { format!("tolerance {:e}", solver.tolerance) };
     table.row(["method", &format!("{}, {how}", solver.method.name())]);
+    let deadline = format!("{:e} evaluations per second", solver.deadline);
+    table.row(["deadline", &dashed(solver.deadline > 0.0, deadline)]);
     table
 }
 
@@ -178,7 +180,8 @@ mod tests {
                 "load on the slider",
                 "largest forces",
                 "sliding and wear",
-                "energy audit"
+                "energy audit",
+                "deadline"
             ]
         );
         assert_eq!(
