@@ -31,46 +31,7 @@ pub struct Price {
     pub scene: String,
     /// Size of its equations of motion.
     pub size: Size,
-    /// The cost of a scene's tangent.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct TangentPrice {
-    /// The scene.
-    pub scene: String,
-    /// Number of directions.
-    pub directions: usize,
-    /// CPU time with the tangent over that of the same run without.
-    pub ratio: f64,
-}
-
-impl TangentPrice {
-    /// Measures the cost of the tangent along one state, along four and along all, over the first `span` [s].
-    ///
-    /// # Errors
-    /// If the scene cannot run.
-    pub fn of(file: &SceneFile, span: f64) -> Result<Vec<Self>> {
-        let inputs = inputs_at_start(file);
-        let states = Simulation::start(&file.scene, inputs)?.phase_scales().states.len();
-        let mut plain = || -> Result<()> { Ok(Simulation::start(&file.scene, inputs)?.advance_to(span)?) };
-        let alone = least(&mut plain)?;
-        let mut counts = vec![1, 4.min(states), states];
-        counts.dedup();
-        let price = |directions: usize| {
-            let seeds: Vec<Seed> = (0..directions).map(Seed::State).collect();
-            let time = least(&mut || Ok(Variation::start(&file.scene, inputs, &seeds)?.advance_to(span)?))?;
-            Ok(Self { scene: file.name.clone(), directions, ratio: time / alone })
-        };
-        counts.into_iter().map(price).collect()
-    }
-}
-
-/// [s] CPU time of the fastest of some runs.
-fn least(work: &mut impl FnMut() -> Result<()>) -> Result<f64> {
-    let mut failure = None;
-    let time = fastest(MEASUREMENTS, || failure = work().err());
-    failure.map_or(Ok(time), Err)
-}
-
-/// [s] Time of one evaluation of the right-hand side alone, mean over the evaluations of the run.
+    /// [s] Time of one evaluation of the right-hand side alone, mean over the evaluations of the run.
     pub evaluation: f64,
     /// Evaluations per simulated second.
     pub evaluations: f64,
@@ -111,6 +72,45 @@ impl Price {
         let time = spent.as_secs_f64() / span;
         Ok(Self { scene: file.name.clone(), size, evaluation, evaluations, steps, events, time })
     }
+}
+
+/// The cost of a scene's tangent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TangentPrice {
+    /// The scene.
+    pub scene: String,
+    /// Number of directions.
+    pub directions: usize,
+    /// CPU time with the tangent over that of the same run without.
+    pub ratio: f64,
+}
+
+impl TangentPrice {
+    /// Measures the cost of the tangent along one state, along four and along all, over the first `span` [s].
+    ///
+    /// # Errors
+    /// If the scene cannot run.
+    pub fn of(file: &SceneFile, span: f64) -> Result<Vec<Self>> {
+        let inputs = inputs_at_start(file);
+        let states = Simulation::start(&file.scene, inputs)?.phase_scales().states.len();
+        let mut plain = || -> Result<()> { Ok(Simulation::start(&file.scene, inputs)?.advance_to(span)?) };
+        let alone = least(&mut plain)?;
+        let mut counts = vec![1, 4.min(states), states];
+        counts.dedup();
+        let price = |directions: usize| {
+            let seeds: Vec<Seed> = (0..directions).map(Seed::State).collect();
+            let time = least(&mut || Ok(Variation::start(&file.scene, inputs, &seeds)?.advance_to(span)?))?;
+            Ok(Self { scene: file.name.clone(), directions, ratio: time / alone })
+        };
+        counts.into_iter().map(price).collect()
+    }
+}
+
+/// [s] CPU time of the fastest of some runs.
+fn least(work: &mut impl FnMut() -> Result<()>) -> Result<f64> {
+    let mut failure = None;
+    let time = fastest(MEASUREMENTS, || failure = work().err());
+    failure.map_or(Ok(time), Err)
 }
 
 /// [s] Time of one evaluation of the right-hand side alone, at states of the first `span` [s] of a run. The weight of

@@ -45,16 +45,12 @@ pub struct Compiled {
 }
 
 /// The code of a constant structure with `$states` states: the methods `$rates` and `$ends` of a mechanism, with a
-/// flexible rod for the counts `$counts`. Steps are made of stages and ends; rates alone, which an importer's integrator
-/// asks for, are those of an end: with one clearance they take a tenth longer for it, with four two thirds.
+/// flexible rod for the counts `$counts`.
 macro_rules! code {
-    ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {{
-        const ENDS: Ends = |mechanism, conditions, t, y, rates, event_functions| {
-            mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
-        };
+    ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {
         Compiled {
             rates: |mechanism, conditions, t, y, rates| {
-                ENDS(mechanism, conditions, t, y, rates, &mut EventFunctions::default());
+                mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
             },
             rates_of_eight: if const { suits_blocks(&$structure) } {
                 |mechanism, conditions, t, y, rates| {
@@ -63,14 +59,16 @@ macro_rules! code {
             } else {
                 Mechanism::rates_of_eight
             },
-            ends: ENDS,
+            ends: |mechanism, conditions, t, y, rates, event_functions| {
+                mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
+            },
             stages: |mechanism, tableau, conditions, t, y, h, k| {
                 run_stages::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 })
             },
         }
-    }};
+    };
 }
 
 /// Selects the code of the structure as a constant, or `$all` if the structure is not in the list. Each entry of the

@@ -8,10 +8,11 @@
 //! has a square root there. Where a step begins or ends with an event, time runs as the square of the variable of
 //! integration: √t is then a polynomial.
 
-use super::Variational;
 use super::legendre::{Legendre, NODES, SHARES, WEIGHTS};
+use super::variational::Variational;
 use crate::integrator::dense_output::{Correction, Step};
 use crate::integrator::{Discontinuities, Jacobian, MAX_STATES, root};
+use crate::math;
 use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut};
 
 /// Most halvings of a part.
@@ -367,7 +368,7 @@ impl Flow {
             return 0.0;
         }
         let last = sizes[NODES - 1] / largest;
-        let error = largest * last.powf(2.0 * NODES as f64 / (NODES - 1) as f64);
+        let error = largest * math::powf(last, 2.0 * NODES as f64 / (NODES - 1) as f64);
         if error.is_finite() { error } else { f64::INFINITY }
     }
 }

@@ -1,6 +1,6 @@
 //! Directions across an event, and the end of the first order near grazing.
 
-use super::{Crossing, Variational};
+use super::variational::{Crossing, Gradient, Variational};
 use crate::integrator::root;
 use crate::integrator::{EventFunction, EventFunctions, MAX_EVENTS, MAX_STATES, StepPoint};
 use nalgebra::DMatrix;
@@ -48,7 +48,7 @@ pub fn cross<D: Copy>(
             }
         }
         for (mut direction, parameters) in tangents.column_iter_mut().zip(parameters.column_iter()) {
-            let along = |gradient: &super::Gradient, direction: &[f64], delay: f64| {
+            let along = |gradient: &Gradient, direction: &[f64], delay: f64| {
                 let states = gradient.by_state.iter().zip(direction).map(|(slope, value)| slope * value);
                 let others = gradient.by_parameter.iter().zip(parameters.iter()).map(|(slope, share)| slope * share);
                 states.sum::<f64>() + others.sum::<f64>() + gradient.by_time * delay

@@ -1,8 +1,8 @@
 //! Directions that follow a motion, step by step.
 
-use super::Variational;
 use super::flow::{Flow, Path, Roots};
 use super::saltation::{Grazing, cross, near_miss};
+use super::variational::Variational;
 use crate::integrator::dense_output::Step;
 use crate::integrator::{EventFunction, MAX_EVENTS, MAX_STATES, SolverState, StepPoint};
 use nalgebra::{DMatrix, RowDVector};

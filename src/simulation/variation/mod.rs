@@ -5,9 +5,11 @@
 //! [`tangent`](crate::integrator::tangent).
 
 mod neighbours;
+mod seed;
 mod varied;
 
 pub use crate::integrator::tangent::Grazing;
+pub use seed::Seed;
 
 use super::error::SimulationError;
 use super::motion::Motion;
@@ -21,26 +23,11 @@ use crate::integrator::{Reader, Snapshot, SolverState};
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 use crate::model::state::{CONTACTS, Conditions};
-use crate::scene::parameter::{Kind, Parameter};
+use crate::scene::parameter::Kind;
 use crate::scene::{Method, Scene};
 use nalgebra::DMatrix;
 use neighbours::{Neighbours, along, derivative};
 use varied::Varied;
-
-/// By what a motion is differentiated.
-#[derive(Clone, Copy)]
-pub enum Seed {
-    /// A state where the tangent begins, by its index.
-    State(usize),
-    /// [m/s] The approach speed of a contact that is closed where the tangent begins, by its index.
-    Approach(usize),
-    /// A real parameter of the scene.
-    Parameter(&'static Parameter),
-    /// [N·m] The crank torque from where the tangent begins.
-    CrankTorque,
-    /// [N] The slider load from where the tangent begins.
-    SliderLoad,
-}
 
 /// A simulation with the tangent of its motion.
 pub struct Variation {

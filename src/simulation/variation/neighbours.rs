@@ -8,7 +8,7 @@
 use super::super::error::SimulationError;
 use super::super::observation::observe;
 use super::super::start::pose;
-use super::Seed;
+use super::seed::Seed;
 use crate::integrator::{Discontinuities, MAX_STATES};
 use crate::model::contact::ContactState;
 use crate::model::mechanism_model::MechanismModel;
