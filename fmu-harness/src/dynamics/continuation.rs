@@ -252,10 +252,10 @@ impl Continuation<'_> {
             (Bifurcation::PeriodDoubling, flip as fn(&Orbit) -> Option<f64>),
             (Bifurcation::NeimarkSacker, pair as fn(&Orbit) -> Option<f64>),
         ] {
-            if let (Some(a), Some(b)) = (test(one), test(other)) {
-                if a * b < 0.0 {
-                    found.push((kind, a, b));
-                }
+            if let (Some(a), Some(b)) = (test(one), test(other))
+                && a * b < 0.0
+            {
+                found.push((kind, a, b));
             }
         }
         found
