@@ -12,7 +12,7 @@ from tempfile import mkdtemp
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CoSimulation
 
-OF_INTERVAL = (".impact.speed", ".force.peak")
+OF_INTERVAL = (".impact.speed", ".force.peak", "solver.error_estimate")
 """Endings of outputs that belong to the interval since the last communication point, not to the instant."""
 
 

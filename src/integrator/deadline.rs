@@ -105,6 +105,10 @@ impl Deadline {
         *work += (evaluations - *counted) as f64 - WEIGHT * *work;
         *covered += h / stretch(*looseness, power) - WEIGHT * *covered;
         *counted = evaluations;
+        if !(work.is_finite() && covered.is_finite()) {
+            // A saved state may have any numbers.
+            (*work, *covered) = (FIRST, FIRST / self.per_second);
+        }
     }
 }
 

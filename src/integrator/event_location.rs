@@ -89,7 +89,7 @@ pub fn land<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>
     let start = stepper.state.start().t;
     // The longer step no longer counts.
     stepper.state.statistics.steps -= 1;
-    let tolerance = stepper.state.account.looseness * stepper.settings.tolerance;
+    let tolerance = stepper.allowed_looseness() * stepper.settings.tolerance;
     let close = LANDING_TOLERANCE * tolerance * system.event_scale();
     let mut t = start + share * h;
     for landing in 1..=MAX_LANDINGS {
@@ -127,12 +127,11 @@ fn cross_with<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = 
 }
 
 fn cross<D: Copy>(stepper: &mut Stepper<D>, system: &dyn System<Discrete = D>, triggered: &Triggered) {
-    let power = stepper.properties.error_power;
+    let (power, looseness) = (stepper.properties.error_power, stepper.allowed_looseness());
     let state = &mut stepper.state;
     let count = triggered.iter().map(|&triggered| u64::from(triggered)).sum::<u64>();
     state.crossings += count;
     state.statistics.events += count;
-    let looseness = state.account.looseness;
     let StepPoint { t, y, discrete, impact_end, .. } = state.front_mut();
     let reset = system.reset(discrete, *t, y, triggered);
     *discrete = reset.discrete;

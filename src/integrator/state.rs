@@ -7,6 +7,10 @@ use super::system::StateLayout;
 
 /// No run counts further than this.
 const MAX_COUNT: u64 = 1 << 62;
+/// Error over the tolerance that counts as the least.
+pub const LEAST_ERROR: f64 = 1e-4;
+/// No budget makes a tolerance larger by more than this.
+const MAX_LOOSENESS: f64 = 1e15;
 /// States and rates from this magnitude on are invalid.
 const INVALID_FROM: f64 = 1e25;
 /// After this many successive steps that were cut at a derivative discontinuity, the motion creeps along it.
@@ -94,7 +98,7 @@ impl<D: Copy> SolverState<D> {
             front: 2,
             earlier: 0,
             step,
-            last_error: 1e-4,
+            last_error: LEAST_ERROR,
             cuts: 0,
             crossings: 0,
             statistics: Statistics::default(),
@@ -211,7 +215,7 @@ impl<D: Copy> SolverState<D> {
     /// Whether a run at `time` can have produced this state: the last step contains `time`, is at most `longest_step`
     /// [s] long and has valid states.
     pub fn is_sound(&self, time: f64, longest_step: f64) -> bool {
-        let Self { step, cuts, crossings, statistics, account, .. } = self;
+        let Self { step, last_error, cuts, crossings, statistics, account, .. } = self;
         let (start, end, front) = (self.start(), self.end(), self.front());
         let valid = |y: &[f64]| y.iter().all(|y| is_valid(*y));
         let rounding = 2.0 * f64::EPSILON * start.t.abs().max(end.t.abs());
@@ -222,9 +226,9 @@ impl<D: Copy> SolverState<D> {
         let Account { interval, before, counted: accounted, work, covered, looseness, hits, error } = *account;
         let accounted = [interval, hits].iter().all(|count| *count <= MAX_COUNT)
             && before.max(accounted) <= evaluations
-            && work >= 0.0
-            && covered >= 0.0
-            && looseness >= 1.0
+            && (0.0..INVALID_FROM).contains(&work)
+            && (0.0..INVALID_FROM).contains(&covered)
+            && (1.0..=MAX_LOOSENESS).contains(&looseness)
             && error >= 0.0;
         [start, end, front].iter().all(|front| valid(&front.y) && impacts_end(front))
             && end.t == front.t
@@ -232,6 +236,8 @@ impl<D: Copy> SolverState<D> {
             && (0.0..=longest_step + rounding).contains(&length)
             && (length == 0.0 || steps > 0)
             && *step >= 0.0
+            // Time stepping has no errors.
+            && (*last_error == 0.0 || (LEAST_ERROR..=1.0).contains(last_error))
             && *cuts <= CREEPING_CUTS
             && *crossings <= events
             && counted

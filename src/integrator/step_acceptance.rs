@@ -2,7 +2,7 @@
 
 use super::derivative_discontinuity as discontinuity;
 use super::error::IntegrationError;
-use super::state::{CREEPING_CUTS, first_invalid};
+use super::state::{CREEPING_CUTS, LEAST_ERROR, first_invalid};
 use super::step_control as control;
 use super::stepper::Stepper;
 use super::system::System;
@@ -126,7 +126,7 @@ fn fitted<D: Copy>(
                 None if predicts && error > STEADY_ERROR => wanted,
                 None => h * growth(),
             };
-            state.last_error = error.max(1e-4);
+            state.last_error = error.max(LEAST_ERROR);
             state.account.error += error * tolerance;
             state.account.hits += u64::from(error * looseness > 1.0);
             if let Some(deadline) = &stepper.deadline {

@@ -97,6 +97,11 @@ impl<D: Copy> Stepper<D> {
         account.looseness
     }
 
+    /// The tolerance of the last step over the nominal tolerance; 1 without a budget.
+    pub(super) fn allowed_looseness(&self) -> f64 {
+        self.deadline.map_or(1.0, |_| self.state.account.looseness)
+    }
+
     /// Attempts a step of length `h` [s] from the start of the present step.
     pub(super) fn attempt(&mut self, system: &dyn System<Discrete = D>, h: f64) {
         let (start, end) = self.state.ends();

@@ -14,7 +14,7 @@ use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
 use super::films::Films;
 use super::gravity::free_fall;
-use super::jacobian::differentiate;
+use super::jacobian::{Rates, differentiate};
 use super::joint::rectangle::CORNERS;
 use super::kinematics::BodyRotations;
 use super::mechanism_model::MechanismModel;
@@ -33,6 +33,8 @@ use crate::math::Real;
 use crate::scene::Scene;
 use std::ops::Range;
 
+/// Number of states that few mechanisms with an audit exceed.
+const USUAL: usize = 44;
 /// Number of states of an audit.
 pub const STATES: usize = 7;
 /// Index of the normal forces' work; it starts with the elastic energy at the start.
@@ -201,9 +203,13 @@ impl Linearizable for Audited {
     /// The rows of the audit's states are exact, too; their columns are 0.
     fn jacobian(&self, conditions: &Conditions, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let first = self.first();
-        differentiate::<MAX_STATES>(first + STATES, first, t, y, jacobian, &|t, y, rates| {
-            self.tangent_rates(conditions, t, y, rates);
-        });
+        let rates: &Rates<'_> = &|t, y, rates| self.tangent_rates(conditions, t, y, rates);
+        // Arrays for as many states as a rod of eight modes has leave room on a small stack.
+        if first + STATES <= USUAL {
+            differentiate::<USUAL>(first + STATES, first, t, y, jacobian, rates);
+        } else {
+            differentiate::<MAX_STATES>(first + STATES, first, t, y, jacobian, rates);
+        }
     }
 }
 

@@ -17,8 +17,8 @@ pub fn settings(scene: &Scene) -> Settings {
     Settings { tolerance, fixed_step: step, effort }
 }
 
-/// The budget of evaluations that a scene gives, if it gives one.
+/// The budget of evaluations that a scene gives, if it gives one. Less than one a second is as little.
 pub fn deadline(scene: &Scene) -> Option<Deadline> {
     let Solver { deadline, deadline_interval, .. } = scene.solver;
-    (deadline > 0.0).then_some(Deadline { per_second: deadline, interval: deadline_interval })
+    (deadline > 0.0).then_some(Deadline { per_second: deadline.max(1.0), interval: deadline_interval })
 }

@@ -7,8 +7,9 @@ use anyhow::{Context, Result, bail};
 use nalgebra::{Complex, DMatrix, DVector};
 use std::fmt;
 
-/// Lengths of steps: the first, the shortest, the longest. A length of 1 is the whole range of the parameter, or a
-/// noticeable difference in all unknowns.
+/// [noticeable differences] A change of all unknowns that counts as much as the whole range of the parameter.
+const UNIT: f64 = 1000.0;
+/// Lengths of steps: the first, the shortest, the longest. The whole range has length 1.
 const FIRST: f64 = 0.01;
 const SHORTEST: f64 = 1e-5;
 const LONGEST: f64 = 0.05;
@@ -21,8 +22,8 @@ const FEW: usize = 3;
 const CLOSED: f64 = 1e-7;
 /// Number of secant steps towards a bifurcation.
 const REFINEMENTS: usize = 5;
-/// Share of a noticeable difference by which a branch is left for the doubled one.
-const ASIDE: f64 = 0.02;
+/// Length by which a branch is left for the doubled one.
+const ASIDE: f64 = 1e-3;
 /// A multiplier whose imaginary part is less than this share of it is real.
 const REAL: f64 = 1e-6;
 
@@ -132,7 +133,7 @@ impl Continuation<'_> {
         self.map.parameter.name
     }
 
-    /// Change of the parameter that counts as much as a noticeable difference of all unknowns.
+    /// Change of the parameter whose length is 1.
     fn range(&self) -> f64 {
         (self.to - self.from).abs()
     }
@@ -195,10 +196,10 @@ impl Continuation<'_> {
         Ok(if sign < 0.0 { -kernel } else { kernel })
     }
 
-    /// Product of two directions: the mean over the unknowns, and the parameter.
+    /// Product of two directions: the weighted mean over the unknowns, and the parameter.
     fn product(&self, a: &DVector<f64>, b: &DVector<f64>) -> f64 {
         let n = a.len() - 1;
-        a.rows(0, n).dot(&b.rows(0, n)) / n.max(1) as f64 + a[n] * b[n]
+        a.rows(0, n).dot(&b.rows(0, n)) * weight(n) + a[n] * b[n]
     }
 
     fn length(&self, a: &DVector<f64>) -> f64 {
@@ -226,7 +227,7 @@ impl Continuation<'_> {
             matrix.view_mut((0, 0), (n, n)).copy_from(&(&at.by_unknowns - DMatrix::identity(n, n)));
             matrix.view_mut((0, n), (n, 1)).copy_from(&(&at.by_parameter * self.range()));
             for column in 0..n {
-                matrix[(n, column)] = point.along[column] / n.max(1) as f64;
+                matrix[(n, column)] = point.along[column] * weight(n);
             }
             matrix[(n, n)] = point.along[n];
             let mut right = DVector::zeros(n + 1);
@@ -307,6 +308,11 @@ impl Continuation<'_> {
         let (point, _) = self.step(&start, ASIDE)?;
         Ok(point)
     }
+}
+
+/// Weight of the square of each of `n` unknowns in a length.
+fn weight(n: usize) -> f64 {
+    1.0 / (n.max(1) as f64 * UNIT * UNIT)
 }
 
 /// 1 + μ of the real multiplier nearest to −1, which is 0 where a period doubles; `None` without real multipliers.

@@ -237,11 +237,12 @@ def test_a_host_that_binds_every_function_finds_them(wornpin, plain):
     slave.free_instance()
 
 
-def test_only_the_standards_functions_are_exported(wornpin):
+def test_only_the_standards_functions_and_those_for_estimators_are_exported(wornpin):
     """A host that loads several units with global symbols would mix up anything else."""
     symbols = exported(wornpin.directory / "binaries" / "linux64" / "SliderCrank.so")
-    assert [sum(symbol.startswith(version) for symbol in symbols) for version in ("fmi2", "fmi3")] == [44, 75]
-    assert len(symbols) == 44 + 75
+    starts = ("fmi2", "fmi3", "slidercrank_")
+    assert [sum(symbol.startswith(start) for symbol in symbols) for start in starts] == [44, 75, 3]
+    assert len(symbols) == 44 + 75 + 3
 
 
 def exported(library):
