@@ -95,6 +95,8 @@ fn the_other_commands_have_a_number_in_every_row() {
         vec!["sweep", &study, "--plan"],
         vec![
             "sensitivity",
+            "--scene",
+            "wornpin",
             "--turns",
             "0.2",
             "--of",
