@@ -5,7 +5,7 @@
 //! v̇ = J(t)·v + F, J = ∂ẏ/∂y, F = Σ_m ∂ẏ/∂m·v_m + Σ_p ∂ẏ/∂p·π_p,
 //!
 //! where m are numbers that the discrete state remembers, such as the approach speed of a closed contact, and π is the
-//! direction's share of the parameters. [`flow`] integrates it along the dense output of each accepted step.
+//! direction's share of the parameters. `flow` integrates it along the dense output of each accepted step.
 //!
 //! At an event the neighbour comes at another time. With the event function g, the rates f⁻ before and f⁺ after it,
 //!
