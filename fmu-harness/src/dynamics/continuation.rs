@@ -3,7 +3,7 @@
 //! Theory, Springer 2004, 10), and the points at which they change.
 
 use super::orbit::{Orbit, PoincareMap, Return, size};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Complex, DMatrix, DVector};
 use std::fmt;
 
@@ -20,12 +20,16 @@ const ITERATIONS: usize = 8;
 const FEW: usize = 3;
 /// Largest miss and error of length.
 const CLOSED: f64 = 1e-7;
+/// Share of the range within which the doubled branch begins.
+const NEAR: f64 = 0.02;
 /// Number of secant steps towards a bifurcation.
 const REFINEMENTS: usize = 5;
-/// Length by which a branch is left for the doubled one.
-const ASIDE: f64 = 1e-3;
+/// Lengths by which a branch is left for the doubled one; the first at which it is reached counts.
+const ASIDE: [f64; 5] = [3e-3, 1e-3, 1e-2, 3e-2, 1e-4];
 /// A multiplier whose imaginary part is less than this share of it is real.
 const REAL: f64 = 1e-6;
+/// Two bifurcations are the same within this share of the range.
+const SAME: f64 = 5e-3;
 
 /// How a branch of periodic motions changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +75,8 @@ pub struct Branch {
     pub found: Vec<Found>,
     /// Why it ends.
     pub end: String,
+    /// Value of the parameter at which it meets a branch of half its period, if that is its end.
+    pub meets: Option<f64>,
 }
 
 /// A parameter's range in which branches are followed.
@@ -99,7 +105,7 @@ impl Continuation<'_> {
     /// If the first step fails.
     pub fn follow(&self, start: Return, mut tick: impl FnMut(f64)) -> Result<Vec<Branch>> {
         let along = self.along(&start, None)?;
-        let mut branches = vec![self.branch(Point { at: start, along }, &mut tick)];
+        let mut branches = vec![self.branch(Point { at: start, along }, false, &mut tick)];
         let mut first = 0;
         for _ in 0..self.doublings {
             let last = branches.len();
@@ -111,15 +117,28 @@ impl Continuation<'_> {
                     .map(|found| found.orbit.clone())
                     .collect();
                 for orbit in doubled {
+                    // The branch from one of two neighbouring doublings often ends at the other.
+                    let near = |branch: &Branch| {
+                        branch.meets.is_some_and(|end| (end - orbit.value).abs() < SAME * self.range())
+                    };
+                    if branches.iter().any(near) {
+                        continue;
+                    }
                     match self.doubled(&orbit) {
-                        Ok(point) => branches.push(self.branch(point, &mut tick)),
+                        Ok(point) => branches.push(self.branch(point, true, &mut tick)),
                         Err(error) => {
                             let end = format!(
                                 "the branch from {} = {:.6e} is not reached: {error:#}",
                                 self.name(),
                                 orbit.value
                             );
-                            branches.push(Branch { turns: 2 * orbit.turns, orbits: vec![], found: vec![], end });
+                            branches.push(Branch {
+                                turns: 2 * orbit.turns,
+                                orbits: vec![],
+                                found: vec![],
+                                end,
+                                meets: None,
+                            });
                         }
                     }
                 }
@@ -139,12 +158,14 @@ impl Continuation<'_> {
     }
 
     /// Follows a branch from one of its points until it leaves the range.
-    fn branch(&self, start: Point, tick: &mut impl FnMut(f64)) -> Branch {
+    fn branch(&self, start: Point, doubled: bool, tick: &mut impl FnMut(f64)) -> Branch {
+        let beginning = apart(&start.at.orbit);
         let mut branch = Branch {
             turns: start.at.orbit.turns,
             orbits: vec![start.at.orbit.clone()],
             found: vec![],
             end: String::new(),
+            meets: None,
         };
         let (mut point, mut length) = (start, FIRST);
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
@@ -156,6 +177,12 @@ impl Continuation<'_> {
                     branch.orbits.push(next.at.orbit.clone());
                     tick(next.at.orbit.value);
                     point = next;
+                    let now = apart(&point.at.orbit);
+                    if doubled && branch.orbits.len() > 3 && (now * beginning < 0.0 || now.abs() < beginning.abs()) {
+                        branch.end = format!("it meets a branch of {} turns", branch.turns / 2);
+                        branch.meets = Some(point.at.orbit.value);
+                        return branch;
+                    }
                     if !(low..=high).contains(&point.at.orbit.value) {
                         branch.end = format!("{} leaves the range", self.name());
                         return branch;
@@ -305,9 +332,22 @@ impl Continuation<'_> {
         let along = &along / self.length(&along);
         let twice = self.map.apply(orbit.value, &orbit.phase, 2 * orbit.turns)?;
         let start = Point { at: twice, along };
-        let (point, _) = self.step(&start, ASIDE)?;
-        Ok(point)
+        let mut failure = None;
+        for length in ASIDE {
+            match self.step(&start, length) {
+                Ok((point, _)) if (point.at.orbit.value - orbit.value).abs() < NEAR * self.range() => return Ok(point),
+                Ok(_) => failure = Some(anyhow!("the corrector finds another branch")),
+                Err(error) => failure = Some(error),
+            }
+        }
+        Err(failure.context("a length")?)
     }
+}
+
+/// Difference between the two halves of a period: 0 where a branch meets one of half its period.
+fn apart(orbit: &Orbit) -> f64 {
+    let speed = |place: usize| orbit.visits.get(place).map_or(f64::NAN, |visit| visit.outputs.slider.v);
+    speed(orbit.turns / 2) - speed(0)
 }
 
 /// Weight of the square of each of `n` unknowns in a length.
