@@ -5,9 +5,6 @@
 //! begins and at their corners, so the step h is chosen anew at every state, such that no penetration, and no distance to
 //! a corner, changes by more than a share of itself.
 
-use super::super::error::SimulationError;
-use super::super::observation::observe;
-use super::super::start::pose;
 use super::seed::Seed;
 use crate::integrator::{Discontinuities, MAX_STATES};
 use crate::model::contact::ContactState;
@@ -17,6 +14,10 @@ use crate::model::signals::Outputs;
 use crate::model::state::{CONTACTS, Conditions};
 use crate::scene::Scene;
 use crate::scene::parameter::{Kind, Parameter};
+use crate::simulation::assemble;
+use crate::simulation::error::SimulationError;
+use crate::simulation::observation::observe;
+use crate::simulation::start::pose;
 
 /// Steps of a difference, in steps h, with their weights.
 const CENTRAL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
@@ -152,7 +153,7 @@ impl Neighbours {
 
 impl Neighbour {
     fn new(scene: &Scene, weight: f64) -> Result<Self, SimulationError> {
-        let model = super::assemble::model(scene);
+        let model = assemble::model(scene);
         let mut states = vec![0.0; model.layout().states];
         model.write_start(&pose(scene)?, &mut states);
         let approach = model.start_contacts(0.0, &states).map(|contact| contact.approach);
