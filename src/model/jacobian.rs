@@ -20,17 +20,9 @@ pub fn differentiate<const N: usize>(
     for i in 0..states {
         jacobian.row_mut(i)[moving..states].fill(0.0);
     }
-    let (mut at, mut found) = ([Tangent::ZERO; N], [Tangent::ZERO; N]);
-    for first in (0..=moving).step_by(DIRECTIONS) {
-        let seed = |value: f64, column: usize| match column.checked_sub(first) {
-            Some(direction) if direction < DIRECTIONS => Tangent::variable(value, direction),
-            _ => Tangent::constant(value),
-        };
-        // Time is the column after those of the states.
-        for (k, (at, y)) in at.iter_mut().zip(y).enumerate() {
-            *at = if k < moving { seed(*y, k) } else { Tangent::constant(*y) };
-        }
-        rates(seed(t, moving), &at[..states], &mut found[..states]);
+    let mut found = [Tangent::ZERO; N];
+    in_directions::<N>(moving, t, &y[..states], |first, t, at| {
+        rates(t, at, &mut found[..states]);
         for (i, Tangent { slope, .. }) in found.iter().enumerate().take(states) {
             for (column, slope) in (first..=moving).zip(slope) {
                 if column < moving {
@@ -40,5 +32,27 @@ pub fn differentiate<const N: usize>(
                 }
             }
         }
+    });
+}
+
+/// Calls `evaluate` with `t` and the states `y` for each group of directions: the first `moving` states, then time, which
+/// is the column after theirs. It gets the first column of the group, time and states. `N` is the size of the array.
+#[inline(always)]
+pub fn in_directions<const N: usize>(
+    moving: usize,
+    t: f64,
+    y: &[f64],
+    mut evaluate: impl FnMut(usize, Tangent, &[Tangent]),
+) {
+    let mut at = [Tangent::ZERO; N];
+    for first in (0..=moving).step_by(DIRECTIONS) {
+        let seed = |value: f64, column: usize| match column.checked_sub(first) {
+            Some(direction) if direction < DIRECTIONS => Tangent::variable(value, direction),
+            _ => Tangent::constant(value),
+        };
+        for (k, (at, y)) in at.iter_mut().zip(y).enumerate() {
+            *at = if k < moving { seed(*y, k) } else { Tangent::constant(*y) };
+        }
+        evaluate(first, seed(t, moving), &at[..y.len()]);
     }
 }

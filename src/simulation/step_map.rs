@@ -156,7 +156,8 @@ impl By {
     }
 }
 
-fn grazed(scene: &Scene, Grazing { time, contact, missed, .. }: Grazing) -> SimulationError {
+/// The error of a motion of `scene` whose first order has ended.
+pub fn grazed(scene: &Scene, Grazing { time, contact, missed, .. }: Grazing) -> SimulationError {
     let contact = if missed { subject_of_event(scene, contact) } else { subject(contact) };
     SimulationError::Grazing { time, contact }
 }

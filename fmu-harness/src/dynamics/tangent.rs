@@ -2,22 +2,23 @@
 
 use super::Machine;
 use super::machine::{Simulated, start_values, values};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use nalgebra::DMatrix;
 use slidercrank::model::coordinates::state_variables;
 use slidercrank::model::signals::{Inputs, Outputs};
+use slidercrank::scene::Scene;
 use slidercrank::scene::profile::Profiles;
 use slidercrank::scene::read::SceneFile;
-use slidercrank::scene::{JointModel, Scene, Surface};
 use slidercrank::simulation::Phase;
-use slidercrank::simulation::variation::{Grazing, Seed, Variation};
+use slidercrank::simulation::step_map::grazed;
+use slidercrank::simulation::variation::{Seed, Variation};
 
 /// A simulation with its tangent, whose inputs may follow the crank angle.
 pub struct Tangent {
     variation: Variation,
     /// Place of the crank angle among the states, if it is one.
     crank_angle: Option<usize>,
-    names: Vec<String>,
+    scene: Scene,
 }
 
 impl Machine<Tangent> {
@@ -29,8 +30,8 @@ impl Machine<Tangent> {
         let variation = Variation::start(&file.scene, start_values(file), seeds)?;
         let crank_angle = state_variables(&file.scene).iter().position(|state| state.name.ends_with("crank.angle"));
         let scales = variation.phase_scales().clone();
-        let names = contact_names(&file.scene);
-        Self::of(file, Tangent { variation, crank_angle, names }, scales)
+        let scene = file.scene.clone();
+        Self::of(file, Tangent { variation, crank_angle, scene }, scales)
     }
 
     /// The simulation with its tangent.
@@ -84,38 +85,15 @@ impl Machine<Tangent> {
     /// # Errors
     /// As [`directions`](Self::directions).
     pub fn output_derivatives(&mut self) -> Result<Vec<Outputs>> {
-        let Tangent { variation, names, .. } = &mut self.simulation;
-        variation.output_derivatives().map_err(|grazing| explained(grazing, names))
+        let Tangent { variation, scene, .. } = &mut self.simulation;
+        Ok(variation.output_derivatives().map_err(|grazing| grazed(scene, grazing))?)
     }
 }
 
 impl Tangent {
     fn directions(&mut self) -> Result<DMatrix<f64>> {
-        self.variation.directions().map_err(|grazing| explained(grazing, &self.names))
+        Ok(self.variation.directions().map_err(|grazing| grazed(&self.scene, grazing))?)
     }
-}
-
-/// Names of the contacts, in the order of their approach speeds.
-fn contact_names(scene: &Scene) -> Vec<String> {
-    let guide: Vec<String> = match scene.joint.t.surface {
-        Surface::Corner => (1..=4).map(|corner| format!("corner {corner} of the guide")).collect(),
-        Surface::Foundation => (1..=2).map(|face| format!("face {face} of the guide")).collect(),
-    };
-    ["A", "B", "C"].iter().map(|joint| format!("joint {joint}")).chain(guide).collect()
-}
-
-/// Why there is no number.
-fn explained(grazing: Grazing, names: &[String]) -> anyhow::Error {
-    let Grazing { time, contact, speed, missed } = grazing;
-    if missed {
-        return anyhow!(
-            "at {time} s a contact is just missed (grazing): small changes have no small effect from there on"
-        );
-    }
-    let name = names.get(contact).map_or("a contact", String::as_str);
-    anyhow!(
-        "at {time} s {name} closes at {speed:.1e} m/s only (grazing): small changes have no small effect from there on"
-    )
 }
 
 impl Simulated for Tangent {
@@ -163,10 +141,4 @@ pub fn all_states(file: &SceneFile) -> Result<Vec<Seed>> {
     let simulation =
         slidercrank::simulation::Simulation::start(&file.scene, start_values(file)).context("the scene")?;
     Ok((0..simulation.phase_scales().states.len()).map(Seed::State).collect())
-}
-
-/// Whether all joints are ideal.
-pub fn is_ideal(scene: &Scene) -> bool {
-    let joint = &scene.joint;
-    [joint.a.model, joint.b.model, joint.c.model, joint.t.model].iter().all(|model| *model == JointModel::Ideal)
 }

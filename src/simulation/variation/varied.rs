@@ -3,10 +3,9 @@
 use super::neighbours::Neighbours;
 use crate::integrator::tangent::{Crossing, Gradient, Variational};
 use crate::integrator::{MAX_STATES, System};
-use crate::math::Real;
 use crate::model::contact::ContactState;
+use crate::model::jacobian::in_directions;
 use crate::model::mechanism_model::MechanismModel;
-use crate::model::scalar::{DIRECTIONS, Tangent};
 use crate::model::state::{CONTACTS, Conditions};
 
 /// A mechanism and its neighbours along the parameters.
@@ -136,17 +135,8 @@ impl Varied<'_> {
         let n = y.len();
         let empty = || Gradient { by_state: vec![0.0; n], by_time: 0.0, by_parameter: vec![] };
         let mut all: [[Gradient; 2]; CONTACTS] = std::array::from_fn(|_| [empty(), empty()]);
-        let mut at = [Tangent::ZERO; MAX_STATES];
-        // Time is the column after those of the states.
-        for first in (0..=n).step_by(DIRECTIONS) {
-            let seed = |value: f64, column: usize| match column.checked_sub(first) {
-                Some(direction) if direction < DIRECTIONS => Tangent::variable(value, direction),
-                _ => Tangent::constant(value),
-            };
-            for (k, (at, y)) in at.iter_mut().zip(y).enumerate() {
-                *at = seed(*y, k);
-            }
-            for (gradients, (depth, rate)) in all.iter_mut().zip(self.model.tangent_approaches(seed(t, n), &at[..n])) {
+        in_directions::<MAX_STATES>(n, t, y, |first, t, at| {
+            for (gradients, (depth, rate)) in all.iter_mut().zip(self.model.tangent_approaches(t, at)) {
                 for (gradient, number) in gradients.iter_mut().zip([depth, rate]) {
                     for (column, slope) in (first..=n).zip(number.slope) {
                         if column < n {
@@ -157,7 +147,7 @@ impl Varied<'_> {
                     }
                 }
             }
-        }
+        });
         for neighbours in self.neighbours {
             for (gradients, slopes) in all.iter_mut().zip(neighbours.approaches(t, y)) {
                 for (gradient, slope) in gradients.iter_mut().zip(slopes) {
