@@ -7,6 +7,9 @@ mod model_description;
 use model_description::{guid, tables, xml};
 use std::{env, error::Error, fs, path::Path};
 
+/// Set where the crate is linked as the FMU's shared library.
+const SHARED: &str = "SLIDERCRANK_SHARED_LIBRARY";
+
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=modelDescription");
     let target = |property: &str| env::var(format!("CARGO_CFG_TARGET_{property}")).unwrap_or_default();
@@ -19,8 +22,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("macos", _) => Some("-install_name,@rpath/SliderCrank.dylib"),
         _ => None,
     };
-    if let Some(argument) = argument {
-        println!("cargo::rustc-cdylib-link-arg=-Wl,{argument}");
+    // The command `package` links the crate as a shared library; to all other programs it is a Rust library.
+    println!("cargo::rerun-if-env-changed={SHARED}");
+    if let (Some(argument), Some(_)) = (argument, env::var_os(SHARED)) {
+        println!("cargo::rustc-link-arg=-Wl,{argument}");
     }
     let declaration = model_description::load()?;
     let starts: Vec<f64> = tables::starts(&declaration).collect();

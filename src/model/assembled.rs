@@ -243,8 +243,9 @@ impl MechanismModel for Model {
         clearances.penetrations(structure.play, &self.mechanism.pose(t, y))
     }
 
-    fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS] {
-        self.mechanism.tangent_approaches(t, y)
+    fn tangent_approaches(&self, pose: &Pose<Tangent>) -> [(Tangent, Tangent); CONTACTS] {
+        let Mechanism { clearances, structure, .. } = &self.mechanism;
+        clearances.penetrations(structure.play, pose)
     }
 
     fn bristles_of(&self, contact: usize) -> Range<usize> {

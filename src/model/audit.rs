@@ -280,8 +280,8 @@ impl MechanismModel for Audited {
         self.model.approaches(t, &y[..self.first()])
     }
 
-    fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS] {
-        self.model.tangent_approaches(t, &y[..self.first()])
+    fn tangent_approaches(&self, pose: &Pose<Tangent>) -> [(Tangent, Tangent); CONTACTS] {
+        self.model.tangent_approaches(pose)
     }
 
     fn bristles_of(&self, contact: usize) -> Range<usize> {

@@ -47,11 +47,8 @@ pub struct Compiled {
 /// The code of a constant structure with `$states` states: the methods `$rates` and `$ends` of a mechanism, with a
 /// flexible rod for the counts `$counts`.
 macro_rules! code {
-    ($structure:ident, $states:expr, $rates:ident, $ends:ident $(, $counts:ty)?) => {
+    ($all:expr, $structure:ident, $states:expr, $rates:ident $(, $counts:ty)?) => {
         Compiled {
-            rates: |mechanism, conditions, t, y, rates| {
-                mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
-            },
             rates_of_eight: if const { suits_blocks(&$structure) } {
                 |mechanism, conditions, t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
@@ -59,14 +56,12 @@ macro_rules! code {
             } else {
                 Mechanism::rates_of_eight
             },
-            ends: |mechanism, conditions, t, y, rates, event_functions| {
-                mechanism.$ends$(::<$counts>)?(&$structure, conditions, t, y, rates, event_functions);
-            },
             stages: |mechanism, tableau, conditions, t, y, h, k| {
                 run_stages::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
                     mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
                 })
             },
+            ..$all
         }
     };
 }
@@ -89,7 +84,7 @@ macro_rules! by_structure {
         match $structure.topology {
             $(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed } => {
                 const OWN: Structure = Structure::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-                code!(OWN, 2 * OWN.positions, rates, rates_and_event_functions)
+                code!($all, OWN, 2 * OWN.positions, rates)
             })*
             _ => $all,
         }
@@ -135,7 +130,7 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
                 const TOPOLOGY: Topology = Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed };
                 const OWN: Structure = Structure::with_rod(TOPOLOGY, true);
                 if structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
-                    return code!(OWN, 2 * (OWN.positions + Own::MODES), counted_rates, counted_rates_and_event_functions, Own);
+                    return code!(all, OWN, 2 * (OWN.positions + Own::MODES), counted_rates, Own);
                 }
             })*
         };
@@ -172,20 +167,8 @@ fn stages_of_all(states: usize) -> Stages {
 macro_rules! with_capacity {
     ($rod:expr, $own:ident . $name:ident $(:: <$number:ty>)? ($($argument:expr),*)) => {
         match $rod.modes.room {
-            RodCapacity::Few => $own.$name::<$($number,)? 4, 12>($($argument),*),
-            RodCapacity::Many => $own.$name::<$($number,)? 8, 40>($($argument),*),
+            RodCapacity::Few | RodCapacity::Many => $own.$name::<$($number,)? 8, 40>($($argument),*),
             RodCapacity::All => $own.$name::<$($number,)? ALL_MODES, ALL_FUNCTIONS>($($argument),*),
-        }
-    };
-}
-
-/// As `with_capacity!`, for numbers with derivatives. Few modes are computed in the arrays for many: loops end where the
-/// modes do.
-macro_rules! with_derivatives {
-    ($rod:expr, $own:ident . $name:ident :: <$number:ty> ($($argument:expr),*)) => {
-        match $rod.modes.room {
-            RodCapacity::Few | RodCapacity::Many => $own.$name::<$number, 8, 40>($($argument),*),
-            RodCapacity::All => $own.$name::<$number, ALL_MODES, ALL_FUNCTIONS>($($argument),*),
         }
     };
 }
@@ -208,9 +191,6 @@ impl Mechanism {
         match &self.rod {
             None => self.rates(&self.structure, conditions, t, y, rates),
             Some(rod) if rod.modes.room == RodCapacity::All => self.rates_one_by_one(conditions, t, y, rates),
-            Some(rod) if rod.modes.room == RodCapacity::Few => {
-                self.flexible_rates_of_eight::<4, 12>(rod, conditions, t, y, rates);
-            }
             Some(rod) => self.flexible_rates_of_eight::<8, 40>(rod, conditions, t, y, rates),
         }
     }
@@ -237,8 +217,10 @@ impl Mechanism {
     #[inline(never)]
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
-            None => self.rigid_tangent_rates(conditions, t, y, rates),
-            Some(rod) => with_derivatives!(rod, self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates)),
+            None => {
+                self.rigid_tangent_evaluation(conditions, t, y, rates);
+            }
+            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates)),
         }
     }
 
@@ -269,15 +251,6 @@ impl Mechanism {
         with_capacity!(rod, self.flexible_pose::<f64>(rod, t, y))
     }
 
-    /// Angles, places and velocities with derivatives.
-    #[inline(never)]
-    pub(super) fn tangent_pose(&self, t: Tangent, y: &[Tangent]) -> Pose<Tangent> {
-        match &self.rod {
-            Some(rod) => with_derivatives!(rod, self.flexible_pose::<Tangent>(rod, t, y)).0,
-            None => self.configuration(&self.structure, t, y).pose,
-        }
-    }
-
     /// The evaluation of an instant; writes the rates.
     #[inline(never)]
     pub fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
@@ -298,18 +271,12 @@ impl Mechanism {
     ) -> Evaluation<Tangent> {
         match &self.rod {
             None => self.rigid_tangent_evaluation(conditions, t, y, rates),
-            Some(rod) => with_derivatives!(rod, self.flexible_instant::<Tangent>(rod, conditions, t, y, rates)),
+            Some(rod) => with_capacity!(rod, self.flexible_instant::<Tangent>(rod, conditions, t, y, rates)),
         }
     }
 
-    /// The rates with a rigid rod. They are not compiled into the function that calls those with a flexible rod, too: its
+    /// The evaluation with a rigid rod. It is not compiled into the function that calls those with a flexible rod, too: its
     /// stack frame would be there for both.
-    #[inline(never)]
-    fn rigid_tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
-        self.rates(&self.structure, conditions, t, y, rates);
-    }
-
-    /// As [`rigid_tangent_rates`](Self::rigid_tangent_rates), and returns the evaluation of the instant.
     #[inline(never)]
     fn rigid_tangent_evaluation(
         &self,
@@ -333,24 +300,6 @@ impl Mechanism {
     ) {
         if let Some(rod) = &self.rod {
             self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates, &mut Inertia::default());
-        }
-    }
-
-    /// Writes the rates and event functions with a flexible rod whose counts are known at compile time.
-    #[inline(always)]
-    fn counted_rates_and_event_functions<C: CompiledCounts>(
-        &self,
-        of: &Structure,
-        conditions: &Conditions,
-        t: f64,
-        y: &[f64],
-        rates: &mut [f64],
-        event_functions: &mut EventFunctions,
-    ) {
-        if let Some(rod) = &self.rod {
-            let inertia = &mut Inertia::default();
-            let motion = self.flexible_rates::<f64, C, 4, 12>(of, rod, conditions, t, y, rates, inertia);
-            motion.event_functions(self, of, &conditions.contacts, event_functions);
         }
     }
 

@@ -20,9 +20,9 @@ use super::modal::BentRod;
 use super::part::part;
 use super::plane::{Vec2, cross, perp};
 use super::rod::{Arrays, Chord, CompiledCounts, Inertia, Modes, Rod, Shape};
-use super::scalar::{Scalar, Tangent};
+use super::scalar::Scalar;
 use super::start::StartPose;
-use super::state::{CONTACTS, Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
+use super::state::{Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
 use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure, Topology};
 use crate::integrator::EventFunctions;
 use crate::math::{self, unroll};
@@ -541,12 +541,6 @@ impl Mechanism {
             Some(rod) => self.pose_and_chord(rod, t, y).0,
             None => self.place(t, y).pose,
         }
-    }
-
-    /// Penetration [m] and approach speed [m/s] of every contact, with derivatives; −∞ and 0 for a joint without
-    /// clearance.
-    pub fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS] {
-        self.clearances.penetrations(self.structure.play, &self.tangent_pose(t, y))
     }
 
     /// Elastic energy of the closed contacts and the powers that they absorb.

@@ -52,7 +52,7 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS];
 
     /// [`MechanismModel::approaches`] with derivatives.
-    fn tangent_approaches(&self, t: Tangent, y: &[Tangent]) -> [(Tangent, Tangent); CONTACTS];
+    fn tangent_approaches(&self, pose: &Pose<Tangent>) -> [(Tangent, Tangent); CONTACTS];
 
     /// The bristle states of a contact, which its opening sets to 0; empty without bristles.
     fn bristles_of(&self, contact: usize) -> Range<usize>;

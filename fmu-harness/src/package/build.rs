@@ -215,7 +215,8 @@ impl Call {
         // Each linker and level has a directory of its own, so that no build replaces another.
         let directory = workspace.join("target").join(format!("library{linker}{level}"));
         command
-            .args(["--profile", self.profile.name(), "--lib", "--package", "slidercrank", "--target-dir"])
+            .args(["--profile", self.profile.name(), "--lib", "--crate-type", "cdylib", "--package", "slidercrank"])
+            .arg("--target-dir")
             .arg(&directory);
         for (platform, triple) in &self.products {
             // If a target is named, cargo keeps the flags from build scripts, which run here.
@@ -228,6 +229,7 @@ impl Call {
         if let Some(level) = self.level {
             flags.push(format!("\u{1f}-Ctarget-cpu={level}"));
         }
+        command.env("SLIDERCRANK_SHARED_LIBRARY", "1");
         // The date of a package is no part of its libraries. zig would refuse to run if the date is invalid.
         command.env("CARGO_ENCODED_RUSTFLAGS", flags).env_remove("CARGO_BUILD_TARGET").env_remove(EPOCH);
         let status = command.stdin(Stdio::null()).status().context("cargo cannot be started")?;
@@ -254,7 +256,8 @@ impl Call {
                 command
             }
         };
-        command.arg(if matches!(self.linker, Linker::Zig(_)) { "zigbuild" } else { "build" });
+        // The crate is a Rust library to the programs here; only this command makes it a shared library.
+        command.arg("rustc");
         if self.linker == Linker::MinGw {
             command.env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", tools::MINGW);
         }

@@ -3,9 +3,11 @@
 use super::neighbours::Neighbours;
 use crate::integrator::tangent::{Crossing, Gradient, Variational};
 use crate::integrator::{MAX_STATES, System};
+use crate::math::Real;
 use crate::model::contact::ContactState;
 use crate::model::jacobian::in_directions;
 use crate::model::mechanism_model::MechanismModel;
+use crate::model::scalar::Tangent;
 use crate::model::state::{CONTACTS, Conditions};
 
 /// A mechanism and its neighbours along the parameters.
@@ -92,7 +94,7 @@ impl Variational for Varied<'_> {
         if changed.is_empty() {
             return vec![];
         }
-        let gradients = self.gradients(t, y);
+        let gradients = self.gradients(before, t, y);
         let approaches = self.model.approaches(t, y);
         let mut conditions = *before;
         changed
@@ -131,12 +133,13 @@ fn changed<'a>(before: &'a Conditions, after: &'a Conditions) -> impl Iterator<I
 
 impl Varied<'_> {
     /// Derivatives of the penetration and of the approach speed of every contact.
-    fn gradients(&self, t: f64, y: &[f64]) -> [[Gradient; 2]; CONTACTS] {
+    fn gradients(&self, conditions: &Conditions, t: f64, y: &[f64]) -> [[Gradient; 2]; CONTACTS] {
         let n = y.len();
         let empty = || Gradient { by_state: vec![0.0; n], by_time: 0.0, by_parameter: vec![] };
         let mut all: [[Gradient; 2]; CONTACTS] = std::array::from_fn(|_| [empty(), empty()]);
         in_directions::<MAX_STATES>(n, t, y, |first, t, at| {
-            for (gradients, (depth, rate)) in all.iter_mut().zip(self.model.tangent_approaches(t, at)) {
+            let pose = self.model.tangent_evaluation(conditions, t, at, &mut [Tangent::ZERO; MAX_STATES][..n]).pose;
+            for (gradients, (depth, rate)) in all.iter_mut().zip(self.model.tangent_approaches(&pose)) {
                 for (gradient, number) in gradients.iter_mut().zip([depth, rate]) {
                     for (column, slope) in (first..=n).zip(number.slope) {
                         if column < n {

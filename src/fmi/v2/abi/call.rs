@@ -8,6 +8,9 @@ use crate::fmi::abi::component;
 use crate::fmi::abi::panic_guard::guarded;
 use crate::fmi::status::Status;
 
+/// What a call does on the instance.
+type Body<'a> = &'a mut dyn FnMut(&mut Instance) -> Result<Status, Error>;
+
 /// Runs one call on a component. Panics are caught: an internal error makes the instance unusable, but the importer
 /// goes on.
 ///
@@ -16,7 +19,7 @@ use crate::fmi::status::Status;
 pub unsafe fn call<S: Into<Status>>(
     component: fmi2Component,
     call: Call,
-    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
+    body: impl FnMut(&mut Instance) -> Result<S, Error>,
 ) -> Status {
     // SAFETY: passed on.
     unsafe { call_as(component, call.name(), call, body) }
@@ -30,22 +33,18 @@ pub unsafe fn call_as<S: Into<Status>>(
     component: fmi2Component,
     name: &'static str,
     call: Call,
-    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
+    mut body: impl FnMut(&mut Instance) -> Result<S, Error>,
 ) -> Status {
     // SAFETY: the caller guarantees that the component is valid.
     match unsafe { component::lend::<Instance>(component) } {
         // A NULL or busy component has no log that could be used.
         None => Status::Error,
-        Some(mut lent) => guarded(|| answer(lent.instance(), name, call, body)).unwrap_or(Status::Fatal),
+        Some(mut lent) => answer(lent.instance(), name, call, &mut |instance| body(instance).map(Into::into)),
     }
 }
 
-fn answer<S: Into<Status>>(
-    instance: &mut Instance,
-    name: &'static str,
-    call: Call,
-    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
-) -> Status {
+/// Runs the body, logs its error, and returns a status. All functions share its code.
+fn answer(instance: &mut Instance, name: &'static str, call: Call, body: Body<'_>) -> Status {
     let outcome = guarded(|| {
         instance.admit(call)?;
         body(instance)
@@ -54,11 +53,11 @@ fn answer<S: Into<Status>>(
         instance.give_up();
         Err(Error::Panic(fault))
     });
-    outcome.map_or_else(
-        |error| {
+    outcome.unwrap_or_else(|error| {
+        guarded(|| {
             instance.logger().say(error.severity(), name, &error);
             Status::from(&error)
-        },
-        Into::into,
-    )
+        })
+        .unwrap_or(Status::Fatal)
+    })
 }

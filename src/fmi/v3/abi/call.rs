@@ -17,6 +17,9 @@ pub struct Hosted {
     pub update: Option<HostUpdate>,
 }
 
+/// What a call does on the instance.
+pub type Body<'a> = &'a mut dyn FnMut(&mut Instance) -> Result<Status, Error>;
+
 /// Runs one call on an instance. No panic gets past: a fault of ours ends the instance, not the importer.
 ///
 /// # Safety
@@ -24,38 +27,33 @@ pub struct Hosted {
 pub unsafe fn call<S: Into<Status>>(
     instance: fmi3Instance,
     call: Call,
-    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
+    mut body: impl FnMut(&mut Instance) -> Result<S, Error>,
 ) -> Status {
     // SAFETY: the caller vouches for the pointer.
     match unsafe { lend::<Hosted>(instance) } {
         // A NULL or busy instance has no log that could be written to.
         None => Status::Error,
-        Some(mut lent) => answer(&mut lent, call, |instance| {
+        Some(mut lent) => answer(&mut lent, call, &mut |instance| {
             instance.admit(call)?;
-            body(instance)
+            body(instance).map(Into::into)
         }),
     }
 }
 
-/// Runs the body, logs its error, and answers with a status.
-pub fn answer<S: Into<Status>>(
-    lent: &mut Lent<'_, Hosted>,
-    call: Call,
-    body: impl FnOnce(&mut Instance) -> Result<S, Error>,
-) -> Status {
+/// Runs the body, logs its error, and returns a status. All functions share its code.
+pub fn answer(lent: &mut Lent<'_, Hosted>, call: Call, body: Body<'_>) -> Status {
     let instance = &mut lent.instance().instance;
     let outcome = guarded(|| body(instance)).unwrap_or_else(|fault| {
         instance.give_up();
         Err(Error::Panic(fault))
     });
-    match outcome {
-        Ok(done) => done.into(),
-        Err(error) => guarded(|| {
+    outcome.unwrap_or_else(|error| {
+        guarded(|| {
             instance.say(error.severity(), call, &error);
             Status::from(&error)
         })
-        .unwrap_or(Status::Fatal),
-    }
+        .unwrap_or(Status::Fatal)
+    })
 }
 
 /// Frees an instance, unless it is busy or within an intermediate update, whose step still needs it.
