@@ -44,26 +44,74 @@ pub struct Compiled {
     pub stages: Stages,
 }
 
-/// The code of a constant structure with `$states` states: the methods `$rates` and `$ends` of a mechanism, with a
-/// flexible rod for the counts `$counts`.
+/// The code of a constant structure. A closed loop is evaluated between its few steps, too, at communication points;
+/// the others evaluate mostly stages.
 macro_rules! code {
-    ($all:expr, $structure:ident, $states:expr, $rates:ident $(, $counts:ty)?) => {
+    ($structure:ident) => {
         Compiled {
+            rates: if const { $structure.closed } {
+                |mechanism, conditions, t, y, rates| mechanism.rates(&$structure, conditions, t, y, rates)
+            } else {
+                Mechanism::rates_of_one
+            },
+            rates_of_eight: if const { suits_blocks(&$structure) } {
+                |mechanism, conditions, t, y, rates| mechanism.rates(&$structure, conditions, t, y, rates)
+            } else {
+                Mechanism::rates_of_eight
+            },
+            ends: if const { $structure.closed } {
+                |mechanism, conditions, t, y, rates, event_functions| {
+                    mechanism.rates_and_event_functions(&$structure, conditions, t, y, rates, event_functions);
+                }
+            } else {
+                Mechanism::ends
+            },
+            stages: |mechanism, tableau, conditions, t, y, h, k| {
+                run_stages::<{ 2 * $structure.positions }>(tableau, t, y, h, k, |t, y, rates| {
+                    mechanism.rates(&$structure, conditions, t, y, rates);
+                })
+            },
+        }
+    };
+}
+
+/// The code of a constant structure with a flexible rod of the counts `$counts`. One copy for one state serves rates,
+/// ends and stages: it is long, and a call of it costs little.
+macro_rules! flexible_code {
+    ($structure:ident, $counts:ty) => {{
+        #[inline(never)]
+        fn motion(
+            mechanism: &Mechanism,
+            conditions: &Conditions,
+            t: f64,
+            y: &[f64],
+            rates: &mut [f64],
+            event_functions: Option<&mut EventFunctions>,
+        ) {
+            let motion = mechanism.counted_motion::<_, $counts>(&$structure, conditions, t, y, rates);
+            if let (Some(motion), Some(event_functions)) = (motion, event_functions) {
+                motion.event_functions(mechanism, &$structure, &conditions.contacts, event_functions);
+            }
+        }
+        Compiled {
+            rates: |mechanism, conditions, t, y, rates| motion(mechanism, conditions, t, y, rates, None),
             rates_of_eight: if const { suits_blocks(&$structure) } {
                 |mechanism, conditions, t, y, rates| {
-                    mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
+                    mechanism.counted_motion::<_, $counts>(&$structure, conditions, t, y, rates);
                 }
             } else {
                 Mechanism::rates_of_eight
             },
+            ends: |mechanism, conditions, t, y, rates, event_functions| {
+                motion(mechanism, conditions, t, y, rates, Some(event_functions));
+            },
             stages: |mechanism, tableau, conditions, t, y, h, k| {
-                run_stages::<{ $states }>(tableau, t, y, h, k, |t, y, rates| {
-                    mechanism.$rates$(::<_, $counts>)?(&$structure, conditions, t, y, rates);
+                run_stages::<{ 2 * ($structure.positions + <$counts>::MODES) }>(tableau, t, y, h, k, |t, y, rates| {
+                    motion(mechanism, conditions, t, y, rates, None);
                 })
             },
-            ..$all
         }
-    };
+    }};
 }
 
 /// Selects the code of the structure as a constant, or `$all` if the structure is not in the list. Each entry of the
@@ -84,7 +132,7 @@ macro_rules! by_structure {
         match $structure.topology {
             $(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed } => {
                 const OWN: Structure = Structure::new(Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed });
-                code!($all, OWN, 2 * OWN.positions, rates)
+                code!(OWN)
             })*
             _ => $all,
         }
@@ -130,7 +178,7 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
                 const TOPOLOGY: Topology = Topology { a: $a, b: $b, c: $c, t: $t, speed: $speed };
                 const OWN: Structure = Structure::with_rod(TOPOLOGY, true);
                 if structure.topology == TOPOLOGY && Own::COUNTS == Some(rod.modes.counts) {
-                    return code!(all, OWN, 2 * (OWN.positions + Own::MODES), counted_rates, Own);
+                    return flexible_code!(OWN, Own);
                 }
             })*
         };
@@ -288,19 +336,18 @@ impl Mechanism {
         self.rates_and_evaluation(&self.structure, conditions, t, y, rates)
     }
 
-    /// Writes the rates with a flexible rod whose counts are known at compile time.
+    /// The motion with a flexible rod whose counts are known at compile time; writes the rates. `None` if the rod is rigid.
     #[inline(always)]
-    fn counted_rates<R: Scalar, C: CompiledCounts>(
+    fn counted_motion<R: Scalar, C: CompiledCounts>(
         &self,
         of: &Structure,
         conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
-    ) {
-        if let Some(rod) = &self.rod {
-            self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates, &mut Inertia::default());
-        }
+    ) -> Option<FlexibleMotion<R, 4>> {
+        let rod = self.rod.as_ref()?;
+        Some(self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates, &mut Inertia::default()))
     }
 
     #[inline(never)]
