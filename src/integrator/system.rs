@@ -90,14 +90,19 @@ impl StateLayout {
 pub struct Jacobian {
     states: usize,
     elements: Vec<f64>,
-    /// [unit of state i / s²] ∂ẏ_i/∂t at constant states.
+    /// [unit of state i / s²] ∂ẏ_i/∂t at constant states; empty where nobody asks for it.
     pub time: Vec<f64>,
 }
 
 impl Jacobian {
     /// A Jacobian of zeros for `states` states.
     pub fn new(states: usize) -> Self {
-        Self { states, elements: vec![0.0; states * states], time: vec![0.0; states] }
+        Self { time: vec![0.0; states], ..Self::by_states(states) }
+    }
+
+    /// As [`new`](Self::new), without the derivatives with respect to time.
+    pub fn by_states(states: usize) -> Self {
+        Self { states, elements: vec![0.0; states * states], time: vec![] }
     }
 
     /// [1/s · unit of state i / unit of state j] ∂ẏ_i/∂y_j for all j.

@@ -1,14 +1,13 @@
 //! The equations of motion compiled for several number types and for constant structures.
 //!
 //! The generic equations are compiled once per number type for any structure: for one state, for eight states and for a
-//! state with derivatives. With a flexible rod they are compiled for three array sizes; with derivatives, for the two
-//! larger ones, where few modes cost up to a sixth more (`cargo bench --bench jacobian`) and a twentieth of the library's
-//! code is saved. If there is little to compute, the branches on the structure take about as long as the computation, and
-//! if the number of modes is unknown, arrays stay in memory. For the structures listed here, those of the usual studies,
-//! the same source is therefore compiled again with the structure as a constant. `cargo bench --bench compiled` measures
-//! the saving in a stage of a step: about a tenth with four clearances, half with one, and half with a flexible rod. A
-//! structure with a smaller saving does not belong here. Code for eight states is specialised only where steps in blocks
-//! are usual.
+//! state with derivatives. With a flexible rod they are compiled for two array sizes; few modes are computed in the arrays
+//! for many. If there is little to compute, the branches on the structure take about as long as the computation, and if
+//! the number of modes is unknown, arrays stay in memory. For the structures listed here, those of the usual studies, the
+//! same source is therefore compiled again with the structure as a constant. `cargo bench --bench compiled` measures the
+//! saving in a stage of a step: about a tenth with four clearances, half with one, and half with a flexible rod. A
+//! structure with a smaller saving does not belong here. What is specialised are the stages of a step, where the time
+//! goes; code for eight states only where steps in blocks are usual.
 //!
 //! The loop over the stages of a step is compiled together with the equations, so that the results of a stage do not
 //! pass through memory in other portions than they are read in.

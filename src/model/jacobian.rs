@@ -7,8 +7,8 @@ use crate::math::Real;
 /// Computes the rates of a state at a time, all with derivatives.
 pub type Rates<'a> = dyn Fn(Tangent, &[Tangent], &mut [Tangent]) + 'a;
 
-/// Writes the derivatives of the first `states` rates at `t` and `y` with respect to the first `moving` states and to
-/// time. The rates must not depend on the other states. `N` is the size of the arrays.
+/// Writes the derivatives of the first `states` rates at `t` and `y` with respect to the first `moving` states and, if the
+/// Jacobian has room for them, to time. The rates must not depend on the other states. `N` is the size of the arrays.
 pub fn differentiate<const N: usize>(
     states: usize,
     moving: usize,
@@ -21,10 +21,11 @@ pub fn differentiate<const N: usize>(
         jacobian.row_mut(i)[moving..states].fill(0.0);
     }
     let mut found = [Tangent::ZERO; N];
-    in_directions::<N>(moving, t, &y[..states], |first, t, at| {
+    let columns = moving + usize::from(!jacobian.time.is_empty());
+    in_directions::<N>(moving, columns, t, &y[..states], |first, t, at| {
         rates(t, at, &mut found[..states]);
         for (i, Tangent { slope, .. }) in found.iter().enumerate().take(states) {
-            for (column, slope) in (first..=moving).zip(slope) {
+            for (column, slope) in (first..columns).zip(slope) {
                 if column < moving {
                     jacobian.row_mut(i)[column] = *slope;
                 } else {
@@ -35,17 +36,18 @@ pub fn differentiate<const N: usize>(
     });
 }
 
-/// Calls `evaluate` with `t` and the states `y` for each group of directions: the first `moving` states, then time, which
-/// is the column after theirs. It gets the first column of the group, time and states. `N` is the size of the array.
+/// Calls `evaluate` with `t` and the states `y` for each group of the first `columns` directions: the first `moving` states,
+/// then time, which is the column after theirs. It gets the first column of the group, time and states. `N` is the size of the array.
 #[inline(always)]
 pub fn in_directions<const N: usize>(
     moving: usize,
+    columns: usize,
     t: f64,
     y: &[f64],
     mut evaluate: impl FnMut(usize, Tangent, &[Tangent]),
 ) {
     let mut at = [Tangent::ZERO; N];
-    for first in (0..=moving).step_by(DIRECTIONS) {
+    for first in (0..columns).step_by(DIRECTIONS) {
         let seed = |value: f64, column: usize| match column.checked_sub(first) {
             Some(direction) if direction < DIRECTIONS => Tangent::variable(value, direction),
             _ => Tangent::constant(value),

@@ -16,7 +16,8 @@ use std::path::PathBuf;
 /// Share of each scene's time that `--quick` runs.
 const QUICK: f64 = 0.1;
 /// Scenes whose tangent is timed, too.
-const WITH_TANGENT: [&str; 4] = ["02-one-play", "04-four-plays", "06-faces", "08-rod-4-modes"];
+const WITH_TANGENT: [&str; 4] =
+    ["effects/02-one-play", "effects/04-four-plays", "effects/06-faces", "effects/08-rod-4-modes"];
 
 /// Measures the cost of every effect: runs a series of scenes, each with one effect more than the scene before.
 ///

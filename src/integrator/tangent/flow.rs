@@ -22,9 +22,9 @@ const LEAST_GAIN: f64 = 0.25;
 /// … but for so many times.
 const MAX_STALLS: u32 = 2;
 /// Most iterations before the stages are found by elimination.
-const MAX_ITERATIONS: usize = 24;
+const MAX_ITERATIONS: usize = 60;
 /// Largest contraction of an iteration that goes on.
-const SLOWEST: f64 = 0.5;
+const SLOWEST: f64 = 0.8;
 /// Error of an iteration, as a share of the tolerance.
 const CONVERGED: f64 = 1e-2;
 /// Share of a step within which a corner is found.
@@ -136,7 +136,7 @@ impl Flow {
         let all = || std::array::from_fn(|_| zeros());
         Self {
             legendre: Legendre::new(),
-            jacobian: Jacobian::new(states),
+            jacobian: Jacobian::by_states(states),
             correction: Correction::new(states),
             turning: std::array::from_fn(|_| vec![0.0; states * states]),
             pushing: all(),
@@ -194,12 +194,6 @@ impl Flow {
                 let half = Part { start: middle, halvings: part.halvings + 1, error, stalls, ..part };
                 parts.extend([half, Part { start: part.start, end: middle, ..half }]);
                 continue;
-            }
-            if std::env::var("DBG").is_ok() && error > tolerance {
-                println!(
-                    "REST t {} h {:.2e} {:?} [{:.6} {:.6}] {} error {error:.1e} stalls {stalls} parent {:.1e}",
-                    step.t, step.h, path.roots, part.start, part.end, part.halvings, part.error
-                );
             }
             for (place, weight) in WEIGHTS.iter().enumerate() {
                 add(&mut self.before, *weight, &self.stages[place]);

@@ -137,7 +137,7 @@ impl Varied<'_> {
         let n = y.len();
         let empty = || Gradient { by_state: vec![0.0; n], by_time: 0.0, by_parameter: vec![] };
         let mut all: [[Gradient; 2]; CONTACTS] = std::array::from_fn(|_| [empty(), empty()]);
-        in_directions::<MAX_STATES>(n, t, y, |first, t, at| {
+        in_directions::<MAX_STATES>(n, n + 1, t, y, |first, t, at| {
             let pose = self.model.tangent_evaluation(conditions, t, at, &mut [Tangent::ZERO; MAX_STATES][..n]).pose;
             for (gradients, (depth, rate)) in all.iter_mut().zip(self.model.tangent_approaches(&pose)) {
                 for (gradient, number) in gradients.iter_mut().zip([depth, rate]) {
