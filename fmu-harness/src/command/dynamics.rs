@@ -3,7 +3,7 @@
 use super::{out_directory, shown};
 use crate::dynamics::bifurcation::{From, Range};
 use crate::dynamics::continuation::{Branch, Continuation};
-use crate::dynamics::orbit::PoincareMap;
+use crate::dynamics::poincare::PoincareMap;
 use crate::dynamics::portrait::Plan;
 use crate::host::Setting;
 use crate::report::dynamics as report;

@@ -9,6 +9,7 @@ pub mod exponents;
 pub mod lyapunov;
 pub mod machine;
 pub mod orbit;
+pub mod poincare;
 pub mod portrait;
 pub mod section;
 pub mod spectrum;
