@@ -11,6 +11,7 @@ pub mod machine;
 pub mod orbit;
 pub mod poincare;
 pub mod portrait;
+pub mod response;
 pub mod section;
 pub mod spectrum;
 pub mod tangent;

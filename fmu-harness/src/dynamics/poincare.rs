@@ -10,6 +10,7 @@
 
 use super::machine::{Simulated, start_values};
 use super::orbit::{Orbit, Return, ReturnMap, multipliers};
+use super::response::Response;
 use super::section::Visit;
 use super::tangent::{Tangent, all_states};
 use super::{Flow, Machine};
@@ -75,6 +76,16 @@ impl<'a> PoincareMap<'a> {
         file.scene.solver.tolerance = file.scene.solver.tolerance.min(TOLERANCE);
         file.scene.check()?;
         Ok(file)
+    }
+
+    /// The response of a periodic motion.
+    ///
+    /// # Errors
+    /// If it cannot run.
+    pub fn response(&self, orbit: &Orbit, response: &Response) -> Result<f64> {
+        let mut machine = Machine::start(&self.file(orbit.value)?)?;
+        machine.simulation.place(&orbit.phase);
+        response.of(&mut machine, orbit.turns)
     }
 
     /// Whether a number of phase space is free to change from one period to the next.

@@ -5,5 +5,6 @@ mod lorenz;
 mod maps;
 mod mechanism;
 mod oscillator;
+mod response;
 mod system;
 mod tangent;
