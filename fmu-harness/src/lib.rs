@@ -10,6 +10,7 @@ pub mod host;
 pub mod inputs;
 pub mod inspect;
 pub mod laws;
+pub mod output;
 pub mod package;
 pub mod peers;
 pub mod precision;

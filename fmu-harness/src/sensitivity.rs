@@ -8,10 +8,9 @@
 //! noticeable difference.
 
 use crate::dynamics::{Flow, Machine};
+use crate::output::Output;
 use crate::sweep::quantity::Reduction;
 use anyhow::{Context, Result, anyhow, bail, ensure};
-use slidercrank::fmi::slave::variables::{Access, VARIABLES};
-use slidercrank::model::signals::Outputs;
 use slidercrank::scene::parameter::{Kind, PARAMETERS, Parameter};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::variation::Seed;
@@ -44,8 +43,7 @@ pub enum At {
 pub struct Wanted {
     /// As it was written.
     pub text: String,
-    /// Output, or vector with the components x and y, whose length is taken.
-    of: Vec<fn(&Outputs) -> f64>,
+    of: Output,
     /// At a crank angle, or at all times.
     at: Option<At>,
     /// Reduction of many values to one.
@@ -57,32 +55,14 @@ impl FromStr for Wanted {
 
     fn from_str(text: &str) -> Result<Self> {
         let (rest, reduce) = match text.split_once(':') {
-            Some((rest, word)) => {
-                let reduce = serde_json::from_value(word.into()).map_err(|_| {
-                    anyhow!("`{word}` in `{text}` is no reduction: min, max, peak, range, mean, rms, deviation, last")
-                })?;
-                (rest, Some(reduce))
-            }
+            Some((rest, word)) => (rest, Some(word.parse().with_context(|| format!("in `{text}`"))?)),
             None => (text, None),
         };
         let (name, at) = match rest.split_once('@') {
             Some((name, place)) => (name, Some(place.parse::<At>().with_context(|| format!("in `{text}`"))?)),
             None => (rest, None),
         };
-        let output = |name: &str| {
-            VARIABLES.iter().find(|variable| variable.name == name).and_then(|variable| match variable.access {
-                Access::RealOutput(get) => Some(get),
-                _ => None,
-            })
-        };
-        let of = match output(name) {
-            Some(get) => vec![get],
-            None => ["x", "y"]
-                .iter()
-                .map(|axis| output(&format!("{name}.{axis}")))
-                .collect::<Option<_>>()
-                .with_context(|| format!("`{name}` is neither a real output nor a vector of two"))?,
-        };
+        let of = Output::named(name)?;
         Ok(Self { text: text.into(), of, at, reduce: reduce.unwrap_or(Reduction::Last) })
     }
 }
@@ -113,27 +93,6 @@ impl At {
             Self::Angle(angle) => angle,
             Self::OuterDeadCentre => (scene.guide.offset / (scene.rod.length + scene.crank.length)).asin(),
             Self::InnerDeadCentre => PI + (scene.guide.offset / (scene.rod.length - scene.crank.length)).asin(),
-        }
-    }
-}
-
-impl Wanted {
-    fn value(&self, outputs: &Outputs) -> f64 {
-        match self.of[..] {
-            [get] => get(outputs),
-            _ => self.of.iter().map(|get| get(outputs).powi(2)).sum::<f64>().sqrt(),
-        }
-    }
-
-    /// The derivative, given those of the outputs.
-    fn slope(&self, outputs: &Outputs, slopes: &Outputs) -> f64 {
-        match self.of[..] {
-            [get] => get(slopes),
-            _ => {
-                let length = self.value(outputs);
-                let product: f64 = self.of.iter().map(|get| get(outputs) * get(slopes)).sum();
-                if length > 0.0 { product / length } else { 0.0 }
-            }
         }
     }
 }
@@ -228,18 +187,18 @@ impl Experiment<'_> {
                     Ok(slopes) => Ok(slopes[..count]
                         .iter()
                         .map(|slopes| {
-                            let slope = wanted[i].slope(&outputs, slopes);
+                            let slope = wanted[i].of.slope(&outputs, slopes);
                             // At the same angle, which comes later by −δθ/θ̇.
                             let late = rates.as_ref().filter(|_| wanted[i].at.is_some());
                             let late = late.map_or(0.0, |rates| {
-                                wanted[i].slope(&outputs, rates) * slopes.crank.angle / outputs.crank.speed
+                                wanted[i].of.slope(&outputs, rates) * slopes.crank.angle / outputs.crank.speed
                             });
                             slope - late
                         })
                         .collect()),
                     Err(error) => Err(anyhow!("{error:#}")),
                 };
-                taken[i].push((wanted[i].value(&outputs), slopes));
+                taken[i].push((wanted[i].of.value(&outputs), slopes));
                 last[i] = time;
             }
         }
@@ -275,7 +234,7 @@ impl Experiment<'_> {
         for Sample { time, of } in samples(self, &file, wanted)? {
             machine.advance(time)?;
             let outputs = machine.outputs();
-            of.into_iter().for_each(|i| taken[i].push(wanted[i].value(&outputs)));
+            of.into_iter().for_each(|i| taken[i].push(wanted[i].of.value(&outputs)));
         }
         Ok(wanted.iter().zip(taken).map(|(wanted, values)| wanted.reduce.of(&values)).collect())
     }
@@ -358,7 +317,7 @@ fn extremum(file: &SceneFile, wanted: &Wanted, mut times: Vec<f64>, of: impl Fn(
         let mut largest = f64::NEG_INFINITY;
         for &time in &times {
             machine.advance(time)?;
-            let value = of(wanted.value(&machine.outputs()));
+            let value = of(wanted.of.value(&machine.outputs()));
             if value > largest {
                 (largest, best) = (value, time);
             }

@@ -1,17 +1,21 @@
 //! `dynamics`: classification of a motion over many turns.
 
 use super::{out_directory, shown};
-use crate::dynamics::bifurcation::{From, Range};
+use crate::dynamics::bifurcation::{Branch as Simulated, From, Range};
 use crate::dynamics::continuation::{Branch, Continuation};
-use crate::dynamics::orbit::PoincareMap;
+use crate::dynamics::orbit::Orbit;
+use crate::dynamics::poincare::PoincareMap;
 use crate::dynamics::portrait::Plan;
+use crate::dynamics::response::Response;
 use crate::host::Setting;
 use crate::report::dynamics as report;
+use crate::report::response::{Curves, Responses};
 use crate::report::table::Table;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::scene::Scene;
 use slidercrank::scene::parameter::Parameter;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +25,8 @@ use std::path::{Path, PathBuf};
 /// `--parameter` adds a bifurcation diagram over the range of a parameter. Runs in this process. The largest exponent is
 /// measured with a second, neighbouring motion; all of them are measured with the tangent of the motion, which is exact
 /// through impacts. With `--follow-orbit` the diagram shows branches of periodic motions, stable or not, with their
-/// folds, period doublings, Neimark-Sacker bifurcations and grazing. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
+/// folds, period doublings, Neimark-Sacker bifurcations and grazing. `--response` draws an output over the parameter:
+/// with `--up-and-down` the frequency response with its jumps. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
 /// with `--parameter` dynamics-SCENE-bifurcation.svg with data.
 #[derive(Args)]
 pub struct Dynamics {
@@ -67,6 +72,12 @@ pub struct Dynamics {
     /// Follow a branch: start each value from the end state of the value before, instead of the scene's start state
     #[arg(long)]
     follow: bool,
+    /// Run the values from the first to the last and back, each from the end state of the one before
+    #[arg(long, requires = "parameter", conflicts_with = "follow")]
+    up_and_down: bool,
+    /// Draw an output, reduced over whole turns, over the parameter, such as rod.deflection:peak or joint.C.force:range
+    #[arg(long, requires = "parameter", value_name = "OUTPUT:REDUCTION")]
+    response: Option<Response>,
     /// Follow the branch of periodic motions that begins at the first value, stable or not, through folds
     #[arg(long, requires = "parameter")]
     follow_orbit: bool,
@@ -119,38 +130,42 @@ impl Dynamics {
         }
         if let Some(range) = range {
             let plan = Plan { turns: self.value_turns as usize, tangent_turns: 0, ..plan };
-            let bar = ProgressBar::new(range.values.len() as u64).with_style(style).with_message("bifurcation");
-            let from = if self.follow { From::Before } else { From::Fresh };
-            let branches = range.branches(&scenario.file, &plan, from, || bar.inc(1))?;
-            bar.finish_and_clear();
-            let verdicts = report::verdicts(&range, &branches);
-            println!("{}", verdicts.print());
-            page += &format!("\n{}", verdicts.markdown());
-            tables.push(verdicts);
-            let orbits = if self.follow_orbit { self.orbits(&scenario, &plan, &range)? } else { vec![] };
-            if self.follow_orbit {
-                for table in [report::bifurcations(&range, &orbits), report::ends(&orbits)] {
-                    println!("{}", table.print());
-                    page += &format!("\n{}", table.markdown());
-                    tables.push(table);
-                }
-                let base = out.join(format!("dynamics-{name}-orbits"));
-                report::orbit_frame(&range, &orbits).save(&base)?;
-                written.extend(["csv", "parquet"].map(|ending| base.with_extension(ending)));
+            let diagram = self.diagram(&scenario, &plan, range, style)?;
+            for table in diagram.tables() {
+                println!("{}", table.print());
+                page += &format!("\n{}", table.markdown());
+                tables.push(table);
             }
-            let base = out.join(format!("dynamics-{name}-bifurcation"));
-            let sheet = report::bifurcation(name, scene, &range, &branches, &orbits);
-            written.push(write(&base, "svg", &sheet.svg()?)?);
-            report::bifurcation_frame(&range, &branches).save(&base)?;
-            written.extend(["csv", "parquet"].map(|ending| base.with_extension(ending)));
+            written.extend(diagram.write(&out, name, scene)?);
         }
         written.push(write(&base, "md", &page)?);
         written.iter().for_each(|file| println!("{}", shown(file)));
         Table::complete(&tables)
     }
 
-    /// Branches of periodic motions from the first value of the range on.
-    fn orbits(&self, scenario: &Scenario, plan: &Plan, range: &Range) -> Result<Vec<Branch>> {
+    /// Everything over the range of the parameter.
+    fn diagram(&self, scenario: &Scenario, plan: &Plan, range: Range, style: ProgressStyle) -> Result<Diagram> {
+        let ways = if self.up_and_down { 2 } else { 1 };
+        let bar = ProgressBar::new((ways * range.values.len()) as u64).with_style(style).with_message("bifurcation");
+        let tick = || bar.inc(1);
+        let (simulated, back) = if self.up_and_down {
+            let [there, back] = range.up_and_down(&scenario.file, plan, tick)?;
+            (there, back)
+        } else {
+            let from = if self.follow { From::Before } else { From::Fresh };
+            (range.branches(&scenario.file, plan, from, tick)?, vec![])
+        };
+        bar.finish_and_clear();
+        let mut diagram = Diagram { range, simulated, back, followed: None, responses: vec![] };
+        if self.follow_orbit {
+            self.orbits(scenario, plan, &mut diagram)?;
+        }
+        Ok(diagram)
+    }
+
+    /// Adds branches of periodic motions from the first value of the range on.
+    fn orbits(&self, scenario: &Scenario, plan: &Plan, diagram: &mut Diagram) -> Result<()> {
+        let Diagram { range, .. } = diagram;
         let parameter = Parameter::named(&range.name).context("a parameter")?;
         let (from, to) = (range.values[0], range.values[range.values.len() - 1]);
         let map = PoincareMap::new(&scenario.file, parameter, plan.section)?;
@@ -160,15 +175,83 @@ impl Dynamics {
         let branches = continuation.follow(start, |value| {
             bar.set_message(format!("branches: {} = {value:.5e}", range.name));
             bar.tick();
-        });
+        })?;
         bar.finish_and_clear();
-        branches
+        if let Some(response) = &range.response {
+            let of = |orbit: &Orbit| map.response(orbit, response).unwrap_or(f64::NAN);
+            let all = branches.iter().map(|branch| Responses {
+                motions: branch.orbits.iter().map(of).collect(),
+                found: branch.found.iter().map(|found| of(&found.orbit)).collect(),
+            });
+            diagram.responses = all.collect();
+        }
+        diagram.followed = Some(branches);
+        Ok(())
     }
 
     fn range(&self) -> Result<Option<Range>> {
         let Some(name) = &self.parameter else { return Ok(None) };
         let (from, to) = (self.from.context("--from is missing")?, self.to.context("--to is missing")?);
-        Range::new(name, from, to, self.values, self.logarithmic).map(Some)
+        let range = Range::new(name, from, to, self.values, self.logarithmic)?;
+        Ok(Some(Range { response: self.response.clone(), ..range }))
+    }
+}
+
+/// What is known over the range of a parameter.
+struct Diagram {
+    range: Range,
+    /// From the first value to the last, and back if that was asked for.
+    simulated: Vec<Simulated>,
+    back: Vec<Simulated>,
+    /// Branches of periodic motions, if they were asked for, and their responses.
+    followed: Option<Vec<Branch>>,
+    responses: Vec<Responses>,
+}
+
+impl Diagram {
+    fn followed(&self) -> &[Branch] {
+        self.followed.as_deref().unwrap_or_default()
+    }
+
+    fn curves(&self) -> Curves<'_> {
+        let Self { range, simulated, back, responses, .. } = self;
+        Curves { range, simulated: [simulated, back], followed: self.followed(), responses }
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut tables = vec![report::verdicts(&self.range, &self.simulated)];
+        if !self.back.is_empty() {
+            tables.push(report::verdicts(&self.range, &self.back));
+        }
+        if let Some(followed) = &self.followed {
+            tables.extend([report::bifurcations(&self.range, followed), report::ends(followed)]);
+        }
+        if self.range.response.is_some() && !self.back.is_empty() {
+            tables.push(self.curves().table());
+        }
+        tables
+    }
+
+    /// Writes figures and data of the scene `name`; the files.
+    fn write(&self, out: &Path, name: &str, scene: &Scene) -> Result<Vec<PathBuf>> {
+        let mut written = vec![];
+        let base = |part: &str| out.join(format!("dynamics-{name}-{part}"));
+        let simulated: Vec<&Simulated> = self.simulated.iter().chain(&self.back).collect();
+        let sheet = report::bifurcation(name, scene, &self.range, &simulated, self.followed());
+        written.push(write(&base("bifurcation"), "svg", &sheet.svg()?)?);
+        let mut frames = vec![("bifurcation", report::bifurcation_frame(&self.range, &simulated))];
+        if self.followed.is_some() {
+            frames.push(("orbits", report::orbit_frame(&self.range, self.followed())));
+        }
+        if self.range.response.is_some() {
+            written.push(write(&base("response"), "svg", &self.curves().sheet(name, scene).svg()?)?);
+            frames.push(("response", self.curves().frame()));
+        }
+        for (part, frame) in frames {
+            frame.save(&base(part))?;
+            written.extend(["csv", "parquet"].map(|ending| base(part).with_extension(ending)));
+        }
+        Ok(written)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Bifurcation diagrams: points of the Poincaré section as one parameter changes.
 
 use super::portrait::{Plan, noticed};
+use super::response::Response;
 use super::section::{Visit, stroboscope};
 use super::verdict::{Evidence, judge};
 use super::{Flow, Machine};
@@ -17,6 +18,8 @@ pub struct Range {
     pub name: String,
     /// Its values, in order.
     pub values: Vec<f64>,
+    /// The response that is measured at each value.
+    pub response: Option<Response>,
 }
 
 /// The start state of each value's run.
@@ -34,6 +37,8 @@ pub struct Branch {
     pub value: f64,
     /// Points and evidence, or the error that prevented them.
     pub outcome: Result<(Vec<Visit>, Evidence)>,
+    /// The response, if it was asked for.
+    pub response: Option<f64>,
 }
 
 impl Range {
@@ -61,7 +66,7 @@ impl Range {
                 from + share(i) * (to - from)
             }
         };
-        Ok(Self { name: name.into(), values: (0..count).map(value).collect() })
+        Ok(Self { name: name.into(), values: (0..count).map(value).collect(), response: None })
     }
 
     /// Runs all values. A run that fails does not stop the others.
@@ -69,37 +74,72 @@ impl Range {
     /// # Errors
     /// If the scene does not allow a value.
     pub fn branches(&self, file: &SceneFile, plan: &Plan, from: From, tick: impl Fn() + Sync) -> Result<Vec<Branch>> {
-        let files = self.values.iter().map(|value| self.applied(file, *value)).collect::<Result<Vec<_>>>()?;
-        let runs = self.values.iter().zip(&files);
-        Ok(match from {
+        match from {
+            From::Before => self.carried(file, plan, &mut None, self.values.iter().copied(), tick),
             From::Fresh => {
-                let runs: Vec<_> = runs.collect();
-                runs.into_par_iter()
-                    .map(|(value, file)| {
-                        let outcome = plan.settled(file).and_then(|machine| look(file, plan, machine));
-                        tick();
-                        Branch { value: *value, outcome: outcome.map(|(found, _)| found) }
-                    })
-                    .collect()
-            }
-            From::Before => {
-                let mut last: Option<Machine> = None;
-                let mut branches = Vec::new();
-                for (value, file) in runs {
-                    let started = match &mut last {
-                        None => plan.settled(file),
-                        Some(machine) => go_on(file, plan, machine),
-                    };
-                    let outcome = started.and_then(|machine| look(file, plan, machine)).map(|(found, end)| {
-                        last = Some(end);
-                        found
-                    });
-                    branches.push(Branch { value: *value, outcome });
+                let files = self.values.iter().map(|value| self.applied(file, *value)).collect::<Result<Vec<_>>>()?;
+                let runs: Vec<_> = self.values.iter().zip(&files).collect();
+                let run = |(value, file): (&f64, &SceneFile)| {
+                    let outcome = plan.settled(file).and_then(|machine| self.look(file, plan, machine));
                     tick();
-                }
-                branches
+                    Branch::of(*value, outcome).0
+                };
+                Ok(runs.into_par_iter().map(run).collect())
             }
-        })
+        }
+    }
+
+    /// Runs all values from the first to the last and back, each from the end state of the value before.
+    ///
+    /// # Errors
+    /// If the scene does not allow a value.
+    pub fn up_and_down(&self, file: &SceneFile, plan: &Plan, tick: impl Fn()) -> Result<[Vec<Branch>; 2]> {
+        let mut last = None;
+        let up = self.carried(file, plan, &mut last, self.values.iter().copied(), &tick)?;
+        let down = self.carried(file, plan, &mut last, self.values.iter().rev().copied(), &tick)?;
+        Ok([up, down])
+    }
+
+    /// Runs values one after the other, each from the end state of the one before.
+    fn carried(
+        &self,
+        file: &SceneFile,
+        plan: &Plan,
+        last: &mut Option<Machine>,
+        values: impl Iterator<Item = f64>,
+        tick: impl Fn(),
+    ) -> Result<Vec<Branch>> {
+        let mut branches = vec![];
+        for value in values {
+            let file = self.applied(file, value)?;
+            let started = match last {
+                None => plan.settled(&file),
+                Some(machine) => go_on(&file, plan, machine),
+            };
+            let (branch, end) = Branch::of(value, started.and_then(|machine| self.look(&file, plan, machine)));
+            if let Some(end) = end {
+                *last = Some(end);
+            }
+            branches.push(branch);
+            tick();
+        }
+        Ok(branches)
+    }
+
+    /// What is found from the state of a machine on, and the machine at its end.
+    fn look(&self, file: &SceneFile, plan: &Plan, mut machine: Machine) -> Result<(Look, Machine)> {
+        let begin = machine.point();
+        let visits = stroboscope(&mut machine, plan.section, plan.turns, || {})?;
+        machine.place(&begin);
+        let mut response = None;
+        if let Some(wanted) = &self.response {
+            response = Some(wanted.of(&mut machine, plan.turns)?);
+            machine.place(&begin);
+        }
+        let exponent = plan.exponent(file, &mut machine, || {})?;
+        let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(&file.scene, &visit.outputs)).collect();
+        let evidence = judge(&vectors, &exponent);
+        Ok((Look { visits, evidence, response }, machine))
     }
 
     /// The scene with this value of the parameter.
@@ -111,6 +151,25 @@ impl Range {
     }
 }
 
+/// What is found at one value.
+struct Look {
+    visits: Vec<Visit>,
+    evidence: Evidence,
+    response: Option<f64>,
+}
+
+impl Branch {
+    /// The results of a value, and the machine at the end of its run.
+    fn of(value: f64, outcome: Result<(Look, Machine)>) -> (Self, Option<Machine>) {
+        match outcome {
+            Ok((Look { visits, evidence, response }, end)) => {
+                (Self { value, outcome: Ok((visits, evidence)), response }, Some(end))
+            }
+            Err(error) => (Self { value, outcome: Err(error), response: None }, None),
+        }
+    }
+}
+
 /// A machine that starts from the state of another one, after its transient.
 fn go_on(file: &SceneFile, plan: &Plan, other: &mut Machine) -> Result<Machine> {
     let mut machine = Machine::start(file)?;
@@ -118,14 +177,4 @@ fn go_on(file: &SceneFile, plan: &Plan, other: &mut Machine) -> Result<Machine> 
     let turned = machine.turned();
     machine.advance_turned(turned + TAU * plan.transient as f64)?;
     Ok(machine)
-}
-
-fn look(file: &SceneFile, plan: &Plan, mut machine: Machine) -> Result<((Vec<Visit>, Evidence), Machine)> {
-    let begin = machine.point();
-    let visits = stroboscope(&mut machine, plan.section, plan.turns, || {})?;
-    machine.place(&begin);
-    let exponent = plan.exponent(file, &mut machine, || {})?;
-    let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(&file.scene, &visit.outputs)).collect();
-    let evidence = judge(&vectors, &exponent);
-    Ok(((visits, evidence), machine))
 }

@@ -2,19 +2,21 @@
 //! Applications of Bifurcation Theory, Academic Press 1977, 359; Yu. A. Kuznetsov, Elements of Applied Bifurcation
 //! Theory, Springer 2004, 10), and the points at which they change.
 
-use super::orbit::{Orbit, PoincareMap, Return, size};
+use super::orbit::{Orbit, Return, ReturnMap, size};
 use anyhow::{Context, Result, anyhow, bail};
 use nalgebra::{Complex, DMatrix, DVector};
 use std::fmt;
 
 /// [noticeable differences] A change of all unknowns that counts as much as the whole range of the parameter.
 const UNIT: f64 = 1000.0;
-/// Lengths of steps: the first, the shortest, the longest. The whole range has length 1.
+/// Lengths of steps: the first, the shortest, the longest, and the longest share of the parameter's range. The whole range
+/// has length 1.
 const FIRST: f64 = 0.01;
 const SHORTEST: f64 = 1e-5;
-const LONGEST: f64 = 0.05;
+const LONGEST: f64 = 0.2;
+const WIDEST: f64 = 0.05;
 /// Most points of a branch.
-const MOST: usize = 400;
+const MOST: usize = 1000;
 /// Most iterations of a corrector, and how many are few.
 const ITERATIONS: usize = 8;
 const FEW: usize = 3;
@@ -22,8 +24,10 @@ const FEW: usize = 3;
 const CLOSED: f64 = 1e-7;
 /// Share of the range within which the doubled branch begins.
 const NEAR: f64 = 0.02;
-/// Number of secant steps towards a bifurcation.
-const REFINEMENTS: usize = 5;
+/// Most steps of false position towards a bifurcation, most halvings towards grazing, and the test that is 0.
+const REFINEMENTS: usize = 12;
+const HALVINGS: usize = 40;
+const LOCATED: f64 = 1e-9;
 /// Lengths by which a branch is left for the doubled one; the first at which it is reached counts.
 const ASIDE: [f64; 5] = [3e-3, 1e-3, 1e-2, 3e-2, 1e-4];
 /// A multiplier whose imaginary part is less than this share of it is real.
@@ -44,14 +48,21 @@ pub enum Bifurcation {
     Grazing,
 }
 
-impl fmt::Display for Bifurcation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Bifurcation {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
             Self::Fold => "fold",
             Self::PeriodDoubling => "period doubling",
             Self::NeimarkSacker => "Neimark-Sacker",
             Self::Grazing => "grazing",
-        })
+        }
+    }
+}
+
+impl fmt::Display for Bifurcation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 
@@ -82,7 +93,7 @@ pub struct Branch {
 /// A parameter's range in which branches are followed.
 pub struct Continuation<'a> {
     /// The map.
-    pub map: &'a PoincareMap<'a>,
+    pub map: &'a dyn ReturnMap,
     /// Ends of the range.
     pub from: f64,
     /// See `from`.
@@ -148,8 +159,8 @@ impl Continuation<'_> {
         Ok(branches)
     }
 
-    fn name(&self) -> &'static str {
-        self.map.parameter.name
+    fn name(&self) -> &str {
+        self.map.name()
     }
 
     /// Change of the parameter whose length is 1.
@@ -159,7 +170,7 @@ impl Continuation<'_> {
 
     /// Follows a branch from one of its points until it leaves the range.
     fn branch(&self, start: Point, doubled: bool, tick: &mut impl FnMut(f64)) -> Branch {
-        let beginning = apart(&start.at.orbit);
+        let beginning = start.at.orbit.apart.clone();
         let mut branch = Branch {
             turns: start.at.orbit.turns,
             orbits: vec![start.at.orbit.clone()],
@@ -177,8 +188,8 @@ impl Continuation<'_> {
                     branch.orbits.push(next.at.orbit.clone());
                     tick(next.at.orbit.value);
                     point = next;
-                    let now = apart(&point.at.orbit);
-                    if doubled && branch.orbits.len() > 3 && (now * beginning < 0.0 || now.abs() < beginning.abs()) {
+                    let apart = point.at.orbit.apart.dot(&beginning);
+                    if doubled && branch.orbits.len() > 3 && apart < beginning.norm_squared() {
                         branch.end = format!("it meets a branch of {} turns", branch.turns / 2);
                         branch.meets = Some(point.at.orbit.value);
                         return branch;
@@ -189,6 +200,9 @@ impl Continuation<'_> {
                     }
                     if iterations <= FEW {
                         length = (1.5 * length).min(LONGEST);
+                    }
+                    if let Some(share) = point.along.as_slice().last() {
+                        length = length.min(WIDEST / share.abs());
                     }
                 }
                 Err(error) => {
@@ -269,55 +283,78 @@ impl Continuation<'_> {
     fn between(&self, before: &Point, after: &Point, length: f64) -> Vec<Found> {
         let [one, other] = [&before.at.orbit, &after.at.orbit];
         if one.events != other.events {
-            return vec![Found { kind: Bifurcation::Grazing, orbit: one.clone() }];
+            return vec![Found { kind: Bifurcation::Grazing, orbit: self.grazing(before, length) }];
         }
         let mut found = vec![];
         let n = before.along.len() - 1;
         if after.along.len() == n + 1 && before.along[n] * after.along[n] < 0.0 {
             found.push((Bifurcation::Fold, before.along[n], after.along[n]));
         }
-        for (kind, test) in [
-            (Bifurcation::PeriodDoubling, flip as fn(&Orbit) -> Option<f64>),
-            (Bifurcation::NeimarkSacker, pair as fn(&Orbit) -> Option<f64>),
-        ] {
-            if let (Some(a), Some(b)) = (test(one), test(other))
-                && a * b < 0.0
-            {
+        for (kind, test) in
+            [(Bifurcation::PeriodDoubling, flip as fn(&Orbit) -> f64), (Bifurcation::NeimarkSacker, pair)]
+        {
+            let (a, b) = (test(one), test(other));
+            if a * b < 0.0 {
                 found.push((kind, a, b));
             }
         }
         found
             .into_iter()
             .map(|(kind, a, b)| Found { kind, orbit: self.located(kind, before, [a, b], length) })
+            .filter(|found| found.kind != Bifurcation::NeimarkSacker || has_pair(&found.orbit))
             .collect()
     }
 
-    /// The motion at a bifurcation within `length` of a point, by the rule of false position; the point itself if it is not
-    /// reached. `ends` are the values of the test at both ends.
-    fn located(&self, kind: Bifurcation, before: &Point, ends: [f64; 2], length: f64) -> Orbit {
-        let n = before.along.len() - 1;
-        let (mut low, mut high) = ((0.0, ends[0]), (length, ends[1]));
-        let mut best = before.at.orbit.clone();
-        for _ in 0..REFINEMENTS {
-            let share = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-            let Ok((point, _)) = self.step(before, share) else { return best };
-            let test = match kind {
-                Bifurcation::Fold => Some(point.along[n]),
-                Bifurcation::PeriodDoubling => flip(&point.at.orbit),
-                _ => pair(&point.at.orbit),
-            };
-            let Some(test) = test else { return best };
-            best = point.at.orbit;
-            if test * low.1 > 0.0 {
-                low = (share, test)
-            } else {
-                high = (share, test)
+    /// The last motion within `length` of a point that has the same touches, found by halving.
+    fn grazing(&self, before: &Point, length: f64) -> Orbit {
+        let (mut low, mut high) = (0.0, length);
+        let mut last = before.at.orbit.clone();
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            // At grazing itself there is no derivative.
+            match self.step(before, middle) {
+                Ok((point, _)) if point.at.orbit.events == last.events => (low, last) = (middle, point.at.orbit),
+                _ => high = middle,
             }
-            if test.abs() < 1e-9 {
+            if high - low < LOCATED * length {
                 break;
             }
         }
-        best
+        last
+    }
+
+    /// The motion at a bifurcation within `length` of a point, by false position with the value at the end that stays halved
+    /// (M. Dowell, P. Jarratt, BIT 11 (1971) 168); the nearest motion if it is not reached. `ends` are the values of the test
+    /// at both ends.
+    fn located(&self, kind: Bifurcation, before: &Point, ends: [f64; 2], length: f64) -> Orbit {
+        let n = before.along.len() - 1;
+        let (mut low, mut high) = ((0.0, ends[0]), (length, ends[1]));
+        let mut best = (f64::INFINITY, before.at.orbit.clone());
+        let mut rose = None;
+        for _ in 0..REFINEMENTS {
+            let share = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            let Ok((point, _)) = self.step(before, share) else { break };
+            let test = match kind {
+                Bifurcation::Fold => point.along[n],
+                Bifurcation::PeriodDoubling => flip(&point.at.orbit),
+                _ => pair(&point.at.orbit),
+            };
+            if test.abs() < best.0 {
+                best = (test.abs(), point.at.orbit);
+            }
+            if test.abs() < LOCATED {
+                break;
+            }
+            let rises = test * low.1 > 0.0;
+            let halved = if rose == Some(rises) { 0.5 } else { 1.0 };
+            if rises {
+                (low, high.1) = ((share, test), high.1 * halved);
+            } else {
+                (high, low.1) = ((share, test), low.1 * halved);
+            }
+            rose = Some(rises);
+        }
+        best.1
     }
 
     /// A point of the branch of twice the period that begins at a motion with a multiplier of −1.
@@ -344,27 +381,32 @@ impl Continuation<'_> {
     }
 }
 
-/// Difference between the two halves of a period: 0 where a branch meets one of half its period.
-fn apart(orbit: &Orbit) -> f64 {
-    let speed = |place: usize| orbit.visits.get(place).map_or(f64::NAN, |visit| visit.outputs.slider.v);
-    speed(orbit.turns / 2) - speed(0)
-}
-
 /// Weight of the square of each of `n` unknowns in a length.
 fn weight(n: usize) -> f64 {
     1.0 / (n.max(1) as f64 * UNIT * UNIT)
 }
 
-/// 1 + μ of the real multiplier nearest to −1, which is 0 where a period doubles; `None` without real multipliers.
-fn flip(orbit: &Orbit) -> Option<f64> {
-    let real = orbit.multipliers.iter().filter(|multiplier| is_real(multiplier));
-    real.map(|multiplier| 1.0 + multiplier.re).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+/// Π(1 + μ), which changes its sign where one real multiplier passes −1.
+fn flip(orbit: &Orbit) -> f64 {
+    orbit.multipliers.iter().map(|multiplier| multiplier + 1.0).product::<Complex<f64>>().re
 }
 
-/// Modulus less 1 of the pair of complex multipliers nearest to the unit circle; `None` without pairs.
-fn pair(orbit: &Orbit) -> Option<f64> {
-    let pairs = orbit.multipliers.iter().filter(|multiplier| !is_real(multiplier));
-    pairs.map(|multiplier| multiplier.norm() - 1.0).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+/// Π(μ·ν − 1) over all pairs of multipliers, which changes its sign where a pair on the unit circle passes it, and where
+/// the product of two real ones passes 1 (Kuznetsov, 10.2).
+fn pair(orbit: &Orbit) -> f64 {
+    pairs(orbit).map(|[one, other]| one * other - 1.0).product::<Complex<f64>>().re
+}
+
+/// Whether the pair whose product is nearest to 1 is complex.
+fn has_pair(orbit: &Orbit) -> bool {
+    let miss = |[one, other]: &[Complex<f64>; 2]| (one * other - 1.0).norm();
+    pairs(orbit).min_by(|a, b| miss(a).total_cmp(&miss(b))).is_some_and(|[one, _]| !is_real(&one))
+}
+
+/// All pairs of multipliers.
+fn pairs(orbit: &Orbit) -> impl Iterator<Item = [Complex<f64>; 2]> {
+    let all = &orbit.multipliers;
+    (0..all.len()).flat_map(move |i| all[..i].iter().map(move |other| [all[i], *other]))
 }
 
 fn is_real(multiplier: &Complex<f64>) -> bool {

@@ -1,38 +1,17 @@
-//! Periodic motions: found by Newton's method on the Poincaré map with its exact Jacobian, with their Floquet
-//! multipliers.
-//!
-//! The section is passed once a turn of the crank. Of a crank with a prescribed speed the map is the motion over a time;
-//! of a free crank it is the motion to an angle, along which the neighbours come at other times: its Jacobian is that of
-//! the flow, projected along the motion onto the section (T. S. Parker, L. O. Chua, Practical Numerical Algorithms for
-//! Chaotic Systems, Springer 1989, 3.2 and 5).
-//!
-//! A contact that never opens keeps the approach speed of its last touch, whatever the motion is. That number is no
-//! unknown: there is a periodic motion for each.
+//! Periodic motions of a map that depends on one parameter: found by Newton's method with the map's exact Jacobian, with
+//! their Floquet multipliers (T. S. Parker, L. O. Chua, Practical Numerical Algorithms for Chaotic Systems, Springer
+//! 1989, 5).
 
-use super::machine::{Simulated, start_values};
 use super::section::Visit;
-use super::tangent::{Tangent, all_states};
-use super::{Flow, Machine};
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use nalgebra::{Complex, DMatrix, DVector};
-use slidercrank::model::coordinates::state_variables;
-use slidercrank::scene::parameter::{Kind, Parameter};
-use slidercrank::scene::profile::{Profile, ProfileArgument};
-use slidercrank::scene::read::SceneFile;
-use slidercrank::scene::{DriveMode, Scene};
-use slidercrank::simulation::variation::Seed;
-use slidercrank::simulation::{CONTACTS, Phase, Simulation};
-use std::f64::consts::TAU;
+use slidercrank::simulation::Phase;
 
 /// Most iterations of Newton's method, and most halvings of one of its steps.
 const MAX_ITERATIONS: usize = 25;
 const MAX_HALVINGS: usize = 8;
 /// Largest distance from the section's point after a period, in noticeable differences.
 const CLOSED: f64 = 1e-7;
-/// Tolerance of the motions.
-const TOLERANCE: f64 = 1e-10;
-/// What is neither 0 nor 1 in the row of an approach speed shows that the contact touched anew.
-const KEPT: f64 = 1e-9;
 
 /// A periodic motion.
 #[derive(Clone, Debug)]
@@ -41,11 +20,14 @@ pub struct Orbit {
     pub value: f64,
     /// Where it passes the section.
     pub phase: Phase,
-    /// Turns of the crank in one period.
+    /// Returns to the section in one period, which are turns of the crank.
     pub turns: usize,
     /// Floquet multipliers, the largest first.
     pub multipliers: Vec<Complex<f64>>,
-    /// Its passages through the section.
+    /// Its state after half of its returns less that at its start, in noticeable differences: 0 where the period is half as
+    /// long.
+    pub apart: DVector<f64>,
+    /// Its passages through the section, of a mechanism.
     pub visits: Vec<Visit>,
     /// Touches and partings in one period.
     pub events: i64,
@@ -63,7 +45,7 @@ impl Orbit {
     }
 }
 
-/// The Poincaré map at one point.
+/// A map at one point.
 pub struct Return {
     /// Image minus point, in noticeable differences, of the unknowns.
     pub miss: DVector<f64>,
@@ -77,127 +59,25 @@ pub struct Return {
     pub orbit: Orbit,
 }
 
-/// A scene whose periodic motions depend on one parameter.
-pub struct PoincareMap<'a> {
-    file: &'a SceneFile,
-    /// The parameter.
-    pub parameter: &'static Parameter,
-    /// [rad] Crank angle of the section, relative to the start angle.
-    section: f64,
-    /// Place of the crank angle among the states, if it is one.
-    crank_angle: Option<usize>,
-    seeds: Vec<Seed>,
-    /// Noticeable differences, those of the scene as it was given.
-    scales: Vec<f64>,
-}
+/// A map of a section onto itself that depends on one parameter.
+pub trait ReturnMap {
+    /// The parameter's name.
+    fn name(&self) -> &str;
 
-impl<'a> PoincareMap<'a> {
-    /// The map of a scene.
+    /// Noticeable differences of all numbers of phase space: states, then approach speeds.
+    fn scales(&self) -> &[f64];
+
+    /// The map of `turns` returns at `phase`.
     ///
     /// # Errors
-    /// If the parameter is not real or moves the section, or the inputs depend on time.
-    pub fn new(file: &'a SceneFile, parameter: &'static Parameter, section: f64) -> Result<Self> {
-        ensure!(matches!(parameter.kind, Kind::Real { .. }), "`{}` is not a real number", parameter.name);
-        ensure!(parameter.name != "crank.angle_start", "crank.angle_start moves the section and cannot be followed");
-        let by_time = |profile: &Profile| matches!(profile, Profile::Points { against: ProfileArgument::Time, .. });
-        ensure!(
-            !by_time(&file.inputs.crank_torque) && !by_time(&file.inputs.slider_load),
-            "inputs that depend on time have no periodic motions with the crank"
-        );
-        let crank_angle = state_variables(&file.scene).iter().position(|state| state.name.ends_with("crank.angle"));
-        let mut seeds = all_states(file)?;
-        seeds.extend((0..CONTACTS).map(Seed::Approach));
-        seeds.push(Seed::Parameter(parameter));
-        let scales = Simulation::start(&file.scene, start_values(file))?.phase_scales();
-        let scales = scales.states.into_iter().chain([scales.approach; CONTACTS]).collect();
-        Ok(Self { file, parameter, section, crank_angle, seeds, scales })
-    }
-
-    /// The scene with another value of the parameter, computed accurately.
-    ///
-    /// # Errors
-    /// If it is not allowed.
-    pub fn file(&self, value: f64) -> Result<SceneFile> {
-        let mut file = self.file.clone();
-        self.parameter.write(&mut file.scene, value)?;
-        file.scene.solver.tolerance = file.scene.solver.tolerance.min(TOLERANCE);
-        file.scene.check()?;
-        Ok(file)
-    }
-
-    /// The map of `turns` turns at `phase`.
-    ///
-    /// # Errors
-    /// If the motion cannot go on, comes near grazing, or does not have the same contacts closed after a period.
-    pub fn apply(&self, value: f64, phase: &Phase, turns: usize) -> Result<Return> {
-        let file = self.file(value)?;
-        let (scene, states) = (&file.scene, phase.states.len());
-        let mut machine = Machine::with_tangent(&file, &self.seeds)?;
-        let phase = self.placed(scene, phase);
-        machine.simulation.place(&phase);
-        let events = machine.outputs().solver.events;
-        let before = self.rates(&mut machine, states);
-        let mut visits = vec![];
-        for turn in 1..=turns {
-            machine.advance_turned(self.section + TAU * turn as f64)?;
-            visits.push(Visit { time: machine.time(), outputs: machine.outputs() });
-        }
-        let outputs = machine.outputs();
-        let time = machine.time();
-        let end = machine.simulation.phase();
-        let directions = machine.directions_in(&self.scales)?;
-        let after = self.rates(&mut machine, states);
-        let closed = |phase: &Phase| phase.approach.iter().map(Option::is_some).collect::<Vec<_>>();
-        ensure!(
-            closed(&phase) == closed(&end),
-            "other contacts are closed after {turns} turns; another section may do"
-        );
-
-        // All numbers of phase space, in noticeable differences.
-        let flat = |phase: &Phase| -> Vec<f64> {
-            let approach = phase.approach.iter().map(|speed| speed.unwrap_or_default());
-            phase.states.iter().copied().chain(approach).zip(&self.scales).map(|(value, scale)| value / scale).collect()
-        };
-        let (from, to) = (flat(&phase), flat(&end));
-        let rows = from.len();
-        let mut by_point = directions.columns(0, rows).into_owned();
-        // The seeds are in their own units.
-        for (column, scale) in self.scales.iter().enumerate() {
-            by_point.column_mut(column).scale_mut(*scale);
-        }
-        let mut by_parameter = directions.column(rows).into_owned();
-        let mut miss = DVector::from_fn(rows, |i, _| to[i] - from[i]);
-        if let Some(angle) = self.crank_angle {
-            // Along the motion onto the section.
-            let advance = TAU * turns as f64 * scene.crank.speed_start.signum() / self.scales[angle];
-            let late = (miss[angle] - advance) / after[angle];
-            miss.axpy(-late, &after, 1.0);
-            let row = by_point.row(angle).into_owned();
-            by_point.ger(-1.0 / after[angle], &after, &row.transpose(), 1.0);
-            let share = by_parameter[angle] / after[angle];
-            by_parameter.axpy(-share, &after, 1.0);
-        } else if self.parameter.name == "crank.speed_start" {
-            // The times at which the crank is at the section change, too.
-            let speed = scene.crank.speed_start;
-            let (start, end) = (-phase.time / speed, -time / speed);
-            by_parameter += &after * end - &by_point * &before * start;
-        }
-        let unknowns: Vec<usize> = (0..rows).filter(|&place| self.is_unknown(place, &phase, &by_point)).collect();
-        let part = |v: &DVector<f64>| DVector::from_iterator(unknowns.len(), unknowns.iter().map(|&place| v[place]));
-        let (miss, by_parameter) = (part(&miss), part(&by_parameter));
-        let by_unknowns = by_point.select_rows(&unknowns).select_columns(&unknowns);
-        let mut multipliers: Vec<Complex<f64>> = by_unknowns.complex_eigenvalues().iter().copied().collect();
-        multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
-        let events = i64::from(outputs.solver.events) - i64::from(events);
-        let orbit = Orbit { value, phase, turns, multipliers, visits, events };
-        Ok(Return { miss, by_unknowns, by_parameter, unknowns, orbit })
-    }
+    /// If the motion does not return, or has no derivatives.
+    fn apply(&self, value: f64, phase: &Phase, turns: usize) -> Result<Return>;
 
     /// The periodic motion near `phase` at a value of the parameter.
     ///
     /// # Errors
     /// If Newton's method does not find it.
-    pub fn solve(&self, value: f64, phase: &Phase, turns: usize) -> Result<Return> {
+    fn solve(&self, value: f64, phase: &Phase, turns: usize) -> Result<Return> {
         let mut at = self.apply(value, phase, turns)?;
         for _ in 0..MAX_ITERATIONS {
             if size(&at.miss) <= CLOSED {
@@ -206,33 +86,17 @@ impl<'a> PoincareMap<'a> {
             let n = at.unknowns.len();
             let matrix = DMatrix::identity(n, n) - &at.by_unknowns;
             let change = matrix.lu().solve(&at.miss).context("the Poincaré map has a multiplier of 1")?;
-            at = self.shorter(&at, |share| (value, &change * share))?;
+            at = shorter(self, &at, |share| (value, &change * share))?;
         }
         bail!("Newton's method does not converge: a period misses by {:.1e} noticeable differences", size(&at.miss))
     }
 
-    /// The longest of ever shorter steps after which the miss is smaller. `change` gives the parameter and the change of
-    /// the unknowns for a share of the step.
-    fn shorter(&self, at: &Return, change: impl Fn(f64) -> (f64, DVector<f64>)) -> Result<Return> {
-        let (mut share, mut failure) = (1.0, None);
-        for _ in 0..=MAX_HALVINGS {
-            let (value, change) = change(share);
-            match self.apply(value, &self.moved(&at.orbit.phase, &at.unknowns, &change), at.orbit.turns) {
-                Ok(next) if size(&next.miss) < size(&at.miss) && next.unknowns == at.unknowns => return Ok(next),
-                Ok(_) => {}
-                Err(error) => failure = Some(error),
-            }
-            share *= 0.5;
-        }
-        Err(failure.unwrap_or_else(|| anyhow::anyhow!("Newton's method does not converge: no step comes nearer")))
-    }
-
     /// A point whose unknowns differ by `change` [noticeable differences].
-    pub fn moved(&self, phase: &Phase, unknowns: &[usize], change: &DVector<f64>) -> Phase {
+    fn moved(&self, phase: &Phase, unknowns: &[usize], change: &DVector<f64>) -> Phase {
         let mut moved = phase.clone();
         let states = phase.states.len();
         for (&place, change) in unknowns.iter().zip(change.iter()) {
-            let change = change * self.scales[place];
+            let change = change * self.scales()[place];
             match place.checked_sub(states) {
                 None => moved.states[place] += change,
                 Some(contact) => {
@@ -243,42 +107,29 @@ impl<'a> PoincareMap<'a> {
         }
         moved
     }
+}
 
-    /// Whether a number of phase space is free to change from one period to the next.
-    fn is_unknown(&self, place: usize, phase: &Phase, by_point: &DMatrix<f64>) -> bool {
-        if Some(place) == self.crank_angle {
-            return false;
+/// The longest of ever shorter steps after which the miss is smaller. `change` gives the parameter and the change of
+/// the unknowns for a share of the step.
+fn shorter<M: ReturnMap + ?Sized>(map: &M, at: &Return, change: impl Fn(f64) -> (f64, DVector<f64>)) -> Result<Return> {
+    let (mut share, mut failure) = (1.0, None);
+    for _ in 0..=MAX_HALVINGS {
+        let (value, change) = change(share);
+        match map.apply(value, &map.moved(&at.orbit.phase, &at.unknowns, &change), at.orbit.turns) {
+            Ok(next) if size(&next.miss) < size(&at.miss) && next.unknowns == at.unknowns => return Ok(next),
+            Ok(_) => {}
+            Err(error) => failure = Some(error),
         }
-        let Some(contact) = place.checked_sub(phase.states.len()) else { return true };
-        let kept = by_point
-            .row(place)
-            .iter()
-            .enumerate()
-            .all(|(column, slope)| (slope - f64::from(u8::from(column == place))).abs() < KEPT);
-        phase.approach[contact].is_some() && !kept
+        share *= 0.5;
     }
+    Err(failure.unwrap_or_else(|| anyhow::anyhow!("Newton's method does not converge: no step comes nearer")))
+}
 
-    /// The point at the section's angle and its first time.
-    fn placed(&self, scene: &Scene, phase: &Phase) -> Phase {
-        let speed = scene.crank.speed_start;
-        let mut placed = phase.clone();
-        match self.crank_angle {
-            Some(angle) => {
-                placed.time = 0.0;
-                placed.states[angle] = scene.crank.angle_start + speed.signum() * self.section;
-            }
-            None => placed.time = self.section / speed.abs(),
-        }
-        debug_assert_eq!(self.crank_angle.is_none(), scene.drive.mode == DriveMode::Speed);
-        placed
-    }
-
-    /// Rates of all numbers of phase space, in noticeable differences per second.
-    fn rates(&self, machine: &mut Machine<Tangent>, states: usize) -> DVector<f64> {
-        let rates = machine.variation().rates();
-        let rates = rates.iter().take(states).zip(&self.scales).map(|(rate, scale)| rate / scale);
-        DVector::from_iterator(states + CONTACTS, rates.chain([0.0; CONTACTS]))
-    }
+/// Eigenvalues of a map's Jacobian, the largest first.
+pub fn multipliers(by_unknowns: &DMatrix<f64>) -> Vec<Complex<f64>> {
+    let mut multipliers: Vec<Complex<f64>> = by_unknowns.complex_eigenvalues().iter().copied().collect();
+    multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+    multipliers
 }
 
 /// Largest of some numbers.

@@ -2,7 +2,8 @@
 
 use super::exponents::{Exponents, Measurement};
 use super::lyapunov::{Exponent, Probe};
-use super::orbit::{PoincareMap, Return};
+use super::orbit::{Return, ReturnMap};
+use super::poincare::PoincareMap;
 use super::section::{Impact, Visit, impacts, stroboscope};
 use super::tangent::all_states;
 use super::verdict::{Evidence, Verdict, judge};

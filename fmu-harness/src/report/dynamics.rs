@@ -274,7 +274,7 @@ pub fn spectrum_frame(portrait: &Portrait) -> Frame {
 
 /// A bifurcation diagram over the parameter: slider velocity and a journal's position at every point of the section,
 /// and the exponent.
-pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch], orbits: &[Orbits]) -> Sheet {
+pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[&Branch], orbits: &[Orbits]) -> Sheet {
     let unit = match Parameter::named(&range.name).map(|parameter| &parameter.kind) {
         Some(Kind::Real { unit, .. }) => *unit,
         _ => "1",
@@ -305,7 +305,7 @@ pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[Branch
     panels.push(Panel {
         x_label: x_label.clone(),
         y_label: "largest exponent [1/s]".into(),
-        curves: vec![curve(Role::Limit, ends, Mark::Line), curve(Role::Actual, exponents, Mark::Line)],
+        curves: vec![curve(Role::Limit, ends, Mark::Path), curve(Role::Actual, exponents, Mark::Path)],
         square: false,
     });
     let upper = panels.len() - 1;
@@ -400,7 +400,7 @@ pub fn orbit_frame(range: &Range, branches: &[Orbits]) -> Frame {
 }
 
 /// All points of the section for all values as columns.
-pub fn bifurcation_frame(range: &Range, branches: &[Branch]) -> Frame {
+pub fn bifurcation_frame(range: &Range, branches: &[&Branch]) -> Frame {
     let mut rows: Vec<(f64, Visit)> = Vec::new();
     let mut verdicts = Vec::new();
     for branch in branches {

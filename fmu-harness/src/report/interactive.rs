@@ -129,7 +129,7 @@ fn bound(points: &[(f64, f64)], label: &str) -> Box<Scatter<f32, f32>> {
 fn drawn(curve: &Curve) -> Vec<(f64, f64)> {
     match curve.mark {
         Mark::Line => thinned(&curve.points, MOST_POINTS),
-        Mark::Path | Mark::Dots => {
+        _ => {
             let every = curve.points.len().div_ceil(MOST_POINTS).max(1);
             curve.points.iter().step_by(every).copied().collect()
         }
@@ -137,7 +137,10 @@ fn drawn(curve: &Curve) -> Vec<(f64, f64)> {
 }
 
 fn mode(mark: Mark) -> Mode {
-    if mark == Mark::Dots { Mode::Markers } else { Mode::Lines }
+    match mark {
+        Mark::Line | Mark::Path | Mark::Dashes => Mode::Lines,
+        Mark::Dots | Mark::Up | Mark::Down | Mark::Named(_) => Mode::Markers,
+    }
 }
 
 /// Numbers rounded to seven digits, enough for a screen.

@@ -19,6 +19,7 @@ pub mod plot;
 pub mod precision;
 pub mod price;
 pub mod realtime;
+pub mod response;
 pub mod sensitivity;
 pub mod ssp;
 pub mod study;

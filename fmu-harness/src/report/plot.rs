@@ -3,6 +3,7 @@
 use super::thinning::thinned;
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use std::ops::Range;
 
@@ -12,6 +13,10 @@ pub(super) const FINE: u32 = 8;
 const MOST_POINTS: usize = 4000;
 /// [drawing units] Radius of a dot.
 const DOT: u32 = 9;
+/// [pixel] Half the size of a symbol.
+const SYMBOL: i32 = 4;
+/// [pixel] Lengths of a dash and of the space behind it.
+const DASH: [u32; 2] = [9, 5];
 /// [pixel] Space for numbers and names of the axes.
 const LABELS: (u32, u32) = (40, 74);
 /// [pixel] Height of the sheet's title with its legend.
@@ -108,8 +113,16 @@ pub enum Mark {
     Line,
     /// A line in any direction.
     Path,
+    /// A line in any direction, dashed.
+    Dashes,
     /// A dot at each point.
     Dots,
+    /// A hollow triangle at each point that points upwards.
+    Up,
+    /// A hollow triangle at each point that points downwards.
+    Down,
+    /// A ring at each point with this name beside it.
+    Named(&'static str),
 }
 
 /// One coordinate system. Curves are drawn in their order, the last one on top.
@@ -238,17 +251,49 @@ impl Paint for Panel {
             .y_desc(self.y_label.as_str())
             .draw()?;
         for curve in &self.curves {
-            if curve.mark == Mark::Dots {
-                let dot = |point: &(f64, f64)| Circle::new(*point, DOT, curve.role.style().filled());
-                chart.draw_series(curve.points.iter().map(dot))?;
-                continue;
-            }
-            let points =
-                if curve.mark == Mark::Path { curve.points.clone() } else { thinned(&curve.points, MOST_POINTS) };
-            chart.draw_series(LineSeries::new(points, curve.role.style()))?;
+            curve.draw(&mut chart)?;
         }
         Ok(())
     }
+}
+
+/// The coordinate system of a panel.
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+impl Curve {
+    fn draw(&self, chart: &mut Chart<'_, '_>) -> Drawn {
+        let style = self.role.style();
+        let points = self.points.iter().copied();
+        match self.mark {
+            Mark::Line => chart.draw_series(LineSeries::new(thinned(&self.points, MOST_POINTS), style)).map(drop)?,
+            Mark::Path => chart.draw_series(LineSeries::new(points, style)).map(drop)?,
+            Mark::Dashes => {
+                let [dash, space] = DASH.map(|pixels| pixels * FINE);
+                chart.draw_series(DashedLineSeries::new(points, dash, space, style)).map(drop)?;
+            }
+            Mark::Dots => chart.draw_series(points.map(|at| Circle::new(at, DOT, style.filled()))).map(drop)?,
+            Mark::Up | Mark::Down => {
+                let corners = triangle(self.mark == Mark::Up);
+                let symbol = |at| EmptyElement::at(at) + PathElement::new(corners.to_vec(), style);
+                chart.draw_series(points.map(symbol)).map(drop)?;
+            }
+            Mark::Named(name) => {
+                let reach = SYMBOL * FINE as i32;
+                let symbol = |at| {
+                    let ring = Circle::new((0, 0), reach, style);
+                    EmptyElement::at(at) + ring + Text::new(name, (2 * reach, -2 * reach), font(13.0))
+                };
+                chart.draw_series(points.map(symbol)).map(drop)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// [drawing units] Corners of a triangle about a point, the first one again at the end.
+fn triangle(upwards: bool) -> [(i32, i32); 4] {
+    let reach = if upwards { SYMBOL } else { -SYMBOL } * FINE as i32;
+    [(0, -reach), (reach, reach * 2 / 3), (-reach, reach * 2 / 3), (0, -reach)]
 }
 
 /// Range of the numbers; an arbitrary range if there are none.

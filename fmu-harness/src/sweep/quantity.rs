@@ -2,9 +2,10 @@
 
 use crate::run::ANGLE;
 use crate::trajectory::Trajectory;
-use anyhow::{Result, ensure};
+use anyhow::{Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
+use std::str::FromStr;
 
 /// A quantity that is kept.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -38,6 +39,15 @@ pub enum Reduction {
     Deviation,
     /// Last value.
     Last,
+}
+
+impl FromStr for Reduction {
+    type Err = anyhow::Error;
+
+    fn from_str(word: &str) -> Result<Self> {
+        serde_json::from_value(word.into())
+            .map_err(|_| anyhow!("`{word}` is no reduction: min, max, peak, range, mean, rms, deviation, last"))
+    }
 }
 
 impl Quantity {

@@ -14,9 +14,9 @@ use slidercrank::integrator::{
 use std::f64::consts::{PI, TAU};
 
 /// Restitution.
-const E: f64 = 0.9;
+pub const E: f64 = 0.9;
 /// Gravity; the table's period is 1.
-const G: f64 = 1.0;
+pub const G: f64 = 1.0;
 
 struct Ball {
     /// Γ = Aω²/g.
@@ -78,7 +78,7 @@ impl Events for Ball {
 }
 
 /// Γ at which the period doubles.
-fn doubling() -> f64 {
+pub fn doubling() -> f64 {
     (PI * (1.0 - E) / (1.0 + E)).hypot(2.0 * (1.0 + E * E) / (1.0 + E).powi(2))
 }
 

@@ -1,7 +1,10 @@
-//! Sections, exponents and verdicts, on motions whose answers are known.
+//! Sections, exponents, verdicts and branches, on motions whose answers are known.
 
 mod ball;
 mod lorenz;
+mod maps;
 mod mechanism;
+mod oscillator;
+mod response;
 mod system;
 mod tangent;

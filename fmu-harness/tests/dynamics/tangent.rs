@@ -3,7 +3,8 @@
 use super::lorenz::Lorenz;
 use anyhow::Result;
 use fmu_harness::dynamics::exponents::{Measurement, TangentFlow};
-use fmu_harness::dynamics::orbit::PoincareMap;
+use fmu_harness::dynamics::orbit::ReturnMap;
+use fmu_harness::dynamics::poincare::PoincareMap;
 use fmu_harness::dynamics::portrait::Plan;
 use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;

@@ -1,0 +1,51 @@
+//! How strongly a motion responds: an output over whole turns, reduced to one number.
+
+use super::Machine;
+use crate::output::Output;
+use crate::sweep::quantity::Reduction;
+use anyhow::{Context, Result};
+use std::f64::consts::TAU;
+use std::str::FromStr;
+
+/// Samples per turn.
+const SAMPLES: usize = 500;
+
+/// A reduced output, such as `rod.deflection:peak`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// As it was written.
+    pub text: String,
+    output: Output,
+    reduce: Reduction,
+}
+
+impl FromStr for Response {
+    type Err = anyhow::Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let (name, word) = text.split_once(':').unwrap_or((text, "peak"));
+        let reduce = word.parse().with_context(|| format!("in `{text}`"))?;
+        Ok(Self { text: text.into(), output: Output::named(name)?, reduce })
+    }
+}
+
+impl Response {
+    /// The name of the output.
+    pub fn name(&self) -> &str {
+        self.text.split_once(':').map_or(self.text.as_str(), |(name, _)| name)
+    }
+
+    /// Its value over the next turns of a machine.
+    ///
+    /// # Errors
+    /// If the machine cannot go on.
+    pub fn of(&self, machine: &mut Machine, turns: usize) -> Result<f64> {
+        let start = machine.turned();
+        let mut values = Vec::with_capacity(turns * SAMPLES);
+        for sample in 1..=turns * SAMPLES {
+            machine.advance_turned(start + TAU * sample as f64 / SAMPLES as f64)?;
+            values.push(self.output.value(&machine.outputs()));
+        }
+        Ok(self.reduce.of(&values))
+    }
+}

@@ -1,0 +1,55 @@
+//! Outputs by name.
+
+use anyhow::{Context, Result};
+use slidercrank::fmi::slave::variables::{Access, VARIABLES};
+use slidercrank::model::signals::Outputs;
+
+/// A real output, or a vector with the components x and y, whose length is taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    components: Vec<fn(&Outputs) -> f64>,
+}
+
+impl Output {
+    /// The output of a name, such as `slider.a` or `joint.C.force`.
+    ///
+    /// # Errors
+    /// If there is no such real output.
+    pub fn named(name: &str) -> Result<Self> {
+        let output = |name: &str| {
+            VARIABLES.iter().find(|variable| variable.name == name).and_then(|variable| match variable.access {
+                Access::RealOutput(get) => Some(get),
+                _ => None,
+            })
+        };
+        let components = match output(name) {
+            Some(get) => vec![get],
+            None => ["x", "y"]
+                .iter()
+                .map(|axis| output(&format!("{name}.{axis}")))
+                .collect::<Option<_>>()
+                .with_context(|| format!("`{name}` is neither a real output nor a vector of two"))?,
+        };
+        Ok(Self { components })
+    }
+
+    /// Its value.
+    pub fn value(&self, outputs: &Outputs) -> f64 {
+        match self.components[..] {
+            [get] => get(outputs),
+            _ => self.components.iter().map(|get| get(outputs).powi(2)).sum::<f64>().sqrt(),
+        }
+    }
+
+    /// Its derivative, given those of the outputs.
+    pub fn slope(&self, outputs: &Outputs, slopes: &Outputs) -> f64 {
+        match self.components[..] {
+            [get] => get(slopes),
+            _ => {
+                let length = self.value(outputs);
+                let product: f64 = self.components.iter().map(|get| get(outputs) * get(slopes)).sum();
+                if length > 0.0 { product / length } else { 0.0 }
+            }
+        }
+    }
+}
