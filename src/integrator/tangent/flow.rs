@@ -171,7 +171,8 @@ impl Flow {
     /// its first rows, memories below.
     pub fn advance<D: Copy>(&mut self, path: &Path<'_, D>, [from, to]: [f64; 2], tangents: &mut DMatrix<f64>) {
         let Path { system, discrete, step, tolerance, .. } = *path;
-        if step.h == 0.0 || from >= to {
+        // A prescribed motion without play has no states.
+        if step.h == 0.0 || from >= to || step.layout.states == 0 {
             return;
         }
         self.select(path, tangents);
@@ -194,12 +195,6 @@ impl Flow {
                 let half = Part { start: middle, halvings: part.halvings + 1, error, stalls, ..part };
                 parts.extend([half, Part { start: part.start, end: middle, ..half }]);
                 continue;
-            }
-            if std::env::var("DBG").is_ok() && error > tolerance {
-                println!(
-                    "REST t {} h {:.2e} {:?} [{:.6} {:.6}] {} error {error:.1e} stalls {stalls} parent {:.1e}",
-                    step.t, step.h, path.roots, part.start, part.end, part.halvings, part.error
-                );
             }
             for (place, weight) in WEIGHTS.iter().enumerate() {
                 add(&mut self.before, *weight, &self.stages[place]);
