@@ -8,10 +8,10 @@
 //! noticeable difference.
 
 use crate::dynamics::{Flow, Machine};
-use crate::sweep::quantity::Reduction;
+use crate::sweep::quantity::{Quantity, Reduction};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
-use slidercrank::model::signals::Outputs;
+use slidercrank::model::signals::{IntervalOutputs, Outputs};
 use slidercrank::scene::parameter::{Kind, PARAMETERS, Parameter};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::variation::Seed;
@@ -25,6 +25,8 @@ const ROUNDS: usize = 4;
 const TIMES: usize = 12;
 /// Samples per turn of a mean.
 const MEAN_SAMPLES: f64 = 200.0;
+/// Turns that count as rounding.
+const SAME_TURN: f64 = 1e-9;
 /// Tolerance of the motions.
 const TOLERANCE: f64 = 1e-9;
 
@@ -69,22 +71,46 @@ impl FromStr for Wanted {
             Some((name, place)) => (name, Some(place.parse::<At>().with_context(|| format!("in `{text}`"))?)),
             None => (rest, None),
         };
-        let output = |name: &str| {
-            VARIABLES.iter().find(|variable| variable.name == name).and_then(|variable| match variable.access {
-                Access::RealOutput(get) => Some(get),
-                _ => None,
-            })
-        };
-        let of = match output(name) {
-            Some(get) => vec![get],
-            None => ["x", "y"]
-                .iter()
-                .map(|axis| output(&format!("{name}.{axis}")))
-                .collect::<Option<_>>()
-                .with_context(|| format!("`{name}` is neither a real output nor a vector of two"))?,
-        };
+        let of = components(name)?;
         Ok(Self { text: text.into(), of, at, reduce: reduce.unwrap_or(Reduction::Last) })
     }
+}
+
+/// The output of this name, or the components x and y of the vector of this name.
+fn components(name: &str) -> Result<Vec<fn(&Outputs) -> f64>> {
+    let output = |name: &str| {
+        VARIABLES.iter().find(|variable| variable.name == name).and_then(|variable| match variable.access {
+            Access::RealOutput(get) => Some(get),
+            _ => None,
+        })
+    };
+    let of = match output(name) {
+        Some(get) => vec![get],
+        None => ["x", "y"]
+            .iter()
+            .map(|axis| output(&format!("{name}.{axis}")))
+            .collect::<Option<_>>()
+            .with_context(|| format!("`{name}` is neither a real output nor a vector of two"))?,
+    };
+    ensure!(!of.iter().any(|get| is_of_an_interval(*get)), "`{name}` tells of an interval, and has no derivative");
+    Ok(of)
+}
+
+/// Whether an output tells what happened since an earlier communication point.
+fn is_of_an_interval(get: fn(&Outputs) -> f64) -> bool {
+    let mut outputs = Outputs::default();
+    for joint in 0..4 {
+        let not_a_number = f64::NAN;
+        *outputs.interval_mut(joint) = IntervalOutputs {
+            impact_speed: not_a_number,
+            force_peak: not_a_number,
+            friction_work: not_a_number,
+            sliding: not_a_number,
+            wear_work: not_a_number,
+            ..IntervalOutputs::default()
+        };
+    }
+    get(&outputs).is_nan()
 }
 
 impl FromStr for At {
@@ -118,6 +144,15 @@ impl At {
 }
 
 impl Wanted {
+    /// A quantity that a study keeps under this name.
+    ///
+    /// # Errors
+    /// If it has no derivative.
+    pub fn kept(name: &str, quantity: &Quantity) -> Result<Self> {
+        let Quantity { of, reduce, at } = quantity;
+        Ok(Self { text: name.into(), of: components(of)?, at: at.map(At::Angle), reduce: *reduce })
+    }
+
     fn value(&self, outputs: &Outputs) -> f64 {
         match self.of[..] {
             [get] => get(outputs),
@@ -182,6 +217,8 @@ pub struct Sensitivities {
     pub reach: Vec<f64>,
     /// [1/s] Mean rate at which neighbouring motions part over the run.
     pub growth: f64,
+    /// [s] The end of the run.
+    pub time: f64,
 }
 
 /// A run whose quantities are differentiated.
@@ -261,7 +298,7 @@ impl Experiment<'_> {
         });
         let rows = rows.collect();
         let values = parameters.iter().map(|parameter| parameter.value(&file.scene)).collect();
-        Ok(Sensitivities { parameters: parameters.to_vec(), values, rows, reach, growth })
+        Ok(Sensitivities { parameters: parameters.to_vec(), values, rows, reach, growth, time: machine.time() })
     }
 
     /// The quantities alone, for a scene with other parameters.
@@ -298,7 +335,10 @@ fn samples(of: &Experiment<'_>, file: &SceneFile, wanted: &[Wanted]) -> Result<V
             (0..=count).map(move |k| begin + (end - begin) * k as f64 / count as f64)
         };
         match (wanted.at, wanted.reduce) {
-            (Some(at), _) => samples.extend(passages(file, at.angle(file), [begin, end])?.into_iter().map(|t| (t, i))),
+            (Some(at), _) => {
+                let passages = passages(file, at.angle(file), [of.transient, of.turns])?;
+                samples.extend(passages.into_iter().map(|time| (time, i)));
+            }
             (None, Reduction::Last) => samples.push((end, i)),
             (None, Reduction::Mean | Reduction::Rms | Reduction::Deviation) => {
                 samples.extend(grid(MEAN_SAMPLES).map(|time| (time, i)));
@@ -329,21 +369,17 @@ fn samples(of: &Experiment<'_>, file: &SceneFile, wanted: &[Wanted]) -> Result<V
     Ok(grouped)
 }
 
-/// The times [s] between `begin` and `end` at which the crank passes an angle [rad].
+/// The times [s] at which the crank passes an angle [rad] after `begin` turns, until it has made `end` turns.
 fn passages(file: &SceneFile, angle: f64, [begin, end]: [f64; 2]) -> Result<Vec<f64>> {
     let mut machine = Machine::start(file)?;
     let sign = file.scene.crank.speed_start.signum();
-    // Turned since the start, in the direction of rotation.
-    let first = (sign * (angle - file.scene.crank.angle_start)).rem_euclid(TAU);
+    // Turned since the start, in the direction of rotation; a passage at an end of the window is that of its last turn.
+    let first = (sign * (angle - file.scene.crank.angle_start)).rem_euclid(TAU) / TAU;
+    let counts = |turned: f64| turned > begin + SAME_TURN && turned < end + SAME_TURN;
     let mut times = vec![];
-    for turn in 0.. {
-        machine.advance_turned(first + TAU * f64::from(turn))?;
-        if machine.time() > end {
-            break;
-        }
-        if machine.time() >= begin {
-            times.push(machine.time());
-        }
+    for turned in (0..=end.ceil() as u32).map(|turn| first + f64::from(turn)).filter(|turned| counts(*turned)) {
+        machine.advance_turned(TAU * turned)?;
+        times.push(machine.time());
     }
     ensure!(!times.is_empty(), "the crank does not pass {:.1}° in the turns that count", angle.to_degrees());
     Ok(times)

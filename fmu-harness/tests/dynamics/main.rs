@@ -1,6 +1,7 @@
 //! Sections, exponents and verdicts, on motions whose answers are known.
 
 mod ball;
+mod linear;
 mod lorenz;
 mod mechanism;
 mod system;
