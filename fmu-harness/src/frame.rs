@@ -87,6 +87,14 @@ impl Frame {
         &self.columns
     }
 
+    /// The values of a column of real numbers; `None` if there is no such column.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.columns.iter().find_map(|(own, column)| match column {
+            Column::Reals(values) if own == name => Some(values.as_slice()),
+            _ => None,
+        })
+    }
+
     /// Writes `FILE.csv` and `FILE.parquet`.
     ///
     /// # Errors

@@ -9,7 +9,7 @@
 
 use crate::dynamics::{Flow, Machine};
 use crate::output::Output;
-use crate::sweep::quantity::Reduction;
+use crate::sweep::quantity::{Quantity, Reduction};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use slidercrank::scene::parameter::{Kind, PARAMETERS, Parameter};
 use slidercrank::scene::read::SceneFile;
@@ -24,6 +24,8 @@ const ROUNDS: usize = 4;
 const TIMES: usize = 12;
 /// Samples per turn of a mean.
 const MEAN_SAMPLES: f64 = 200.0;
+/// Turns that count as rounding.
+const SAME_TURN: f64 = 1e-9;
 /// Tolerance of the motions.
 const TOLERANCE: f64 = 1e-9;
 
@@ -62,9 +64,16 @@ impl FromStr for Wanted {
             Some((name, place)) => (name, Some(place.parse::<At>().with_context(|| format!("in `{text}`"))?)),
             None => (rest, None),
         };
-        let of = Output::named(name)?;
+        let of = differentiable(name)?;
         Ok(Self { text: text.into(), of, at, reduce: reduce.unwrap_or(Reduction::Last) })
     }
+}
+
+/// The output of this name, if it has a derivative.
+fn differentiable(name: &str) -> Result<Output> {
+    let output = Output::named(name)?;
+    ensure!(!output.is_of_an_interval(), "`{name}` tells of an interval, and has no derivative");
+    Ok(output)
 }
 
 impl FromStr for At {
@@ -94,6 +103,17 @@ impl At {
             Self::OuterDeadCentre => (scene.guide.offset / (scene.rod.length + scene.crank.length)).asin(),
             Self::InnerDeadCentre => PI + (scene.guide.offset / (scene.rod.length - scene.crank.length)).asin(),
         }
+    }
+}
+
+impl Wanted {
+    /// A quantity that a study keeps under this name.
+    ///
+    /// # Errors
+    /// If it has no derivative.
+    pub fn kept(name: &str, quantity: &Quantity) -> Result<Self> {
+        let Quantity { of, reduce, at } = quantity;
+        Ok(Self { text: name.into(), of: differentiable(of)?, at: at.map(At::Angle), reduce: *reduce })
     }
 }
 
@@ -141,6 +161,8 @@ pub struct Sensitivities {
     pub reach: Vec<f64>,
     /// [1/s] Mean rate at which neighbouring motions part over the run.
     pub growth: f64,
+    /// [s] The end of the run.
+    pub time: f64,
 }
 
 /// A run whose quantities are differentiated.
@@ -220,7 +242,7 @@ impl Experiment<'_> {
         });
         let rows = rows.collect();
         let values = parameters.iter().map(|parameter| parameter.value(&file.scene)).collect();
-        Ok(Sensitivities { parameters: parameters.to_vec(), values, rows, reach, growth })
+        Ok(Sensitivities { parameters: parameters.to_vec(), values, rows, reach, growth, time: machine.time() })
     }
 
     /// The quantities alone, for a scene with other parameters.
@@ -257,7 +279,10 @@ fn samples(of: &Experiment<'_>, file: &SceneFile, wanted: &[Wanted]) -> Result<V
             (0..=count).map(move |k| begin + (end - begin) * k as f64 / count as f64)
         };
         match (wanted.at, wanted.reduce) {
-            (Some(at), _) => samples.extend(passages(file, at.angle(file), [begin, end])?.into_iter().map(|t| (t, i))),
+            (Some(at), _) => {
+                let passages = passages(file, at.angle(file), [of.transient, of.turns])?;
+                samples.extend(passages.into_iter().map(|time| (time, i)));
+            }
             (None, Reduction::Last) => samples.push((end, i)),
             (None, Reduction::Mean | Reduction::Rms | Reduction::Deviation) => {
                 samples.extend(grid(MEAN_SAMPLES).map(|time| (time, i)));
@@ -288,21 +313,17 @@ fn samples(of: &Experiment<'_>, file: &SceneFile, wanted: &[Wanted]) -> Result<V
     Ok(grouped)
 }
 
-/// The times [s] between `begin` and `end` at which the crank passes an angle [rad].
+/// The times [s] at which the crank passes an angle [rad] after `begin` turns, until it has made `end` turns.
 fn passages(file: &SceneFile, angle: f64, [begin, end]: [f64; 2]) -> Result<Vec<f64>> {
     let mut machine = Machine::start(file)?;
     let sign = file.scene.crank.speed_start.signum();
-    // Turned since the start, in the direction of rotation.
-    let first = (sign * (angle - file.scene.crank.angle_start)).rem_euclid(TAU);
+    // Turned since the start, in the direction of rotation; a passage at an end of the window is that of its last turn.
+    let first = (sign * (angle - file.scene.crank.angle_start)).rem_euclid(TAU) / TAU;
+    let counts = |turned: f64| turned > begin + SAME_TURN && turned < end + SAME_TURN;
     let mut times = vec![];
-    for turn in 0.. {
-        machine.advance_turned(first + TAU * f64::from(turn))?;
-        if machine.time() > end {
-            break;
-        }
-        if machine.time() >= begin {
-            times.push(machine.time());
-        }
+    for turned in (0..=end.ceil() as u32).map(|turn| first + f64::from(turn)).filter(|turned| counts(*turned)) {
+        machine.advance_turned(TAU * turned)?;
+        times.push(machine.time());
     }
     ensure!(!times.is_empty(), "the crank does not pass {:.1}° in the turns that count", angle.to_degrees());
     Ok(times)

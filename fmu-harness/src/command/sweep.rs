@@ -5,12 +5,12 @@ use crate::package::Stock;
 use crate::report::study as report;
 use crate::report::table::Table;
 use crate::scenes::Scenario;
-use crate::sweep::{Journal, Plan, Study, Sweep as Studied, journal};
+use crate::sweep::{Journal, Linear, Plan, Study, Sweep as Studied, journal};
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Runs a study: a scene with many parameter values, on all cores.
@@ -32,6 +32,10 @@ pub struct Sweep {
     /// Write the table of runs with their settings, sweep-NAME-plan.csv and .json, and run nothing
     #[arg(long)]
     plan: bool,
+    /// Compare the standard deviations with those of a linear analysis, by exact derivatives at the means of all
+    /// distributions, and give the share of each parameter; writes sweep-NAME-linear.csv and .parquet
+    #[arg(long)]
+    linear: bool,
     /// Directory of the results [default: target/out]
     #[arg(short, long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
@@ -47,14 +51,9 @@ impl Sweep {
         let base = out.join(format!("sweep-{}", study.name));
         let scenario = Scenario::find(&study.scene())?;
         if self.plan {
-            let file = out.join(format!("sweep-{}-plan.csv", study.name));
-            report::plan(&plan).save_csv(&file)?;
-            let recipe = file.with_extension("json");
-            fs::write(&recipe, format!("{:#}\n", Studied::recipe(&study, &scenario, &plan)))
-                .with_context(|| format!("cannot write {}", recipe.display()))?;
-            println!("{} runs\n{}\n{}", plan.len(), shown(&file), shown(&recipe));
-            return Ok(());
+            return write_plan(&study, &scenario, &plan, &out);
         }
+        let linear = self.linear.then(|| Linear::of(&study, &scenario)).transpose()?;
         let package = Stock::build()?.package(&scenario)?;
         let fmu = out.join(format!("{}.fmu", scenario.name));
         package.save(&fmu)?;
@@ -73,9 +72,31 @@ impl Sweep {
         frame.save(&base)?;
         let table = report::summary(&study, &frame);
         println!("{}{}\n", table.print(), report::failures(&frame));
-        fs::write(base.with_extension("md"), table.markdown())
-            .with_context(|| format!("cannot write {}.md", base.display()))?;
-        ["parquet", "csv", "md"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
+        let mut page = table.markdown();
+        let mut written = vec![base.with_extension("parquet"), base.with_extension("csv"), base.with_extension("md")];
+        if let Some(linear) = linear {
+            let (tables, sentences) = report::linear(&linear, &frame);
+            tables.iter().for_each(|table| println!("{}", table.print()));
+            sentences.iter().for_each(|sentence| println!("{sentence}"));
+            page += &tables.iter().map(|table| format!("\n{}", table.markdown())).collect::<String>();
+            page += &sentences.iter().map(|sentence| format!("\n{sentence}.\n")).collect::<String>();
+            let file = out.join(format!("sweep-{}-linear", study.name));
+            report::derivatives(&linear).save(&file)?;
+            written.extend(["parquet", "csv"].map(|ending| file.with_extension(ending)));
+        }
+        fs::write(base.with_extension("md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
+        written.iter().for_each(|file| println!("{}", shown(file)));
         Table::complete([&table])
     }
+}
+
+/// Writes the table of runs and their recipe.
+fn write_plan(study: &Study, scenario: &Scenario, plan: &Plan, out: &Path) -> Result<()> {
+    let file = out.join(format!("sweep-{}-plan.csv", study.name));
+    report::plan(plan).save_csv(&file)?;
+    let recipe = file.with_extension("json");
+    fs::write(&recipe, format!("{:#}\n", Studied::recipe(study, scenario, plan)))
+        .with_context(|| format!("cannot write {}", recipe.display()))?;
+    println!("{} runs\n{}\n{}", plan.len(), shown(&file), shown(&recipe));
+    Ok(())
 }

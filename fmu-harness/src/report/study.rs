@@ -1,14 +1,12 @@
 //! Results of a study.
 
 use super::table::Table;
-use super::units::significant;
+use super::units::{significant, three_digits};
 use crate::frame::{Column, Frame};
 use crate::realtime::quantile;
+use crate::sweep::linear::NORMAL;
 use crate::sweep::quantity::Reduction;
-use crate::sweep::{Plan, Study};
-
-/// Quantile of the standard normal distribution at 97.5 %.
-const NORMAL: f64 = 1.959_963_984_540_054;
+use crate::sweep::{Linear, Plan, Study};
 
 /// The table of runs.
 pub fn plan(plan: &Plan) -> Frame {
@@ -22,7 +20,7 @@ pub fn summary(study: &Study, frame: &Frame) -> Table {
     let mut table = Table::default();
     table.row(["quantity", "runs", "mean", "95 % of it", "deviation", "least", "5 %", "median", "95 %", "greatest"]);
     for name in study.keep.keys() {
-        let Some((_, Column::Reals(values))) = frame.columns().iter().find(|(own, _)| own == name) else { continue };
+        let Some(values) = frame.column(name) else { continue };
         let mut kept: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
         kept.sort_by(f64::total_cmp);
         let (mean, deviation) = (Reduction::Mean.of(&kept), Reduction::Deviation.of(&kept));
@@ -38,6 +36,55 @@ pub fn summary(study: &Study, frame: &Frame) -> Table {
         table.row([name, &runs, &mean, &format!("± {half}"), &deviation, &least, &low, &median, &high, &greatest]);
     }
     table
+}
+
+/// The standard deviation of each quantity by the runs and to first order, the shares of the parameters, and sentences
+/// about quantities that are not linear.
+pub fn linear(linear: &Linear, frame: &Frame) -> ([Table; 2], Vec<String>) {
+    let mut table = Table::default();
+    let mut sentences = vec![];
+    table.row(["quantity", "deviation", "95 % of it", "linear", "ratio", "explained", "verdict"]);
+    for (name, row) in &linear.rows {
+        match linear.compare(name, row, frame) {
+            Ok(found) => {
+                let numbers = [found.deviation, found.half_width(), found.linear].map(significant);
+                let [deviation, half, first_order] = numbers;
+                let ratio = significant(found.linear / found.deviation);
+                let explained = format!("{:.1} %", 100.0 * found.explained);
+                let verdict = if found.agrees() { "linear" } else { "not linear" };
+                table.row([name, &deviation, &format!("± {half}"), &first_order, &ratio, &explained, verdict]);
+                if !found.agrees() {
+                    sentences.push(format!("{name} is not linear: {}", linear.reason()));
+                }
+            }
+            Err(why) => {
+                table.row([name, "–", "–", "–", "–", "–", "no derivative"]);
+                sentences.push(format!("{name} has no derivative: {why:#}"));
+            }
+        }
+    }
+    ([table, shares(linear)], sentences)
+}
+
+/// The share of each parameter in the first-order variance of each quantity.
+fn shares(linear: &Linear) -> Table {
+    let mut table = Table::default();
+    let names = linear.found.parameters.iter().map(|parameter| parameter.name.to_owned());
+    table.line(["share of the variance [%]".to_owned()].into_iter().chain(names).collect());
+    for (name, row) in &linear.rows {
+        let Ok(parts) = linear.parts(row) else { continue };
+        let variance: f64 = parts.iter().map(|part| part * part).sum();
+        let shares = parts.iter().map(|part| three_digits(100.0 * part * part / variance));
+        table.line([name.clone()].into_iter().chain(shares).collect());
+    }
+    table
+}
+
+/// The derivatives of a linear analysis as columns, with the standard deviations of the parameters.
+pub fn derivatives(linear: &Linear) -> Frame {
+    let (deviations, rows) = (&linear.deviations, linear.found.rows.len());
+    let frame = super::sensitivity::frame(&linear.found, None);
+    frame.reals("parameter.deviation", (0..rows).flat_map(|_| deviations.iter().copied()))
 }
 
 /// A sentence with the number of runs that failed, and the first failure.

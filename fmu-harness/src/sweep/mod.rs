@@ -4,12 +4,15 @@
 //! A [`Study`] is read from a file and expanded into a [`Plan`], a table of all runs. Each finished run is one line of
 //! a [`Journal`] and is not run again. The results are compiled from the journal.
 
+pub mod distribution;
 pub mod journal;
+pub mod linear;
 pub mod plan;
 pub mod quantity;
 pub mod study;
 
 pub use journal::Journal;
+pub use linear::Linear;
 pub use plan::Plan;
 pub use study::Study;
 

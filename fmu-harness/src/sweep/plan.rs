@@ -1,19 +1,16 @@
 //! The table of all runs of a study: every row of the study's table, with every point of its grid and every random
 //! draw.
 
-use super::study::{Distribution, Number, Study, parameter};
+use super::distribution::Law;
+use super::study::{Number, Study, parameter};
 use anyhow::{Context, Result, ensure};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution as _, Normal, Uniform};
 use sha2::{Digest, Sha256};
-use slidercrank::scene::parameter::{Kind, Parameter};
 use std::path::Path;
 
 /// A study with more runs than this counts as a mistake.
 const MOST_RUNS: usize = 10_000_000;
-/// Number of draws outside a truncated range after which the range counts as empty.
-const TRIES: usize = 10_000;
 
 /// A table of runs. Each column is a parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,44 +130,7 @@ fn draws(study: &Study) -> Result<Block> {
         let mut generator = ChaCha8Rng::seed_from_u64(study.seed);
         generator.set_stream(draw as u64);
         let values = study.random.iter();
-        values.map(|(name, distribution)| sample(parameter(name)?, distribution, &mut generator)).collect()
+        values.map(|(name, distribution)| Law::of(parameter(name)?, distribution)?.sample(&mut generator)).collect()
     };
     Ok((names, (0..study.draws).map(row).collect::<Result<_>>()?))
-}
-
-fn sample(parameter: &Parameter, distribution: &Distribution, generator: &mut ChaCha8Rng) -> Result<f64> {
-    ensure!(
-        matches!(parameter.kind, Kind::Real { .. }),
-        "`{}` is not a real number and cannot be drawn",
-        parameter.name
-    );
-    let value = |number: &Number| number.value(parameter);
-    let between = |min: f64, max: f64| {
-        Uniform::new_inclusive(min, max).with_context(|| format!("`{}`: {min} is not below {max}", parameter.name))
-    };
-    match distribution {
-        Distribution::Uniform { min, max } => Ok(between(value(min)?, value(max)?)?.sample(generator)),
-        Distribution::LogUniform { min, max } => {
-            let (min, max) = (value(min)?, value(max)?);
-            ensure!(min > 0.0, "`{}`: a logarithm needs values above 0, not {min}", parameter.name);
-            Ok(between(min.ln(), max.ln())?.sample(generator).exp().clamp(min, max))
-        }
-        Distribution::Normal { mean, deviation, min, max } => {
-            let deviation = match deviation {
-                Number::Plain(deviation) => *deviation,
-                text => text.value(parameter)?,
-            };
-            let normal = Normal::new(value(mean)?, deviation);
-            let normal = normal.with_context(|| format!("`{}`: deviation = {deviation}", parameter.name))?;
-            let [min, max] = [min, max].map(|bound| bound.as_ref().map(value).transpose());
-            let (min, max) = (min?.unwrap_or(f64::NEG_INFINITY), max?.unwrap_or(f64::INFINITY));
-            for _ in 0..TRIES {
-                let drawn = normal.sample(generator);
-                if (min..=max).contains(&drawn) && parameter.admit(drawn).is_ok() {
-                    return Ok(drawn);
-                }
-            }
-            anyhow::bail!("`{}`: {TRIES} draws all fell outside its bounds", parameter.name)
-        }
-    }
 }

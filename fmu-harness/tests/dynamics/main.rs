@@ -1,6 +1,7 @@
 //! Sections, exponents, verdicts and branches, on motions whose answers are known.
 
 mod ball;
+mod linear;
 mod lorenz;
 mod maps;
 mod mechanism;

@@ -146,9 +146,27 @@ fn sensitivities_are_the_differences_of_neighbouring_runs() {
 }
 
 #[test]
+fn lengths_many_times_a_clearance_have_exact_derivatives() {
+    let file = wornpin(20e-6);
+    let experiment = Experiment { file: &file, turns: 0.2, transient: 0.0 };
+    let wanted: Vec<Wanted> = ["slider.x", "slider.v"].map(|text| text.parse().expect("a quantity")).into();
+    let names = ["rod.length", "crank.length"].map(|name| parameters(name).expect("a parameter")[0]);
+    let found = experiment.run(&wanted, &names).expect("a run");
+    for (k, parameter) in names.into_iter().enumerate() {
+        let differences = differences(&experiment, &wanted, parameter).expect("neighbours");
+        for (row, difference) in found.rows.iter().zip(differences) {
+            let slope = row.slopes.as_ref().expect("no grazing")[k];
+            let (text, name) = (&row.wanted.text, parameter.name);
+            assert!((slope - difference).abs() < 1e-4 * difference.abs(), "{text}, {name}: {slope} {difference}");
+        }
+    }
+}
+
+#[test]
 fn what_is_no_quantity_is_refused_by_name() {
     for (text, part) in [
         ("slider.q", "slider.q"),
+        ("joint.C.force.peak", "tells of an interval"),
         ("slider.x@noon", "noon"),
         ("slider.x:most", "most"),
         ("joint.C.contact", "joint.C.contact"),

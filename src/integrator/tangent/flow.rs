@@ -171,7 +171,8 @@ impl Flow {
     /// its first rows, memories below.
     pub fn advance<D: Copy>(&mut self, path: &Path<'_, D>, [from, to]: [f64; 2], tangents: &mut DMatrix<f64>) {
         let Path { system, discrete, step, tolerance, .. } = *path;
-        if step.h == 0.0 || from >= to {
+        // A prescribed motion without play has no states.
+        if step.h == 0.0 || from >= to || step.layout.states == 0 {
             return;
         }
         self.select(path, tangents);

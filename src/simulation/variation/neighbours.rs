@@ -18,6 +18,7 @@ use crate::simulation::assemble;
 use crate::simulation::error::SimulationError;
 use crate::simulation::observation::observe;
 use crate::simulation::start::pose;
+use std::cell::OnceCell;
 
 /// Steps of a difference, in steps h, with their weights.
 const CENTRAL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
@@ -30,6 +31,8 @@ const MOST: f64 = 0.1;
 /// Ratio of two steps, and their number.
 const RATIO: f64 = 0.1;
 const LEVELS: usize = 7;
+/// The level at which changes of penetrations are measured: short against clearances, where its lengths are centimetres.
+const MEASURED: usize = 4;
 /// Largest change of a penetration, and of a distance to a corner, as shares of themselves.
 const LARGEST_CHANGE: f64 = 0.01;
 const NEAREST_CORNER: f64 = 0.2;
@@ -51,9 +54,17 @@ struct Level {
     neighbours: Vec<Neighbour>,
 }
 
+/// Neighbours at all steps. A level is assembled when it is first used: few steps of a motion need short ones.
+struct Levels {
+    scene: Scene,
+    parameter: &'static Parameter,
+    widest: Level,
+    shorter: [OnceCell<Level>; LEVELS - 1],
+}
+
 /// What the neighbours differ in.
 enum Of {
-    Parameter(&'static Parameter, Vec<Level>),
+    Parameter(Box<Levels>),
     /// Outputs and rates are affine in the inputs.
     Input(Seed),
 }
@@ -67,22 +78,9 @@ impl Neighbours {
     /// # Errors
     /// `Scene` if a neighbour cannot be assembled: the parameter is at an end of its range.
     pub fn of_parameter(scene: &Scene, parameter: &'static Parameter) -> Result<Self, SimulationError> {
-        let (value, longest) = (parameter.value(scene), longest(parameter, scene));
-        let levels = (0..LEVELS).map(|level| {
-            let step = longest * RATIO.powi(level as i32);
-            let neighbours = CENTRAL.iter().map(|(place, weight)| {
-                let mut changed = scene.clone();
-                let refused = |reason: String| {
-                    let name = parameter.name;
-                    SimulationError::Scene(format!("{name} = {value} has no neighbours to differentiate by: {reason}"))
-                };
-                parameter.write(&mut changed, value + place * step).map_err(|error| refused(error.to_string()))?;
-                changed.check().map_err(|error| refused(error.to_string()))?;
-                Neighbour::new(&changed, *weight)
-            });
-            Ok(Level { step, neighbours: neighbours.collect::<Result<_, SimulationError>>()? })
-        });
-        Ok(Self(Of::Parameter(parameter, levels.collect::<Result<_, SimulationError>>()?)))
+        let widest = Level::new(scene, parameter, longest(parameter, scene))?;
+        let levels = Levels { scene: scene.clone(), parameter, widest, shorter: Default::default() };
+        Ok(Self(Of::Parameter(Box::new(levels))))
     }
 
     /// Neighbours along an input.
@@ -93,7 +91,7 @@ impl Neighbours {
     /// Whether the neighbours lie along this seed.
     pub fn is_of(&self, seed: &Seed) -> bool {
         match (&self.0, seed) {
-            (Of::Parameter(own, _), Seed::Parameter(other)) => own.name == other.name,
+            (Of::Parameter(own), Seed::Parameter(other)) => own.parameter.name == other.name,
             (Of::Input(own), other) => std::mem::discriminant(own) == std::mem::discriminant(other),
             _ => false,
         }
@@ -101,9 +99,9 @@ impl Neighbours {
 
     /// Writes the derivative of the start state, and of the approach speeds of closed contacts below it.
     pub fn write_start(&self, direction: &mut [f64]) {
-        let Of::Parameter(_, levels) = &self.0 else { return };
+        let Of::Parameter(levels) = &self.0 else { return };
         // The start pose is smooth.
-        let Some(Level { step, neighbours }) = levels.first() else { return };
+        let Level { step, neighbours } = levels.at(0);
         for Neighbour { weight, start: (states, approach), .. } in neighbours {
             let values = states.iter().chain(approach);
             direction.iter_mut().zip(values).for_each(|(slope, value)| *slope += weight * value / step);
@@ -132,8 +130,8 @@ impl Neighbours {
                     add(share, model, &conditions);
                 }
             }
-            Of::Parameter(_, levels) => {
-                let level = level(levels, model, conditions, t, y);
+            Of::Parameter(levels) => {
+                let level = levels.suitable(model, conditions, t, y);
                 for Neighbour { weight, model, .. } in &level.neighbours {
                     add(weight / level.step, model.as_ref(), conditions);
                 }
@@ -142,12 +140,19 @@ impl Neighbours {
     }
 
     /// Derivatives of the penetration and of the approach speed of every contact at constant state.
+    ///
+    /// An eccentricity is smooth within a part of itself, and lengths are many times as large: of all steps, two
+    /// neighbouring ones that agree best are short enough, and long enough for rounding.
     pub fn approaches(&self, t: f64, y: &[f64]) -> [[f64; 2]; CONTACTS] {
-        match &self.0 {
-            Of::Input(_) => [[0.0; 2]; CONTACTS],
-            // Both are smooth.
-            Of::Parameter(_, levels) => levels[1].approaches(t, y),
-        }
+        let Of::Parameter(levels) = &self.0 else { return [[0.0; 2]; CONTACTS] };
+        let all: Vec<_> = (0..LEVELS).map(|place| levels.at(place).approaches(t, y)).collect();
+        std::array::from_fn(|contact| {
+            std::array::from_fn(|i| {
+                let pairs = all.windows(2).map(|pair| (pair[0][contact][i], pair[1][contact][i]));
+                let apart = |pair: &(f64, f64)| (pair.0 - pair.1).abs();
+                pairs.min_by(|a, b| apart(a).total_cmp(&apart(b))).map_or(0.0, |pair| pair.1)
+            })
+        })
     }
 }
 
@@ -161,7 +166,53 @@ impl Neighbour {
     }
 }
 
+impl Levels {
+    fn step(&self, place: usize) -> f64 {
+        self.widest.step * RATIO.powi(place as i32)
+    }
+
+    /// The neighbours at a step, assembled once.
+    fn at(&self, place: usize) -> &Level {
+        let Some(cell) = place.checked_sub(1).and_then(|place| self.shorter.get(place)) else { return &self.widest };
+        match cell.get() {
+            Some(level) => level,
+            None => match Level::new(&self.scene, self.parameter, self.step(place)) {
+                Ok(level) => cell.get_or_init(|| level),
+                // They lie between those at the longest step, which are legal.
+                Err(_) => &self.widest,
+            },
+        }
+    }
+
+    /// The neighbours of `model` that suit the state.
+    fn suitable(&self, model: &dyn MechanismModel, conditions: &Conditions, t: f64, y: &[f64]) -> &Level {
+        let here = Distances::at(model, conditions, t, y);
+        let Level { step, neighbours } = self.at(MEASURED);
+        let of = |neighbour: &Neighbour| Distances::at(neighbour.model.as_ref(), conditions, t, y);
+        let longest = here.longest(*step, &std::array::from_fn(|i| of(&neighbours[i])));
+        let by_slope = (0..LEVELS - 1).find(|place| self.step(*place) <= longest).unwrap_or(LEVELS - 1);
+        // Across an eccentricity a long step changes it by much, whatever its slope is.
+        let keeps = |place: &usize| self.at(*place).neighbours.iter().all(|neighbour| here.is_near(&of(neighbour)));
+        self.at((by_slope..LEVELS - 1).find(keeps).unwrap_or(LEVELS - 1))
+    }
+}
+
 impl Level {
+    fn new(scene: &Scene, parameter: &'static Parameter, step: f64) -> Result<Self, SimulationError> {
+        let value = parameter.value(scene);
+        let neighbours = CENTRAL.iter().map(|(place, weight)| {
+            let mut changed = scene.clone();
+            let refused = |reason: String| {
+                let name = parameter.name;
+                SimulationError::Scene(format!("{name} = {value} has no neighbours to differentiate by: {reason}"))
+            };
+            parameter.write(&mut changed, value + place * step).map_err(|error| refused(error.to_string()))?;
+            changed.check().map_err(|error| refused(error.to_string()))?;
+            Neighbour::new(&changed, *weight)
+        });
+        Ok(Self { step, neighbours: neighbours.collect::<Result<_, SimulationError>>()? })
+    }
+
     fn approaches(&self, t: f64, y: &[f64]) -> [[f64; 2]; CONTACTS] {
         let mut slopes = [[0.0; 2]; CONTACTS];
         for Neighbour { weight, model, .. } in &self.neighbours {
@@ -192,6 +243,16 @@ struct Distances {
 }
 
 impl Distances {
+    /// Whether none of these differs from that of a neighbour, which is up to two steps away, by much more than it may.
+    fn is_near(&self, other: &Self) -> bool {
+        let near =
+            |share: f64, own: f64, other: f64| !own.is_finite() || (other - own).abs() <= 4.0 * share * own.abs();
+        let corners = self.corners.values().iter().zip(other.corners.values());
+        let penetrations = self.penetrations.iter().zip(&other.penetrations);
+        penetrations.map(|(own, other)| near(LARGEST_CHANGE, *own, *other)).all(|near| near)
+            && corners.map(|(own, other)| near(NEAREST_CORNER, *own, *other)).all(|near| near)
+    }
+
     fn at(model: &dyn MechanismModel, conditions: &Conditions, t: f64, y: &[f64]) -> Self {
         let mut corners = Discontinuities::NONE;
         model.discontinuities(conditions, t, y, &mut corners);
@@ -216,14 +277,6 @@ impl Distances {
 /// The longest step that is not longer than `longest`, or the shortest of all.
 fn longest_of<T>(levels: &[T], step: impl Fn(&T) -> f64, longest: f64) -> &T {
     levels.iter().find(|level| step(level) <= longest).unwrap_or(&levels[levels.len() - 1])
-}
-
-/// The level of the neighbours of `model` that suits the state.
-fn level<'a>(levels: &'a [Level], model: &dyn MechanismModel, conditions: &Conditions, t: f64, y: &[f64]) -> &'a Level {
-    let here = Distances::at(model, conditions, t, y);
-    let Level { step, neighbours } = &levels[1];
-    let others = std::array::from_fn(|i| Distances::at(neighbours[i].model.as_ref(), conditions, t, y));
-    longest_of(levels, |level| level.step, here.longest(*step, &others))
 }
 
 /// Conditions under two values of an input, with their weights in a difference.
@@ -255,8 +308,8 @@ pub fn derivative(
             sum(under(conditions, t, seed)
                 .map(|(conditions, share)| (observe(model, observer, &conditions, t, y), share)))
         }
-        Of::Parameter(_, levels) => {
-            let level = level(levels, model, conditions, t, y);
+        Of::Parameter(levels) => {
+            let level = levels.suitable(model, conditions, t, y);
             let terms = level.neighbours.iter().map(|Neighbour { weight, model, observer, .. }| {
                 (observe(model.as_ref(), observer, conditions, t, y), weight / level.step)
             });
