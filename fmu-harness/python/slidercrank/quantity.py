@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy
@@ -54,6 +54,30 @@ REDUCTIONS = {
 """How many values become one."""
 
 
+def _one(values: Column, place: int, share: float = 1.0) -> Column:
+    shares = numpy.zeros(len(values))
+    shares[place] = share
+    return shares
+
+
+def _peak(values: Column) -> Column:
+    place = int(numpy.nanargmax(numpy.abs(values)))
+    return _one(values, place, math.copysign(1.0, values[place]))
+
+
+SHARES: dict[str, Callable[[Column], Column]] = {
+    "min": lambda values: _one(values, int(numpy.nanargmin(values))),
+    "max": lambda values: _one(values, int(numpy.nanargmax(values))),
+    "peak": _peak,
+    "range": lambda values: SHARES["max"](values) - SHARES["min"](values),
+    "mean": lambda values: numpy.full(len(values), 1.0 / len(values)),
+    "rms": lambda values: values / (len(values) * REDUCTIONS["rms"](values)),
+    "deviation": lambda values: (values - mean(values)) / ((len(values) - 1) * deviation(values)),
+    "last": lambda values: _one(values, -1),
+}
+"""Derivatives of each reduction by the values."""
+
+
 @dataclass(frozen=True)
 class Quantity:
     """What is kept of a run."""
@@ -74,12 +98,8 @@ class Quantity:
 
     def value(self, columns: Mapping[str, Column], transient: float) -> float:
         """In a run without its first `transient` turns."""
-        parts = [columns[part] for part in self.outputs(columns)]
-        values = parts[0] if len(parts) == 1 else numpy.sqrt(parts[0] * parts[0] + parts[1] * parts[1])
-        angles = columns[ANGLE]
-        kept = numpy.abs(angles - angles[0]) >= math.tau * transient
-        first = int(numpy.argmax(kept)) if kept.any() else len(kept)
-        angles, values = angles[first:], values[first:]
+        values, first = self._values(columns), self._first(columns, transient)
+        angles, values = columns[ANGLE][first:], values[first:]
         with numpy.errstate(all="ignore"):
             found = REDUCTIONS[self.reduce](values if self.at is None else passages(angles, values, self.at))
         if not math.isfinite(found):
@@ -87,13 +107,62 @@ class Quantity:
             raise QuantityError(f"{self.of} of {len(values)} values is {shown}")
         return found
 
+    def slope(self, columns: Mapping[str, Column], slopes: Mapping[str, Column], transient: float) -> Column:
+        """The derivatives of a value that is finite, given those of the outputs: a row for each sample."""
+        first = self._first(columns, transient)
+        values, by = self._values(columns)[first:], self._slopes(columns, slopes)[first:]
+        if self.at is not None:
+            angles, by_angles = columns[ANGLE][first:], slopes[ANGLE][first:]
+            by = passage_slopes(angles, values, by_angles, by, self.at)
+            values = passages(angles, values, self.at)
+        found: Column = SHARES[self.reduce](values) @ by
+        if not numpy.isfinite(found).all():
+            raise QuantityError(f"{self.of} has no finite derivatives")
+        return found
+
+    def _values(self, columns: Mapping[str, Column]) -> Column:
+        parts = [columns[part] for part in self.outputs(columns)]
+        return parts[0] if len(parts) == 1 else numpy.sqrt(parts[0] * parts[0] + parts[1] * parts[1])
+
+    def _slopes(self, columns: Mapping[str, Column], slopes: Mapping[str, Column]) -> Column:
+        names = self.outputs(columns)
+        if len(names) == 1:
+            return slopes[names[0]]
+        length = numpy.maximum(self._values(columns), numpy.finfo(float).tiny)
+        parts = [(columns[name] / length)[:, None] * slopes[name] for name in names]
+        found: Column = numpy.sum(parts, axis=0)
+        return found
+
+    def _first(self, columns: Mapping[str, Column], transient: float) -> int:
+        """The first sample that counts."""
+        angles = columns[ANGLE]
+        kept = numpy.abs(angles - angles[0]) >= math.tau * transient
+        return int(numpy.argmax(kept)) if kept.any() else len(kept)
+
 
 def passages(angles: Column, values: Column, at: float) -> Column:
     """Values where the angle passes `at`, whichever way, each interpolated between two communication points."""
+    place, share = _passed(angles, at)
+    return values[place] + share * (values[place + 1] - values[place])
+
+
+def passage_slopes(angles: Column, values: Column, by_angles: Column, by_values: Column, at: float) -> Column:
+    """Derivatives of `passages`, given those of angles and values."""
+    place, share = _passed(angles, at)
+    span = (angles[place + 1] - angles[place])[:, None]
+    late = share[:, None]
+    # share = (passed − before)/(after − before)
+    by_share = -(by_angles[place] * (1.0 - late) + by_angles[place + 1] * late) / span
+    step = (values[place + 1] - values[place])[:, None]
+    found: Column = by_values[place] + late * (by_values[place + 1] - by_values[place]) + by_share * step
+    return found
+
+
+def _passed(angles: Column, at: float) -> tuple[NDArray[numpy.intp], Column]:
+    """Samples before each passage, and the passage's share of the way to the next."""
     turns = (angles - at) / math.tau
     before, after = turns[:-1], turns[1:]
     place = numpy.flatnonzero((numpy.floor(before) != numpy.floor(after)) & (after != before))
     before, after = before[place], after[place]
     passed = numpy.floor(numpy.maximum(before, after))
-    share = (passed - before) / (after - before)
-    return values[place] + share * (values[place + 1] - values[place])
+    return place, (passed - before) / (after - before)

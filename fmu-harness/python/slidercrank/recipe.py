@@ -20,6 +20,10 @@ class RunError(RuntimeError):
     """Why a run has no results."""
 
 
+Line = tuple[tuple[float, float], tuple[float, float]]
+"""A straight line between two points."""
+
+
 @dataclass(frozen=True)
 class Input:
     """An input: a constant, or straight lines between points over time or over the crank's turn."""
@@ -46,11 +50,14 @@ class Input:
         if not self.points:
             return 0.0
         at = wrapped(angle) if self.wants_angle else time
-        (x0, y0), (x1, y1) = self._line(at)
-        slope = (y1 - y0) / (x1 - x0) if x0 < x1 else 0.0
-        return y0 + slope * (at - x0)
+        (x0, y0), _ = line = self._line(at)
+        return y0 + _steepness(line) * (at - x0)
 
-    def _line(self, at: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    def slope(self, angle: float) -> float:
+        """Per radian of the crank at this angle [rad], of an input over it."""
+        return _steepness(self._line(wrapped(angle))) if self.wants_angle and self.points else 0.0
+
+    def _line(self, at: float) -> Line:
         first, last = self.points[0], self.points[-1]
         after = bisect_right(self.points, at, key=lambda point: point[0])
         if 0 < after < len(self.points):
@@ -60,6 +67,11 @@ class Input:
         if after == 0:
             return (last[0] - math.tau, last[1]), first
         return last, (first[0] + math.tau, first[1])
+
+
+def _steepness(line: Line) -> float:
+    (x0, y0), (x1, y1) = line
+    return (y1 - y0) / (x1 - x0) if x0 < x1 else 0.0
 
 
 def wrapped(angle: float) -> float:

@@ -221,6 +221,7 @@ class Session:
         self.callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
         self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self.settings = settings
+        self.phase_names: list[str] = []
         self.component: int | None = None
 
     def __enter__(self) -> Self:
@@ -297,117 +298,12 @@ class Session:
     def _because(self) -> str:
         return "" if self.said is None else f": {self.said}"
 
-    def _log(self, _environment: object, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
-        self.said = message.decode(errors="replace")
-
-
-class Instance(Session):
-    """One run: instantiated, initialised, marched."""
-
-    def __init__(self, unit: Unit, recipe: Recipe, settings: Mapping[str, float], names: list[str]):
-        super().__init__(unit, settings)
-        self.recipe = recipe
-        calls: dict[str, tuple[Callable[..., int], Number]] = {
-            "Real": (self.slave.fmi2GetReal, ctypes.c_double),
-            "Integer": (self.slave.fmi2GetInteger, ctypes.c_int),
-            "Boolean": (self.slave.fmi2GetBoolean, ctypes.c_int),
-        }
-        groups: dict[str, list[ModelVariable]] = {kind: [] for kind in calls}
-        for name in names:
-            if name not in unit.outputs:
-                raise RunError(f"turns cannot be counted: `{name}` is not an output of this FMU")
-            variable = unit.outputs[name]
-            groups["Integer" if variable.type == "Enumeration" else variable.type].append(variable)
-        self.selections = [Selection(*calls[kind], group) for kind, group in groups.items() if group]
-        self.angle = Selection(*calls["Real"], [unit.outputs[ANGLE]])
-        self.inputs = self._references(own.name for own in recipe.inputs)
-        self.values = (ctypes.c_double * len(recipe.inputs))()
-        self.wants_angle = any(own.wants_angle for own in recipe.inputs)
-
-    def _initialize(self) -> None:
-        self._apply_inputs(0.0)
-
-    def _initialized(self) -> None:
-        self._record()
-
-    def march(self, latest: float, budget: float) -> None:
-        """Steps until the crank has made its turns; an error if `latest` [s] or the budget [s of the wall] comes first."""
-        turns, clock = self.recipe.turns, time.monotonic()
-        # The angle is the first of the real outputs.
-        real = self.selections[0].buffer
-        start = real[0]
-        step, component = self.slave.fmi2DoStep, self.component
-        for point, (now, then) in enumerate(self.recipe.intervals(latest), 1):
-            self._apply_inputs(now)
-            try:
-                step(component, now, then - now, 1)
-            except FMICallException as error:
-                call = f"fmi2DoStep from {plain(now)} s by {plain(then - now)} s"
-                raise RunError(self._answer(call, error)) from error
-            self._record()
-            turned = abs(real[0] - start) / math.tau
-            if then >= latest and turned < turns:
-                made = f"the crank has made {turned:.3f} of {plain(turns)} turns by t = {plain(then)} s"
-                raise RunError(f"{made}; give a stop time instead")
-            # A billionth of a turn is what rounding leaves of a whole number of them.
-            if turned / (turns - 1e-9) >= 1.0 or point == MOST_POINTS:
-                return
-            if point % UNWATCHED == 0 and time.monotonic() - clock > budget:
-                raise RunError(f"stopped after {plain(budget)} s")
-
-    def columns(self) -> dict[str, Column]:
-        """What was recorded."""
-        return {name: column for selection in self.selections for name, column in selection.columns().items()}
-
-    def _apply_inputs(self, now: float) -> None:
-        if not self.values:
-            return
-        angle = 0.0
-        if self.wants_angle:
-            self._try("reading outputs", self.angle.read, self.component)
-            angle = self.angle.buffer[0]
-        for place, own in enumerate(self.recipe.inputs):
-            self.values[place] = own.value(now, angle)
-        set_real = self.slave.fmi2SetReal
-        try:
-            set_real(self.component, self.inputs, len(self.inputs), self.values)
-        except FMICallException as error:
-            raise RunError(self._answer(f"fmi2SetReal of {list(self.inputs)}", error)) from error
-
-    def _record(self) -> None:
-        for selection in self.selections:
-            self._try("reading outputs", selection.record, self.component)
-
-
-class Estimated(Session):
-    """One instance at a communication point, for an estimator. The functions beside the standard's are in the guide."""
-
-    def __init__(self, unit: Unit, settings: Mapping[str, float]):
-        super().__init__(unit, settings)
-        self.time = 0.0
-        self.phase_names: list[str] = []
-
-    def _initialized(self) -> None:
+    def read_phase_names(self) -> None:
         size = ctypes.c_size_t()
         self._call("slidercrank_phase_names", None, ctypes.byref(size))
         names = ctypes.create_string_buffer(size.value)
         self._call("slidercrank_phase_names", names, ctypes.byref(size))
         self.phase_names = names.value.decode().splitlines()
-
-    def step(self, size: float) -> None:
-        what = f"fmi2DoStep from {plain(self.time)} s by {plain(size)} s"
-        self._try(what, self.slave.fmi2DoStep, self.component, self.time, size, 1)
-        self.time += size
-
-    def read(self, names: Sequence[str]) -> numpy.ndarray:
-        values = (ctypes.c_double * len(names))()
-        references = self._references(names)
-        self._try("fmi2GetReal", self.slave.fmi2GetReal, self.component, references, len(names), values)
-        return numpy.array(values)
-
-    def set_inputs(self, values: Mapping[str, float]) -> None:
-        for name, value in values.items():
-            self._try(f"setting `{name}`", self._set, name, value)
 
     def predict(self, step: float, outputs: Sequence[str]) -> Step:
         count = len(self.phase_names)
@@ -421,19 +317,6 @@ class Estimated(Session):
         matrices = [numpy.empty(shape) for shape in [(count, count), (count, columns), (rows, count), (rows, columns)]]
         self._map(step, parameters, outputs, [phase, after, told], matrices)
         return StepJacobian(list(self.phase_names), list(outputs), phase, after, told, list(parameters), *matrices)
-
-    def set_phase(self, phase: numpy.ndarray, parameters: Mapping[str, float]) -> None:
-        numbers = numpy.ascontiguousarray(phase, float)
-        values = numpy.array([*parameters.values()], float)
-        references = self._references(parameters)
-        self._call(
-            "slidercrank_set_phase",
-            _pointer(numbers),
-            ctypes.c_size_t(numbers.size),
-            references,
-            ctypes.c_size_t(len(references)),
-            _pointer(values),
-        )
 
     def _map(
         self,
@@ -463,6 +346,130 @@ class Estimated(Session):
         status = function(ctypes.c_void_p(self.component), *arguments)
         if status != 0:
             raise RunError(self._told(name, status))
+
+    def _log(self, _environment: object, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
+        self.said = message.decode(errors="replace")
+
+
+class Instance(Session):
+    """One run: instantiated, initialised, marched."""
+
+    def __init__(self, unit: Unit, recipe: Recipe, settings: Mapping[str, float], names: list[str]):
+        super().__init__(unit, settings)
+        self.recipe = recipe
+        calls: dict[str, tuple[Callable[..., int], Number]] = {
+            "Real": (self.slave.fmi2GetReal, ctypes.c_double),
+            "Integer": (self.slave.fmi2GetInteger, ctypes.c_int),
+            "Boolean": (self.slave.fmi2GetBoolean, ctypes.c_int),
+        }
+        groups: dict[str, list[ModelVariable]] = {kind: [] for kind in calls}
+        for name in names:
+            if name not in unit.outputs:
+                raise RunError(f"turns cannot be counted: `{name}` is not an output of this FMU")
+            variable = unit.outputs[name]
+            groups["Integer" if variable.type == "Enumeration" else variable.type].append(variable)
+        self.selections = [Selection(*calls[kind], group) for kind, group in groups.items() if group]
+        self.angle = Selection(*calls["Real"], [unit.outputs[ANGLE]])
+        self.angle_now = 0.0
+        self.inputs = self._references(own.name for own in recipe.inputs)
+        self.values = (ctypes.c_double * len(recipe.inputs))()
+        self.wants_angle = any(own.wants_angle for own in recipe.inputs)
+
+    def _initialize(self) -> None:
+        self._apply_inputs(0.0)
+
+    def _initialized(self) -> None:
+        self._record()
+
+    def march(self, latest: float, budget: float) -> None:
+        """Steps until the crank has made its turns; an error if `latest` [s] or the budget [s of the wall] comes first."""
+        turns, clock = self.recipe.turns, time.monotonic()
+        # The angle is the first of the real outputs.
+        real = self.selections[0].buffer
+        start = real[0]
+        step, component = self.slave.fmi2DoStep, self.component
+        for point, (now, then) in enumerate(self.recipe.intervals(latest), 1):
+            self._apply_inputs(now)
+            self._before(now, then - now)
+            try:
+                step(component, now, then - now, 1)
+            except FMICallException as error:
+                call = f"fmi2DoStep from {plain(now)} s by {plain(then - now)} s"
+                raise RunError(self._answer(call, error)) from error
+            self._record()
+            turned = abs(real[0] - start) / math.tau
+            if then >= latest and turned < turns:
+                made = f"the crank has made {turned:.3f} of {plain(turns)} turns by t = {plain(then)} s"
+                raise RunError(f"{made}; give a stop time instead")
+            # A billionth of a turn is what rounding leaves of a whole number of them.
+            if turned / (turns - 1e-9) >= 1.0 or point == MOST_POINTS:
+                return
+            if point % UNWATCHED == 0 and time.monotonic() - clock > budget:
+                raise RunError(f"stopped after {plain(budget)} s")
+
+    def _before(self, now: float, size: float) -> None:
+        """What is done before a step from `now` [s] by `size` [s]."""
+
+    def columns(self) -> dict[str, Column]:
+        """What was recorded."""
+        return {name: column for selection in self.selections for name, column in selection.columns().items()}
+
+    def _apply_inputs(self, now: float) -> None:
+        if not self.values:
+            return
+        if self.wants_angle:
+            self._try("reading outputs", self.angle.read, self.component)
+            self.angle_now = self.angle.buffer[0]
+        for place, own in enumerate(self.recipe.inputs):
+            self.values[place] = own.value(now, self.angle_now)
+        set_real = self.slave.fmi2SetReal
+        try:
+            set_real(self.component, self.inputs, len(self.inputs), self.values)
+        except FMICallException as error:
+            raise RunError(self._answer(f"fmi2SetReal of {list(self.inputs)}", error)) from error
+
+    def _record(self) -> None:
+        for selection in self.selections:
+            self._try("reading outputs", selection.record, self.component)
+
+
+class Estimated(Session):
+    """One instance at a communication point, for an estimator. The functions beside the standard's are in the guide."""
+
+    def __init__(self, unit: Unit, settings: Mapping[str, float]):
+        super().__init__(unit, settings)
+        self.time = 0.0
+
+    def _initialized(self) -> None:
+        self.read_phase_names()
+
+    def step(self, size: float) -> None:
+        what = f"fmi2DoStep from {plain(self.time)} s by {plain(size)} s"
+        self._try(what, self.slave.fmi2DoStep, self.component, self.time, size, 1)
+        self.time += size
+
+    def read(self, names: Sequence[str]) -> numpy.ndarray:
+        values = (ctypes.c_double * len(names))()
+        references = self._references(names)
+        self._try("fmi2GetReal", self.slave.fmi2GetReal, self.component, references, len(names), values)
+        return numpy.array(values)
+
+    def set_inputs(self, values: Mapping[str, float]) -> None:
+        for name, value in values.items():
+            self._try(f"setting `{name}`", self._set, name, value)
+
+    def set_phase(self, phase: numpy.ndarray, parameters: Mapping[str, float]) -> None:
+        numbers = numpy.ascontiguousarray(phase, float)
+        values = numpy.array([*parameters.values()], float)
+        references = self._references(parameters)
+        self._call(
+            "slidercrank_set_phase",
+            _pointer(numbers),
+            ctypes.c_size_t(numbers.size),
+            references,
+            ctypes.c_size_t(len(references)),
+            _pointer(values),
+        )
 
 
 def _pointer(array: numpy.ndarray | None) -> ctypes.c_void_p:

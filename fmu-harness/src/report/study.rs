@@ -50,11 +50,12 @@ pub fn linear(linear: &Linear, frame: &Frame) -> ([Table; 2], Vec<String>) {
                 let numbers = [found.deviation, found.half_width(), found.linear].map(significant);
                 let [deviation, half, first_order] = numbers;
                 let ratio = significant(found.linear / found.deviation);
-                let explained = format!("{:.1} %", 100.0 * found.explained);
+                let explained = format!("{} %", significant(100.0 * found.explained));
                 let verdict = if found.agrees() { "linear" } else { "not linear" };
                 table.row([name, &deviation, &format!("± {half}"), &first_order, &ratio, &explained, verdict]);
                 if !found.agrees() {
-                    sentences.push(format!("{name} is not linear: {}", linear.reason()));
+                    let reason = linear.parts(row).map(|parts| linear.reason(&parts)).unwrap_or_default();
+                    sentences.push(format!("{name} is not linear: {reason}"));
                 }
             }
             Err(why) => {

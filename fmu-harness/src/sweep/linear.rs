@@ -16,6 +16,8 @@ use anyhow::{Context, Result, anyhow, ensure};
 pub const NORMAL: f64 = 1.959_963_984_540_054;
 /// Growth of the distance of neighbouring motions from which on it is a reason why a quantity is not linear.
 const PARTED: f64 = 10.0;
+/// The least share of the variance that a linear quantity's derivatives explain.
+const EXPLAINED: f64 = 0.8;
 /// Parameter that changes how long a turn takes.
 const SPEED: &str = "crank.speed_start";
 
@@ -118,16 +120,16 @@ impl Linear {
         parts.iter().enumerate().filter(|(_, part)| **part != 0.0).map(|(place, part)| part * change(place)).sum()
     }
 
-    /// Why a quantity may be no linear function of the parameters within their distributions.
-    pub fn reason(&self) -> String {
+    /// Why a quantity with these [`parts`](Self::parts) may be no linear function of the parameters within their
+    /// distributions.
+    pub fn reason(&self, parts: &[f64]) -> String {
         let Sensitivities { parameters, reach, growth, time, .. } = &self.found;
-        let farther = |(place, deviation): (usize, &f64)| (deviation / reach[place], place);
-        let widest = self.deviations.iter().enumerate().map(farther).max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((times, place)) = widest.filter(|(times, _)| *times > 1.0) {
-            let (name, deviation) = (parameters[place].name, self.deviations[place]);
+        let beyond = (0..parts.len()).filter(|&place| self.deviations[place] > reach[place]);
+        if let Some(place) = beyond.max_by(|&a, &b| parts[a].abs().total_cmp(&parts[b].abs())) {
+            let (name, deviation, reach) = (parameters[place].name, self.deviations[place], reach[place]);
+            let times = deviation / reach;
             return format!(
-                "`{name}` has a standard deviation of {deviation:.2e}, {times:.1} times its reach of {:.2e}",
-                reach[place]
+                "`{name}` has a standard deviation of {deviation:.2e}, {times:.1e} times its reach of {reach:.2e}"
             );
         }
         let parted = (growth * time).exp();
@@ -144,9 +146,9 @@ impl Comparison {
         NORMAL * self.error
     }
 
-    /// Whether both standard deviations are the same but for the Monte Carlo's statistical error.
+    /// Whether both standard deviations are the same but for the Monte Carlo's statistical error, and not by chance.
     pub fn agrees(&self) -> bool {
-        (self.linear - self.deviation).abs() <= self.half_width()
+        (self.linear - self.deviation).abs() <= self.half_width() && self.explained >= EXPLAINED
     }
 }
 

@@ -53,6 +53,7 @@ files! { PACKAGE:
     either_program_goes_on_from_the_journal     "test_journal.py"
     a_cluster_finds_the_bits_that_sweep_finds   "test_distributed.py"
     indices_and_optima_are_those_of_theory      "test_analysis.py"
+    gradients_are_those_of_differences          "test_gradient.py"
     cycles_are_counted_as_the_standard_does     "test_durability.py"
     the_press_is_measured_as_a_shop_measures_it "test_press.py"
     a_deck_of_no_rod_is_refused                 "test_decks.py"

@@ -80,6 +80,37 @@ def test_the_best_counterweight_is_the_vertex_of_the_parabola(write):
     assert search((vertex + 0.01, 0.2), method="nelder_mead").parameters[name] == pytest.approx(vertex + 0.01, abs=1e-4)
 
 
+def test_gradients_find_the_same_optimum_in_fewer_runs(write):
+    name, bounds = "crank.com.x", (-0.2, 0.2)
+    search = lambda method: minimise(
+        write(BALANCE), fmu("ideal"), "force", {name: bounds, "crank.mass": (0.2, 0.4)}, method=method, tolerance=1e-4
+    )
+    plain, exact = search("nelder_mead"), search("gradient")
+    assert exact.method == "L-BFGS-B" and "tell the change" in exact.reason
+    assert plain.method == "Nelder-Mead" and plain.reason == "asked for"
+    # Force and optimum depend on the product of mass and place alone.
+    product = lambda found: found.parameters[name] * found.parameters["crank.mass"]
+    assert product(exact) == pytest.approx(product(plain), rel=1e-3)
+    assert exact.value == pytest.approx(plain.value, rel=1e-6)
+    assert 2 * len(exact.evaluations) < len(plain.evaluations)
+    # A maximum at a corner.
+    far = minimise(write(BALANCE), fmu("ideal"), "force", {name: bounds}, method="gradient", maximise=True)
+    assert abs(far.parameters[name]) == pytest.approx(0.2) and far.method == "L-BFGS-B"
+
+
+def test_where_derivatives_do_not_reach_the_search_goes_on_without(write):
+    chaotic = BALANCE.replace("ideal", "wornpin").replace("turns = 1", "turns = 2")
+    found = minimise(
+        write(chaotic), fmu("wornpin"), "force", {"joint.C.clearance": (2e-4, 5e-4)}, method="gradient", evaluations=12
+    )
+    assert found.method == "Nelder-Mead" and "derivatives do not reach 1% of the ranges" in found.reason
+    rigid = chaotic.replace('reduce = "rms"', 'reduce = "peak"').replace("joint.A.force", "joint.C.contact")
+    found = minimise(
+        write(rigid), fmu("wornpin"), "force", {"joint.C.clearance": (2e-4, 5e-4)}, method="gradient", evaluations=4
+    )
+    assert found.method == "Nelder-Mead" and "`joint.C.contact` is not a real output" in found.reason
+
+
 def test_a_search_is_its_seed_s(write):
     search = lambda seed: minimise(write(BALANCE), fmu("ideal"), "force", BOUNDS, seed=seed, evaluations=6)
     assert search(1).evaluations.equals(search(1).evaluations)
@@ -94,3 +125,5 @@ def test_runs_that_fail_are_infinitely_bad_and_told(write):
     assert (failed["crank.length"] > 0.12).all()
     with pytest.raises(KeyError, match="keeps no `mass`"):
         minimise(write(BALANCE), fmu("ideal"), "mass", BOUNDS)
+    with pytest.raises(ValueError, match="wanted differential_evolution, nelder_mead, gradient"):
+        minimise(write(BALANCE), fmu("ideal"), "force", BOUNDS, method="newton")

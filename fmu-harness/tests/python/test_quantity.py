@@ -47,3 +47,19 @@ def test_what_is_not_there_is_named():
     for of, at, transient, word in [("w", None, 0.0, "`w`"), ("v", 1.0, 3.9, "NaN"), ("v", None, 9.0, "0 values")]:
         with pytest.raises(QuantityError, match=word):
             value(of, "mean", at, transient)
+
+
+@pytest.mark.parametrize("at", [None, 1.0])
+@pytest.mark.parametrize("reduce", REDUCTIONS)
+@pytest.mark.parametrize("of", ["v", "f"])
+def test_slopes_are_those_of_differences(of, reduce, at):
+    random = numpy.random.default_rng(3)
+    base = {"v": random.standard_normal(41), "f.x": random.standard_normal(41), "f.y": random.standard_normal(41)}
+    base[ANGLE] = math.tau * TURNS + 0.01
+    slopes = {name: random.standard_normal((41, 2)) for name in base}
+    moved = lambda place, size: {name: base[name] + size * slopes[name][:, place] for name in base}
+    own = Quantity(of, reduce, at)
+    found = own.slope(base, slopes, 0.55)
+    for place in range(2):
+        difference = (own.value(moved(place, 1e-6), 0.55) - own.value(moved(place, -1e-6), 0.55)) / 2e-6
+        assert found[place] == pytest.approx(difference, rel=1e-6, abs=1e-8)

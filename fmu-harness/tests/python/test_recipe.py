@@ -26,6 +26,13 @@ def test_over_the_crank_angle_the_turn_repeats(turns):
         assert own.value(0.0, angle + turns * math.tau) == pytest.approx(value, abs=30 * 32 * 2.3e-16)
 
 
+def test_a_slope_is_that_over_the_crank_angle():
+    own = Input.of({"name": "slider.load", "against": "crank.angle", "points": POINTS})
+    assert [own.slope(angle + math.tau) for angle in (2.0, 3.5)] == [10.0, -30.0]
+    assert own.slope(0.5) == pytest.approx(10.0 / (math.tau - 3.0))
+    assert Input.of({"name": "slider.load", "against": "time", "points": POINTS}).slope(2.0) == 0.0
+
+
 def test_an_angle_just_below_zero_is_a_whole_turn():
     assert wrapped(-1e-300) == math.tau and wrapped(-0.0) == 0.0 and wrapped(-1.0) == math.tau - 1.0
 

@@ -1,0 +1,115 @@
+"""Exact gradients of a study's quantities by real parameters, through impacts.
+
+A run is a chain of steps. The FMU gives each step's Jacobian by phase, parameters and inputs (`slidercrank_step_jacobian`),
+and the derivatives of the start by parameters; the chain rule does the rest. What is differentiated is the very number that
+a run without derivatives gives, sampled at the communication points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy
+
+from .quantity import ANGLE, QuantityError
+from .recipe import Recipe, RunError
+from .unit import Instance, Unit
+
+
+STEP = 1e-3
+"""Steps of differences at the start, as shares of the parameters."""
+CENTRAL = [(-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12)]
+"""Places of a difference in steps, with their weights."""
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """A quantity of a run with its derivatives."""
+
+    value: float
+    by_parameters: numpy.ndarray
+    """In the order of the names asked for."""
+
+
+def gradient(
+    unit: Unit, recipe: Recipe, settings: Mapping[str, float], quantity: str, names: Sequence[str], budget: float = 600.0
+) -> Gradient:
+    """A kept quantity of a run with these parameters, and its derivatives by the real parameters `names`.
+
+    Where there is no derivative, near grazing or with rigid contacts, there is a `RunError` that says so.
+    """
+    kept = recipe.keep[quantity]
+    try:
+        outputs = [ANGLE, *(output for output in kept.outputs(unit.outputs) if output != ANGLE)]
+    except QuantityError as error:
+        raise RunError(f"{quantity}: {error}") from error
+    for output in outputs:
+        if output in unit.outputs and unit.outputs[output].type != "Real":
+            raise RunError(f"{quantity}: `{output}` is not a real output and has no derivative")
+    with _Chain(unit, recipe, settings, outputs, start(unit, recipe, settings, outputs, names)) as chain:
+        chain.march(recipe.latest(settings), budget)
+        columns, slopes = chain.columns(), numpy.array(chain.slopes)
+    by_name = {output: slopes[:, place] for place, output in enumerate(outputs)}
+    try:
+        return Gradient(kept.value(columns, recipe.transient), kept.slope(columns, by_name, recipe.transient))
+    except QuantityError as error:
+        raise RunError(f"{quantity}: {error}") from error
+
+
+@dataclass(frozen=True)
+class Start:
+    """Derivatives at the start of a run, a column for each parameter."""
+
+    parameters: list[str]
+    phase: numpy.ndarray
+    outputs: numpy.ndarray
+
+
+def start(
+    unit: Unit, recipe: Recipe, settings: Mapping[str, float], outputs: list[str], names: Sequence[str]
+) -> Start:
+    """Derivatives of the start, which is smooth, by differences of order 4."""
+    columns = []
+    for name in names:
+        value = settings[name]
+        step = abs(value) * STEP or STEP
+        columns.append(
+            sum(share / step * _started(unit, recipe, {**settings, name: value + place * step}, outputs)
+                for place, share in CENTRAL)
+        )
+    table = numpy.array(columns).T
+    return Start(list(names), table[len(outputs) :], table[: len(outputs)])
+
+
+def _started(unit: Unit, recipe: Recipe, settings: Mapping[str, float], outputs: list[str]) -> numpy.ndarray:
+    """Outputs at the start, and the phase there."""
+    with Instance(unit, recipe, settings, outputs) as instance:
+        instance.read_phase_names()
+        columns = instance.columns()
+        phase = instance.predict(recipe.step, []).phase
+    return numpy.concatenate([[columns[output][0] for output in outputs], phase])
+
+
+class _Chain(Instance):
+    """A run whose steps are differentiated."""
+
+    def __init__(self, unit: Unit, recipe: Recipe, settings: Mapping[str, float], outputs: list[str], begin: Start):
+        super().__init__(unit, recipe, settings, outputs)
+        self.names, self.parameters, self.phase_slopes = outputs, begin.parameters, begin.phase
+        self.turning = [own for own in recipe.inputs if own.wants_angle]
+        self.slopes = [begin.outputs]
+        """Of the outputs at each communication point, by the parameters."""
+
+    def _initialized(self) -> None:
+        super()._initialized()
+        self.read_phase_names()
+
+    def _before(self, now: float, size: float) -> None:
+        count = len(self.parameters)
+        found = self.step_jacobian(size, [*self.parameters, *(own.name for own in self.turning)], self.names)
+        # Inputs over the crank's angle follow the angle, which is the first output.
+        by_angle = numpy.array([own.slope(self.angle_now) for own in self.turning])
+        direct = numpy.vstack([numpy.eye(count), numpy.outer(by_angle, self.slopes[-1][0])])
+        self.slopes.append(found.outputs_by_phase @ self.phase_slopes + found.outputs_by_parameters @ direct)
+        self.phase_slopes = found.phase_by_phase @ self.phase_slopes + found.phase_by_parameters @ direct
