@@ -247,10 +247,10 @@ impl Distances {
     fn is_near(&self, other: &Self) -> bool {
         let near =
             |share: f64, own: f64, other: f64| !own.is_finite() || (other - own).abs() <= 4.0 * share * own.abs();
-        let corners = self.corners.values().iter().zip(other.corners.values());
-        let penetrations = self.penetrations.iter().zip(&other.penetrations);
-        penetrations.map(|(own, other)| near(LARGEST_CHANGE, *own, *other)).all(|near| near)
-            && corners.map(|(own, other)| near(NEAREST_CORNER, *own, *other)).all(|near| near)
+        let mut corners = self.corners.values().iter().zip(other.corners.values());
+        let mut penetrations = self.penetrations.iter().zip(&other.penetrations);
+        penetrations.all(|(own, other)| near(LARGEST_CHANGE, *own, *other))
+            && corners.all(|(own, other)| near(NEAREST_CORNER, *own, *other))
     }
 
     fn at(model: &dyn MechanismModel, conditions: &Conditions, t: f64, y: &[f64]) -> Self {
