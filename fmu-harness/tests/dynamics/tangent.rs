@@ -6,6 +6,7 @@ use fmu_harness::dynamics::exponents::{Measurement, TangentFlow};
 use fmu_harness::dynamics::orbit::ReturnMap;
 use fmu_harness::dynamics::poincare::PoincareMap;
 use fmu_harness::dynamics::portrait::Plan;
+use fmu_harness::dynamics::tangent::all_states;
 use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
 use fmu_harness::sensitivity::{Experiment, Wanted, differences, parameters};
@@ -176,4 +177,46 @@ fn what_is_no_quantity_is_refused_by_name() {
     }
     assert!(parameters("joint.*.clearance").expect("four").len() == 4);
     assert!(parameters("joint.*.clearence").is_err() && parameters("solver.method").is_err());
+}
+
+/// A contact that remembers nothing keeps its damping from one touch to the next, and its force begins and ends at 0: events
+/// leave volumes alone, and they shrink as the divergence of the rates says (J. Liouville).
+#[test]
+fn without_memory_the_sum_of_the_exponents_of_the_flexible_rod_is_the_mean_divergence() {
+    let (sum, divergence) = volumes(100.0);
+    assert!((sum / divergence - 1.0).abs() < 1e-5, "{sum} {divergence}");
+    // With the approach speed in memory it is not.
+    let (sum, divergence) = volumes(1e-3);
+    assert!((sum / divergence - 1.0).abs() > 0.05, "{sum} {divergence}");
+}
+
+/// [1/s] Mean growth of volumes of states over two turns of `flexrod`, and the mean divergence, with this floor of the
+/// approach speed [m/s].
+fn volumes(speed_floor: f64) -> (f64, f64) {
+    const PARTS: usize = 50;
+    const SAMPLES: usize = 160;
+    let mut file = Scenario::find("flexrod").expect("a shipped scene").file;
+    file.scene.joint.c.contact.speed_floor = speed_floor;
+    let mut machine = Machine::start(&file).expect("a machine");
+    machine.advance(5.0 * machine.turn()).expect("a motion");
+    let mut moving = Machine::with_tangent(&file, &all_states(&file).expect("states")).expect("a tangent");
+    moving.take_over(&mut machine);
+    let length = 2.0 * moving.turn() / (PARTS * SAMPLES) as f64;
+    let (mut growth, mut divergence, mut time) = (0.0, 0.0, Flow::time(&moving));
+    let (rows, columns) = moving.directions().expect("directions").shape();
+    let mut directions = DMatrix::identity(rows, columns);
+    for _ in 0..PARTS {
+        moving.set_directions(&directions);
+        for _ in 0..SAMPLES {
+            Flow::advance(&mut moving, time + 0.5 * length).expect("a motion");
+            divergence += moving.variation().divergence() * length;
+            time += length;
+        }
+        Flow::advance(&mut moving, time).expect("a motion");
+        let factors = moving.directions().expect("no grazing").qr();
+        growth += factors.r().diagonal().iter().map(|length| length.abs().ln()).sum::<f64>();
+        directions = factors.q();
+    }
+    let span = length * (PARTS * SAMPLES) as f64;
+    (growth / span, divergence / span)
 }
