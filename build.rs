@@ -13,18 +13,19 @@ const SHARED: &str = "SLIDERCRANK_SHARED_LIBRARY";
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=modelDescription");
     let target = |property: &str| env::var(format!("CARGO_CFG_TARGET_{property}")).unwrap_or_default();
-    let argument = match (target("OS").as_str(), target("ENV").as_str()) {
-        // A thread-local destructor that runs after the host's dlclose must still find its code.
-        ("linux", _) => Some("-z,nodelete"),
+    // The command `package` links the crate as a shared library, and a test does; to all other programs it is a Rust
+    // library.
+    println!("cargo::rerun-if-env-changed={SHARED}");
+    let argument = match (target("OS").as_str(), target("ENV").as_str(), env::var_os(SHARED)) {
+        // A thread-local destructor that runs after the host's dlclose must still find its code. Programs may have it, too.
+        ("linux", _, _) => Some("-z,nodelete"),
         // The linker's clock would make the bytes of every build others.
-        ("windows", "gnu") => Some("--no-insert-timestamp"),
+        ("windows", "gnu", Some(_)) => Some("--no-insert-timestamp"),
         // Or the library bears the path that it was linked at.
-        ("macos", _) => Some("-install_name,@rpath/SliderCrank.dylib"),
+        ("macos", _, Some(_)) => Some("-install_name,@rpath/SliderCrank.dylib"),
         _ => None,
     };
-    // The command `package` links the crate as a shared library; to all other programs it is a Rust library.
-    println!("cargo::rerun-if-env-changed={SHARED}");
-    if let (Some(argument), Some(_)) = (argument, env::var_os(SHARED)) {
+    if let Some(argument) = argument {
         println!("cargo::rustc-link-arg=-Wl,{argument}");
     }
     let declaration = model_description::load()?;

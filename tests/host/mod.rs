@@ -27,12 +27,13 @@ pub fn guid() -> CString {
     CString::new(slot::read().expect("a readable slot").1).expect("no zero")
 }
 
-/// The library that cargo built beside this test.
+/// The library as a host loads it. `cargo test` builds it, as an example; with `--test` alone it must be there.
 pub fn library() -> PathBuf {
     let test = std::env::current_exe().expect("a path");
-    let name = libloading::library_filename("slidercrank");
-    let beside = test.parent().expect("a folder").join(&name);
-    if beside.exists() { beside } else { test.ancestors().nth(2).expect("a folder").join(name) }
+    let name = libloading::library_filename("shared_library");
+    let file = test.ancestors().nth(2).expect("a folder").join("examples").join(name);
+    assert!(file.exists(), "`cargo build --example shared_library` makes {}", file.display());
+    file
 }
 
 /// One instance.
