@@ -47,9 +47,10 @@ pub fn standard_library(platform: Platform) -> Result<()> {
         return Ok(());
     }
     eprintln!("installing Rust's standard library for {}", missing.join(", "));
-    let rustup = Command::new("rustup").args(["target", "add", "--quiet"]).args(&missing).stdin(Stdio::null()).output();
+    let rustup = Command::new("rustup").args(["--quiet", "target", "add"]).args(&missing).stdin(Stdio::null()).output();
     let cause = match rustup {
         Ok(output) if output.status.success() => return Ok(()),
+        Ok(output) if output.stderr.is_empty() => format!("rustup ended with {}", output.status),
         Ok(output) => last_line(&output.stderr),
         Err(_) => "rustup is not installed".into(),
     };
