@@ -37,7 +37,8 @@ pub fn differentiate<const N: usize>(
 }
 
 /// Calls `evaluate` with `t` and the states `y` for each group of the first `columns` directions: the first `moving` states,
-/// then time, which is the column after theirs. It gets the first column of the group, time and states. `N` is the size of the array.
+/// then time, which is the column after theirs. It gets the first column of the group, time and states. `N` is the size of
+/// the array.
 #[inline(always)]
 pub fn in_directions<const N: usize>(
     moving: usize,

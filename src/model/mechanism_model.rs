@@ -51,7 +51,7 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     /// Penetration [m] and approach speed [m/s] of every contact; −∞ and 0 for a joint without clearance.
     fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS];
 
-    /// [`MechanismModel::approaches`] with derivatives.
+    /// [`MechanismModel::approaches`] at a pose, with derivatives.
     fn tangent_approaches(&self, pose: &Pose<Tangent>) -> [(Tangent, Tangent); CONTACTS];
 
     /// The bristle states of a contact, which its opening sets to 0; empty without bristles.

@@ -118,6 +118,11 @@ impl Parameter {
         PARAMETERS.iter().find(|parameter| parameter.name == name)
     }
 
+    /// Unit of its value; `1` without one.
+    pub fn unit(&self) -> &'static str {
+        if let Kind::Real { unit, .. } = self.kind { unit } else { "1" }
+    }
+
     /// Value in a scene: in SI units; of an enumeration the value of its item, of a Boolean 0 or 1.
     pub fn value(&self, scene: &Scene) -> f64 {
         match self.kind {

@@ -26,8 +26,9 @@ use std::path::{Path, PathBuf};
 /// measured with a second, neighbouring motion; all of them are measured with the tangent of the motion, which is exact
 /// through impacts. With `--follow-orbit` the diagram shows branches of periodic motions, stable or not, with their
 /// folds, period doublings, Neimark-Sacker bifurcations and grazing. `--response` draws an output over the parameter:
-/// with `--up-and-down` the frequency response with its jumps. Writes dynamics-SCENE.svg and its data as CSV and Parquet, a table, and
-/// with `--parameter` dynamics-SCENE-bifurcation.svg with data.
+/// with `--up-and-down` the frequency response with its jumps. Writes dynamics-SCENE.svg and its data as CSV and Parquet,
+/// a table, with `--parameter` dynamics-SCENE-bifurcation.svg with data, and with `--response`
+/// dynamics-SCENE-response.svg with data.
 #[derive(Args)]
 pub struct Dynamics {
     /// Scene: the name of a shipped scene, or a .toml file

@@ -222,10 +222,7 @@ impl Continuation<'_> {
     /// towards the end of the range.
     fn along(&self, at: &Return, before: Option<&DVector<f64>>) -> Result<DVector<f64>> {
         let n = at.unknowns.len();
-        let mut matrix = DMatrix::zeros(n + 1, n + 1);
-        matrix.view_mut((0, 0), (n, n)).copy_from(&(&at.by_unknowns - DMatrix::identity(n, n)));
-        matrix.view_mut((0, n), (n, 1)).copy_from(&(&at.by_parameter * self.range()));
-        let svd = matrix.svd(false, true);
+        let svd = self.bordered(at).svd(false, true);
         let rows = svd.v_t.context("a decomposition")?;
         let smallest = svd.singular_values.imin();
         let kernel = rows.row(smallest).transpose();
@@ -235,6 +232,15 @@ impl Continuation<'_> {
             _ => kernel[n] * (self.to - self.from),
         };
         Ok(if sign < 0.0 { -kernel } else { kernel })
+    }
+
+    /// (DP − 1 | ∂P/∂p) over a row of zeros.
+    fn bordered(&self, at: &Return) -> DMatrix<f64> {
+        let n = at.unknowns.len();
+        let mut matrix = DMatrix::zeros(n + 1, n + 1);
+        matrix.view_mut((0, 0), (n, n)).copy_from(&(&at.by_unknowns - DMatrix::identity(n, n)));
+        matrix.view_mut((0, n), (n, 1)).copy_from(&(&at.by_parameter * self.range()));
+        matrix
     }
 
     /// Product of two directions: the weighted mean over the unknowns, and the parameter.
@@ -264,9 +270,7 @@ impl Continuation<'_> {
                 let along = self.along(&at, Some(&point.along))?;
                 return Ok((Point { at, along }, iteration));
             }
-            let mut matrix = DMatrix::zeros(n + 1, n + 1);
-            matrix.view_mut((0, 0), (n, n)).copy_from(&(&at.by_unknowns - DMatrix::identity(n, n)));
-            matrix.view_mut((0, n), (n, 1)).copy_from(&(&at.by_parameter * self.range()));
+            let mut matrix = self.bordered(&at);
             for column in 0..n {
                 matrix[(n, column)] = point.along[column] * weight(n);
             }

@@ -86,7 +86,7 @@ pub trait ReturnMap {
             let n = at.unknowns.len();
             let matrix = DMatrix::identity(n, n) - &at.by_unknowns;
             let change = matrix.lu().solve(&at.miss).context("the Poincaré map has a multiplier of 1")?;
-            at = shorter(self, &at, |share| (value, &change * share))?;
+            at = shorter(self, &at, &change)?;
         }
         bail!("Newton's method does not converge: a period misses by {:.1e} noticeable differences", size(&at.miss))
     }
@@ -109,13 +109,12 @@ pub trait ReturnMap {
     }
 }
 
-/// The longest of ever shorter steps after which the miss is smaller. `change` gives the parameter and the change of
-/// the unknowns for a share of the step.
-fn shorter<M: ReturnMap + ?Sized>(map: &M, at: &Return, change: impl Fn(f64) -> (f64, DVector<f64>)) -> Result<Return> {
+/// The return after the longest of ever shorter shares of a `change` of the unknowns after which the miss is smaller.
+fn shorter<M: ReturnMap + ?Sized>(map: &M, at: &Return, change: &DVector<f64>) -> Result<Return> {
+    let Orbit { value, phase, turns, .. } = &at.orbit;
     let (mut share, mut failure) = (1.0, None);
     for _ in 0..=MAX_HALVINGS {
-        let (value, change) = change(share);
-        match map.apply(value, &map.moved(&at.orbit.phase, &at.unknowns, &change), at.orbit.turns) {
+        match map.apply(*value, &map.moved(phase, &at.unknowns, &(change * share)), *turns) {
             Ok(next) if size(&next.miss) < size(&at.miss) && next.unknowns == at.unknowns => return Ok(next),
             Ok(_) => {}
             Err(error) => failure = Some(error),

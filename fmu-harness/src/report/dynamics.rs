@@ -16,7 +16,7 @@ use crate::frame::{Column, Frame};
 use nalgebra::Complex;
 use slidercrank::model::signals::{Outputs, RevoluteOutputs};
 use slidercrank::scene::Scene;
-use slidercrank::scene::parameter::{Kind, Parameter};
+use slidercrank::scene::parameter::Parameter;
 use std::f64::consts::TAU;
 
 /// Number of decades below its peak down to which a spectrum is drawn.
@@ -275,10 +275,7 @@ pub fn spectrum_frame(portrait: &Portrait) -> Frame {
 /// A bifurcation diagram over the parameter: slider velocity and a journal's position at every point of the section,
 /// and the exponent.
 pub fn bifurcation(title: &str, scene: &Scene, range: &Range, branches: &[&Branch], orbits: &[Orbits]) -> Sheet {
-    let unit = match Parameter::named(&range.name).map(|parameter| &parameter.kind) {
-        Some(Kind::Real { unit, .. }) => *unit,
-        _ => "1",
-    };
+    let unit = Parameter::named(&range.name).map_or("1", Parameter::unit);
     let peak = range.values.iter().fold(0.0, |peak: f64, value| peak.max(value.abs()));
     let shown = Shown::of(unit, peak);
     let x_label = shown.axis(&range.name);

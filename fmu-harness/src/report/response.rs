@@ -9,7 +9,7 @@ use crate::frame::{Column, Frame};
 use crate::host::Description;
 use slidercrank::fmi::v2::description::model_description;
 use slidercrank::scene::Scene;
-use slidercrank::scene::parameter::{Kind, Parameter};
+use slidercrank::scene::parameter::Parameter;
 
 const UP: Role = Role::Member(0);
 const DOWN: Role = Role::Member(1);
@@ -52,7 +52,8 @@ impl Curves<'_> {
         let response = self.range.response.as_ref();
         let (text, name) = response.map_or(("", ""), |response| (&response.text, response.name()));
         let peak = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |peak: f64, value| peak.max(value.abs()));
-        let of_x = Shown::of(unit_of_parameter(&self.range.name), peak(&mut self.range.values.iter().copied()));
+        let unit = Parameter::named(&self.range.name).map_or("1", Parameter::unit);
+        let of_x = Shown::of(unit, peak(&mut self.range.values.iter().copied()));
         let all = self.simulated.iter().flat_map(|branches| branches.iter().filter_map(|branch| branch.response));
         let of_y = Shown::of(
             &unit_of_output(scene, name),
@@ -144,14 +145,6 @@ impl Curves<'_> {
             }
         }
         table
-    }
-}
-
-/// Unit of a parameter.
-fn unit_of_parameter(name: &str) -> &'static str {
-    match Parameter::named(name).map(|parameter| &parameter.kind) {
-        Some(Kind::Real { unit, .. }) => unit,
-        _ => "1",
     }
 }
 

@@ -5,14 +5,9 @@ use super::units::three_digits;
 use crate::frame::{Column, Frame};
 use crate::sensitivity::Sensitivities;
 use anyhow::Result;
-use slidercrank::scene::parameter::{Kind, Parameter};
 
 /// Differences by each parameter, of all quantities.
 type Checked = [Result<Vec<f64>>];
-
-fn unit(parameter: &Parameter) -> &'static str {
-    if let Kind::Real { unit, .. } = parameter.kind { unit } else { "1" }
-}
 
 /// A row for each quantity and parameter.
 pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
@@ -30,7 +25,7 @@ pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
                         row.wanted.text.clone(),
                         value.clone(),
                         parameter.name.into(),
-                        unit(parameter).into(),
+                        parameter.unit().into(),
                         format!("{slope:.6e}"),
                         if relative.is_finite() { three_digits(relative) } else { "–".into() },
                     ];
@@ -56,7 +51,7 @@ pub fn reach(found: &Sensitivities) -> Table {
     let mut table = Table::default();
     table.row(["parameter", "its value", "its reach", "the reach over the value"]);
     for ((parameter, value), reach) in found.parameters.iter().zip(&found.values).zip(&found.reach) {
-        let unit = unit(parameter);
+        let unit = parameter.unit();
         let share = (reach / value).abs();
         table.row([
             parameter.name.to_owned(),

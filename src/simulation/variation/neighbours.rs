@@ -167,16 +167,12 @@ impl Neighbour {
 }
 
 impl Levels {
-    fn step(&self, place: usize) -> f64 {
-        self.widest.step * RATIO.powi(place as i32)
-    }
-
     /// The neighbours at a step, assembled once.
     fn at(&self, place: usize) -> &Level {
         let Some(cell) = place.checked_sub(1).and_then(|place| self.shorter.get(place)) else { return &self.widest };
         match cell.get() {
             Some(level) => level,
-            None => match Level::new(&self.scene, self.parameter, self.step(place)) {
+            None => match Level::new(&self.scene, self.parameter, step_at(self.widest.step, place)) {
                 Ok(level) => cell.get_or_init(|| level),
                 // They lie between those at the longest step, which are legal.
                 Err(_) => &self.widest,
@@ -190,7 +186,7 @@ impl Levels {
         let Level { step, neighbours } = self.at(MEASURED);
         let of = |neighbour: &Neighbour| Distances::at(neighbour.model.as_ref(), conditions, t, y);
         let longest = here.longest(*step, &std::array::from_fn(|i| of(&neighbours[i])));
-        let by_slope = (0..LEVELS - 1).find(|place| self.step(*place) <= longest).unwrap_or(LEVELS - 1);
+        let by_slope = place_of(self.widest.step, longest);
         // Across an eccentricity a long step changes it by much, whatever its slope is.
         let keeps = |place: &usize| self.at(*place).neighbours.iter().all(|neighbour| here.is_near(&of(neighbour)));
         self.at((by_slope..LEVELS - 1).find(keeps).unwrap_or(LEVELS - 1))
@@ -274,9 +270,14 @@ impl Distances {
     }
 }
 
-/// The longest step that is not longer than `longest`, or the shortest of all.
-fn longest_of<T>(levels: &[T], step: impl Fn(&T) -> f64, longest: f64) -> &T {
-    levels.iter().find(|level| step(level) <= longest).unwrap_or(&levels[levels.len() - 1])
+/// The step of a level if that of the first is `first`.
+fn step_at(first: f64, level: usize) -> f64 {
+    first * RATIO.powi(level as i32)
+}
+
+/// The level of the longest step that is not longer than `longest`, or of the shortest of all.
+fn place_of(first: f64, longest: f64) -> usize {
+    (0..LEVELS - 1).find(|level| step_at(first, *level) <= longest).unwrap_or(LEVELS - 1)
 }
 
 /// Conditions under two values of an input, with their weights in a difference.
@@ -348,13 +349,13 @@ pub fn along(
         (moved, conditions)
     };
     let first = if longest > 0.0 { LONGEST / longest } else { 1.0 };
-    let levels: Vec<f64> = (0..LEVELS).map(|level| first * RATIO.powi(level as i32)).collect();
+    let second = step_at(first, 1);
     let here = Distances::at(model, conditions, t, y);
     let others = CENTRAL.map(|(place, _)| {
-        let (moved, conditions) = moved(place * levels[1]);
+        let (moved, conditions) = moved(place * second);
         Distances::at(model, &conditions, t, &moved)
     });
-    let step = *longest_of(&levels, |step| *step, here.longest(levels[1], &others));
+    let step = step_at(first, place_of(first, here.longest(second, &others)));
     sum(CENTRAL.map(|(place, weight)| {
         let (moved, conditions) = moved(place * step);
         (observe(model, observer, &conditions, t, &moved), weight / step)
