@@ -57,11 +57,11 @@ impl FromStr for Wanted {
 
     fn from_str(text: &str) -> Result<Self> {
         let (rest, reduce) = match text.split_once(':') {
-            Some((rest, word)) => (rest, Some(word.parse().with_context(|| format!("in `{text}`"))?)),
+            Some((rest, word)) => (rest, Some(word.parse()?)),
             None => (text, None),
         };
         let (name, at) = match rest.split_once('@') {
-            Some((name, place)) => (name, Some(place.parse::<At>().with_context(|| format!("in `{text}`"))?)),
+            Some((name, place)) => (name, Some(place.parse::<At>()?)),
             None => (rest, None),
         };
         let of = differentiable(name)?;

@@ -3,7 +3,7 @@
 use super::Machine;
 use crate::output::Output;
 use crate::sweep::quantity::Reduction;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use std::f64::consts::TAU;
 use std::str::FromStr;
 
@@ -24,7 +24,7 @@ impl FromStr for Response {
 
     fn from_str(text: &str) -> Result<Self> {
         let (name, word) = text.split_once(':').unwrap_or((text, "peak"));
-        let reduce = word.parse().with_context(|| format!("in `{text}`"))?;
+        let reduce = word.parse()?;
         Ok(Self { text: text.into(), output: Output::named(name)?, reduce })
     }
 }

@@ -4,7 +4,7 @@ use super::table::Table;
 use super::units::{significant, three_digits};
 use crate::frame::{Column, Frame};
 use crate::realtime::quantile;
-use crate::sweep::linear::NORMAL;
+use crate::sweep::linear::{NORMAL, deviation};
 use crate::sweep::quantity::Reduction;
 use crate::sweep::{Linear, Plan, Study};
 
@@ -13,6 +13,11 @@ pub fn plan(plan: &Plan) -> Frame {
     let runs = Frame::default().with("run", Column::Integers((0..plan.len() as i64).collect()));
     let column = |place: usize| (0..plan.len()).map(move |run| plan.value(run, place));
     plan.names().iter().enumerate().fold(runs, |frame, (place, name)| frame.reals(name.clone(), column(place)))
+}
+
+/// A number with four digits; a dash for the deviation of a single run, and for a share of a variance of 0.
+fn known(number: f64) -> String {
+    if number.is_finite() { significant(number) } else { "–".into() }
 }
 
 /// Statistics of each quantity over all runs that did not fail.
@@ -26,7 +31,7 @@ pub fn summary(study: &Study, frame: &Frame) -> Table {
         let (mean, deviation) = (Reduction::Mean.of(&kept), Reduction::Deviation.of(&kept));
         let half = NORMAL * deviation / (kept.len() as f64).sqrt();
         let [least, low, median, high, greatest] = [0.0, 0.05, 0.5, 0.95, 1.0].map(|share| quantile(&kept, share));
-        let numbers = [mean, half, deviation, least, low, median, high, greatest].map(significant);
+        let numbers = [mean, half, deviation, least, low, median, high, greatest].map(known);
         let [mean, half, deviation, least, low, median, high, greatest] = numbers;
         let runs = kept.len().to_string();
         if kept.is_empty() {
@@ -49,8 +54,8 @@ pub fn linear(linear: &Linear, frame: &Frame) -> ([Table; 2], Vec<String>) {
             Ok(found) => {
                 let numbers = [found.deviation, found.half_width(), found.linear].map(significant);
                 let [deviation, half, first_order] = numbers;
-                let ratio = significant(found.linear / found.deviation);
-                let explained = format!("{} %", significant(100.0 * found.explained));
+                let ratio = known(found.linear / found.deviation);
+                let explained = format!("{} %", known(100.0 * found.explained));
                 let verdict = if found.agrees() { "linear" } else { "not linear" };
                 table.row([name, &deviation, &format!("± {half}"), &first_order, &ratio, &explained, verdict]);
                 if !found.agrees() {
@@ -59,8 +64,10 @@ pub fn linear(linear: &Linear, frame: &Frame) -> ([Table; 2], Vec<String>) {
                 }
             }
             Err(why) => {
-                table.row([name, "–", "–", "–", "–", "–", "no derivative"]);
-                sentences.push(format!("{name} has no derivative: {why:#}"));
+                let first_order = linear.parts(row).map(|parts| deviation(&parts));
+                let verdict = if first_order.is_ok() { "not compared" } else { "no derivative" };
+                table.row([name, "–", "–", &first_order.map_or("–".into(), significant), "–", "–", verdict]);
+                sentences.push(format!("{name}: {verdict}: {why:#}"));
             }
         }
     }

@@ -100,13 +100,13 @@ impl Linear {
         let line: Vec<f64> = (0..values.len()).map(|run| self.along(&parts, runs, run)).collect();
         let kept = || values.iter().zip(&line).filter(|(value, _)| value.is_finite());
         let (values, rest): (Vec<f64>, Vec<f64>) = kept().map(|(value, line)| (*value, value - line)).unzip();
-        ensure!(values.len() > 1, "{} runs came to their ends", values.len());
-        let deviation = Reduction::Deviation.of(&values);
+        ensure!(values.len() > 1, "a standard deviation needs two runs that come to their ends, not {}", values.len());
+        let spread = Reduction::Deviation.of(&values);
         Ok(Comparison {
-            deviation,
+            deviation: spread,
             error: standard_error(&values),
-            linear: parts.iter().map(|part| part * part).sum::<f64>().sqrt(),
-            explained: 1.0 - (Reduction::Deviation.of(&rest) / deviation).powi(2),
+            linear: deviation(&parts),
+            explained: 1.0 - (Reduction::Deviation.of(&rest) / spread).powi(2),
         })
     }
 
@@ -138,6 +138,11 @@ impl Linear {
         }
         "it bends or jumps within the distributions, which are narrower than the reach of every parameter".into()
     }
+}
+
+/// The standard deviation to first order of a quantity with these [`parts`](Linear::parts).
+pub fn deviation(parts: &[f64]) -> f64 {
+    parts.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
 impl Comparison {
