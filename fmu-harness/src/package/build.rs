@@ -167,44 +167,50 @@ fn own_linker(platform: Platform) -> Target {
     Target { platform, triples: &[OWN_TRIPLE], linker: Linker::Own }
 }
 
-/// Builds all libraries of all targets. One call of cargo builds all libraries of one linker and level; as many calls run at
-/// the same time as there are processors.
+/// Builds all libraries of all targets, as many at the same time as there are processors, but for those of one linker and
+/// level.
 fn build(targets: &[Target], levels: Levels, profile: Profile) -> Result<Vec<Library>> {
     let workspace = workspace();
     let manifest = workspace.join("Cargo.toml");
     ensure!(manifest.is_file(), "the source files are missing: there is no {}", manifest.display());
-    let mut calls: Vec<Call> = Vec::new();
+    let mut series: Vec<Series> = Vec::new();
     for target in targets {
         // Only on x86-64 Linux does the library for every processor look for one for newer processors.
         let has_newer = levels == Levels::All && target.platform == Platform::Linux64;
         let newer = has_newer.then_some(Some(dispatch_x86_64_v3::LEVEL));
         for level in [None].into_iter().chain(newer) {
             let products = target.triples.iter().map(|triple| (target.platform, *triple));
-            match calls.iter_mut().find(|call| call.linker == target.linker && call.level == level) {
-                Some(call) => call.products.extend(products),
+            match series.iter_mut().find(|series| series.linker == target.linker && series.level == level) {
+                Some(series) => series.products.extend(products),
                 None => {
-                    calls.push(Call { linker: target.linker.clone(), level, profile, products: products.collect() })
+                    series.push(Series { linker: target.linker.clone(), level, profile, products: products.collect() })
                 }
             }
         }
     }
-    let libraries: Result<Vec<Vec<Library>>> = calls.par_iter().map(|call| call.run(&workspace)).collect();
+    let libraries: Result<Vec<Vec<Library>>> = series.par_iter().map(|series| series.run(&workspace)).collect();
     let mut libraries: Vec<Library> = libraries?.into_iter().flatten().collect();
     libraries.sort_by_key(|library| (library.platform, library.level));
     Ok(libraries)
 }
 
-/// One call of cargo.
-struct Call {
+/// Libraries of one linker and level, which are built one after the other in a directory of their own: no build replaces one
+/// of another series or waits for it, and what runs on this machine is compiled once for all of them.
+struct Series {
     linker: Linker,
     level: Option<&'static str>,
     profile: Profile,
     products: Vec<(Platform, &'static str)>,
 }
 
-impl Call {
-    /// Builds the libraries, for processors of the call's level if it has one.
+impl Series {
     fn run(&self, workspace: &Path) -> Result<Vec<Library>> {
+        self.products.iter().map(|(platform, triple)| self.library(workspace, *platform, triple)).collect()
+    }
+
+    /// Builds the library, for processors of the series' level if it has one. cargo makes a shared library of a Rust library
+    /// for one target at a time.
+    fn library(&self, workspace: &Path, platform: Platform, triple: &'static str) -> Result<Library> {
         let mut command = self.program()?;
         let linker = match self.linker {
             Linker::Own => "",
@@ -212,19 +218,16 @@ impl Call {
             Linker::MinGw => "-mingw",
         };
         let level = self.level.map(|level| format!("-{level}")).unwrap_or_default();
-        // Each linker and level has a directory of its own, so that no build replaces another.
         let directory = workspace.join("target").join(format!("library{linker}{level}"));
         command
             .args(["--profile", self.profile.name(), "--lib", "--crate-type", "cdylib", "--package", "slidercrank"])
             .arg("--target-dir")
             .arg(&directory);
-        for (platform, triple) in &self.products {
-            // If a target is named, cargo keeps the flags from build scripts, which run here.
-            command.arg("--target").arg(match (&self.linker, platform) {
-                (Linker::Zig(_), Platform::Linux64 | Platform::LinuxAarch64) => format!("{triple}.{OLD_GLIBC}"),
-                _ => (*triple).to_owned(),
-            });
-        }
+        // If a target is named, cargo keeps the flags from build scripts, which run here.
+        command.arg("--target").arg(match (&self.linker, platform) {
+            (Linker::Zig(_), Platform::Linux64 | Platform::LinuxAarch64) => format!("{triple}.{OLD_GLIBC}"),
+            _ => triple.to_owned(),
+        });
         let mut flags = remapped(workspace);
         if let Some(level) = self.level {
             flags.push(format!("\u{1f}-Ctarget-cpu={level}"));
@@ -233,13 +236,10 @@ impl Call {
         // The date of a package is no part of its libraries. zig would refuse to run if the date is invalid.
         command.env("CARGO_ENCODED_RUSTFLAGS", flags).env_remove("CARGO_BUILD_TARGET").env_remove(EPOCH);
         let status = command.stdin(Stdio::null()).status().context("cargo cannot be started")?;
-        ensure!(status.success(), "cargo could not build the FMU's library ({status})");
-        let library = |&(platform, triple): &(Platform, &'static str)| {
-            let (prefix, suffix) = platform.affixes();
-            let file = directory.join(triple).join(self.profile.name()).join(format!("{prefix}slidercrank{suffix}"));
-            Library { platform, triple, level: self.level, file }
-        };
-        Ok(self.products.iter().map(library).collect())
+        ensure!(status.success(), "cargo could not build the FMU's library for {triple} ({status})");
+        let (prefix, suffix) = platform.affixes();
+        let file = directory.join(triple).join(self.profile.name()).join(format!("{prefix}slidercrank{suffix}"));
+        Ok(Library { platform, triple, level: self.level, file })
     }
 
     /// cargo or cargo-zigbuild, set up for the linker.

@@ -6,11 +6,16 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
 use std::{env, fs};
 
 /// MinGW-w64's C compiler, which links libraries for Windows.
 pub const MINGW: &str = "x86_64-w64-mingw32-gcc";
 const MINGW_PACKAGE: &str = "gcc-mingw-w64-x86-64-win32";
+
+/// One thread at a time looks for a tool and installs it: a half-installed tool looks like a whole one, and two installers
+/// stand in each other's way.
+static INSTALLING: Mutex<()> = Mutex::new(());
 
 /// The folder of cargo-zigbuild and of zig, which are Python packages.
 ///
@@ -29,6 +34,7 @@ pub fn zig(missing: Missing) -> Result<PathBuf> {
 /// # Errors
 /// If it cannot be installed; the text says how to install it by hand.
 pub fn mingw() -> Result<()> {
+    let _alone = INSTALLING.lock().unwrap_or_else(PoisonError::into_inner);
     if succeeds(MINGW, &["--version"]) || (install(MINGW_PACKAGE) && succeeds(MINGW, &["--version"])) {
         return Ok(());
     }
@@ -40,6 +46,7 @@ pub fn mingw() -> Result<()> {
 /// # Errors
 /// If it cannot be installed; the text says how to install it by hand.
 pub fn standard_library(platform: Platform) -> Result<()> {
+    let _alone = INSTALLING.lock().unwrap_or_else(PoisonError::into_inner);
     let sysroot = sysroot()?;
     let lacks = |triple: &&&str| !sysroot.join("lib").join("rustlib").join(triple).join("lib").is_dir();
     let missing: Vec<&str> = platform.triples().iter().filter(lacks).copied().collect();

@@ -59,7 +59,7 @@ fn prepare(platform: Platform) -> Result<(), String> {
     build::prepare(platform).map_err(|error| format!("{error:#}"))
 }
 
-/// The portable libraries of all platforms that are to be tested and can be. Those that are run are built by one call.
+/// The portable libraries of all platforms that are to be tested and can be.
 fn built() -> &'static [Library] {
     static BUILT: OnceLock<Vec<Library>> = OnceLock::new();
     BUILT.get_or_init(|| {
