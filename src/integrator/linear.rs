@@ -1,5 +1,6 @@
 //! Systems of linear equations, solved without allocation.
 
+use crate::math::Complex4;
 use nalgebra::{DMatrixView, DMatrixViewMut, DVectorViewMut};
 
 /// LU factors of a square matrix (Gaussian elimination with partial pivoting).
@@ -27,6 +28,81 @@ impl Factors {
     /// Replaces the right-hand side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
         substitute(&self.elements[..self.size * self.size], &self.pivot[..self.size], x);
+    }
+}
+
+/// LU factors of four complex square matrices of like sizes and signs. All four have the same pivots, those of the largest
+/// sums of absolute values.
+#[derive(Clone, Debug)]
+pub struct FourFactors {
+    size: usize,
+    /// L (below the diagonal; its diagonal is 1), the reciprocals of the diagonal of U, and U, by columns.
+    elements: Vec<Complex4>,
+    /// The row that was exchanged with each row.
+    pivot: Vec<usize>,
+}
+
+impl FourFactors {
+    /// Memory for matrices of up to `rows` rows.
+    pub fn with_capacity(rows: usize) -> Self {
+        Self { size: 0, elements: vec![Complex4::ZERO; rows * rows], pivot: vec![0; rows] }
+    }
+
+    /// Factorises the matrices of `size` rows with elements `element(i, j)`. If one of them is singular, its solutions are
+    /// not finite.
+    pub fn of(&mut self, size: usize, element: impl Fn(usize, usize) -> Complex4) {
+        self.size = size;
+        let matrices = &mut self.elements[..size * size];
+        for (j, column) in matrices.chunks_exact_mut(size.max(1)).enumerate() {
+            for (i, place) in column.iter_mut().enumerate() {
+                *place = element(i, j);
+            }
+        }
+        for k in 0..size {
+            let (left, right) = matrices.split_at_mut((k + 1) * size);
+            let column = &mut left[k * size..];
+            let pivot = (k..size).max_by(|i, j| column[*i].size().total_cmp(&column[*j].size())).unwrap_or(k);
+            self.pivot[k] = pivot;
+            column.swap(k, pivot);
+            column[k] = column[k].reciprocal();
+            let (upper, lower) = column.split_at_mut(k + 1);
+            for element in &mut *lower {
+                *element = *element * upper[k];
+            }
+            for other in right.chunks_exact_mut(size) {
+                other.swap(k, pivot);
+                let (upper, rest) = other.split_at_mut(k + 1);
+                subtract(rest, upper[k], lower);
+            }
+            for earlier in left[..k * size].chunks_exact_mut(size) {
+                earlier.swap(k, pivot);
+            }
+        }
+    }
+
+    /// Replaces the right-hand sides `x` by the solutions.
+    pub fn solve(&self, x: &mut [Complex4]) {
+        let size = self.size;
+        let column = |k: usize| &self.elements[k * size..][..size];
+        for k in 0..size {
+            x.swap(k, self.pivot[k]);
+        }
+        for k in 0..size {
+            let (known, rest) = x.split_at_mut(k + 1);
+            subtract(rest, known[k], &column(k)[k + 1..]);
+        }
+        for k in (0..size).rev() {
+            let (rest, known) = x.split_at_mut(k);
+            known[0] = known[0] * column(k)[k];
+            subtract(rest, known[0], &column(k)[..k]);
+        }
+    }
+}
+
+/// Subtracts `factor` times the `others`.
+fn subtract(from: &mut [Complex4], factor: Complex4, others: &[Complex4]) {
+    for (from, other) in from.iter_mut().zip(others) {
+        *from = *from - factor * *other;
     }
 }
 
@@ -93,6 +169,26 @@ mod tests {
         factors.solve(&mut x);
         for (found, exact) in x.iter().zip(&exact) {
             assert!((found - exact).abs() < 1e-11, "{found} is not {exact}");
+        }
+    }
+
+    #[test]
+    fn four_complex_systems_are_solved_together() {
+        let element = |i: usize, j: usize| {
+            let number = |lane: usize| 1.0 / (((i + 2) % 5 + j + 1 + lane) as f64);
+            let turned = if i == j { -0.2 } else { 0.1 };
+            Complex4::of([0, 1, 2, 3].map(number), [turned, -turned, 2.0 * turned, 0.0])
+        };
+        let exact = [1.0, -2.0, 3.0, 0.5, 4.0].map(|re| Complex4::of([re, -re, 2.0, re], [0.5, re, 1.0, 0.0]));
+        let mut x = [Complex4::ZERO; 5];
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = (0..5).fold(Complex4::ZERO, |sum, j| sum + element(i, j) * exact[j]);
+        }
+        let mut factors = FourFactors::with_capacity(8);
+        factors.of(5, element);
+        factors.solve(&mut x);
+        for (found, exact) in x.iter().zip(&exact) {
+            assert!((*found - *exact).size() < 1e-9, "{found:?} is not {exact:?}");
         }
     }
 

@@ -20,13 +20,16 @@ pub struct Properties {
     pub locates: bool,
     /// The error estimate is proportional to the step raised to this power.
     pub error_power: f64,
-    /// Whether the state within a step is interpolated. Otherwise a shorter step is made to each requested time,
-    /// because an interpolant would leave the slow motion of a stiff system.
+    /// Whether the state within a step is interpolated between its ends. An interpolant would leave the slow motion of a stiff
+    /// system: otherwise the method has a [polynomial of its own](Method::inside), or a shorter step is made to each requested
+    /// time.
     pub interpolates: bool,
     /// Whether an attempt computes the rates and event functions at its end.
     pub gives_end: bool,
     /// Whether a step is predicted from the one before it.
     pub predicts: bool,
+    /// Whether a step as long as the one before it is predicted with less work.
+    pub keeps_length: bool,
     /// Share of the tolerance that one step may use.
     pub error_share: f64,
     /// The other kinds of this method, in the order in which they take over a step whose attempts keep failing.
@@ -112,6 +115,12 @@ pub trait Method<D: Copy>: Send {
     /// Keeps the last attempt, which went from `start` to the time `end` [s], as the history for the next prediction.
     /// Only for a method that [predicts](Properties::predicts).
     fn remember(&mut self, _start: &StepPoint<D>, _end: f64) {}
+
+    /// Writes the state at the time `t` [s] in the step from `start` to the time `end` [s], if that is the step that was
+    /// remembered last and the method has a polynomial of its own. Returns whether it is written.
+    fn inside(&self, _start: &StepPoint<D>, _end: f64, _t: f64, _y: &mut [f64]) -> bool {
+        false
+    }
 
     /// Discards the history; the next step is not predicted.
     fn forget(&mut self) {}

@@ -19,6 +19,7 @@ mod linear;
 pub mod method;
 pub mod methods;
 pub mod root;
+mod second_order;
 mod snapshot;
 mod state;
 mod statistics;

@@ -9,8 +9,8 @@ use super::system::System;
 
 /// Share of the tolerance for steps during an impact: the flight after it and every later impact amplify its errors.
 const IMPACT_SHARE: f64 = 0.1;
-/// A method that predicts from the last step does not lengthen the next step if the error is above this: a step of
-/// equal length is predicted with less work.
+/// A method that [keeps the length](super::method::Properties::keeps_length) of steps does not lengthen the next step if the
+/// error is above this.
 const STEADY_ERROR: f64 = 1e-2;
 /// Maximum number of times that one step is cut short at a derivative discontinuity.
 const MAX_CUTS: usize = 6;
@@ -115,7 +115,7 @@ fn fitted<D: Copy>(
         stepper.attempt(system, h);
         let looseness = stepper.looseness();
         let tolerance = nominal * looseness;
-        let (full, predicts) = (stepper.properties.error_power, stepper.properties.predicts);
+        let (full, keeps_length) = (stepper.properties.error_power, stepper.properties.keeps_length);
         let error = judged(stepper, system, h, tolerance);
         let state = &mut stepper.state;
         if error <= 1.0 {
@@ -123,7 +123,7 @@ fn fitted<D: Copy>(
             state.step = match first {
                 Some(first) if cut => first,
                 Some(_) => h * growth().min(1.0),
-                None if predicts && error > STEADY_ERROR => wanted,
+                None if keeps_length && error > STEADY_ERROR => wanted,
                 None => h * growth(),
             };
             state.last_error = error.max(LEAST_ERROR);

@@ -56,7 +56,7 @@ impl WorkLimit {
 /// Upper bound of the evaluations that the length of an advance adds.
 const MAX_EVALUATIONS_BY_LENGTH: f64 = 1e11;
 /// Safety factor of the step size; see [`growth`].
-const SAFETY: f64 = 0.95;
+pub const SAFETY: f64 = 0.95;
 /// [s] Upper bound of the first step of a motion.
 const FIRST_STEP: f64 = 1e-4;
 /// Smallest factor between successive step sizes.

@@ -171,10 +171,12 @@ impl<D: Copy> Stepper<D> {
 
     /// Makes the state at `t` in the last step, as [`state_at`](Self::state_at) reports it, the end of the attempt.
     pub(super) fn attempt_interpolated(&mut self, system: &dyn System<Discrete = D>, t: f64) {
-        if self.is_attempted_at(system, t) {
-            return;
+        if !self.is_inside(t) {
+            if self.is_attempted_at(system, t) {
+                return;
+            }
+            self.interpolate(system, t);
         }
-        self.interpolate(system, t);
         self.state.ends().1.y.copy_from_slice(&self.inside);
     }
 
@@ -185,11 +187,20 @@ impl<D: Copy> Stepper<D> {
             return (&front.y, front.discrete);
         }
         let discrete = self.state.start().discrete;
+        if self.is_inside(t) {
+            return (&self.inside, discrete);
+        }
         if self.is_attempted_at(system, t) {
             return (&self.state.attempt().y, discrete);
         }
         self.interpolate(system, t);
         (&self.inside, discrete)
+    }
+
+    /// Writes the state at `t` in the last step by the method's own polynomial. Returns whether there is one.
+    fn is_inside(&mut self, t: f64) -> bool {
+        let Self { method, state, inside, .. } = self;
+        method.inside(state.start(), state.front().t, t, inside)
     }
 
     /// For a method that does not interpolate, attempts a step to `t` within the last one. Returns whether its end is

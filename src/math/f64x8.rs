@@ -37,6 +37,18 @@ impl F64x8 {
         [a, b, c, d, e, f, g, h]
     }
 
+    /// Packs two times four numbers.
+    #[inline(always)]
+    pub(super) const fn of_halves(halves: [f64x4; REGISTERS]) -> Self {
+        Self(halves)
+    }
+
+    /// The first and the last four numbers.
+    #[inline(always)]
+    pub(super) const fn halves(self) -> [f64x4; REGISTERS] {
+        self.0
+    }
+
     /// The last of the eight numbers.
     #[inline(always)]
     pub fn last(self) -> f64 {

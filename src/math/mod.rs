@@ -4,6 +4,7 @@
 //! The elementary functions of `f64` are not used: they come from the platform's C library, whose last digits differ.
 //! Square roots are correctly rounded everywhere by IEEE 754, so `f64::sqrt` is used.
 
+mod complex;
 mod dual;
 mod f64x8;
 mod fused;
@@ -13,6 +14,7 @@ mod sin_cos;
 mod unroll;
 mod vec2;
 
+pub use complex::Complex4;
 pub use dual::Dual;
 pub use f64x8::{F64x8, ROW};
 pub use fused::{Fused, PORTABLE};

@@ -17,8 +17,16 @@ impl Dice {
     }
 }
 
-pub const METHODS: [Method; 7] =
-    [Method::Automatic, Method::Verner7, Method::Cong8, Method::Dopri5, Method::Dop853, Method::Rk4, Method::Moreau];
+pub const METHODS: [Method; 8] = [
+    Method::Automatic,
+    Method::Verner7,
+    Method::Cong8,
+    Method::Dopri5,
+    Method::Dop853,
+    Method::Radau13,
+    Method::Rk4,
+    Method::Moreau,
+];
 pub const LAWS: [FrictionLaw; 4] = [FrictionLaw::Ambrosio, FrictionLaw::Tanh, FrictionLaw::Stribeck, FrictionLaw::None];
 /// [s] Length of a run: a third of a turn and some impacts of every joint.
 pub const END: f64 = 0.012;

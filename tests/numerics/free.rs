@@ -54,7 +54,7 @@ pub fn begin<D: Copy + 'static>(
     discrete: D,
 ) -> Integrator<D> {
     let y = y.as_ref();
-    let method = named(method, y.len()).expect("a method of this name");
+    let method = named(method, y.len(), settings.tolerance).expect("a method of this name");
     Integrator::start(system, method, settings, t, y, discrete)
 }
 

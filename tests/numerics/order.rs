@@ -4,6 +4,7 @@ use super::free::{Free, distance, kepler, orbit, point, power, step_from};
 use slidercrank::integrator::method::Attempt;
 use slidercrank::integrator::methods::block::Cong8;
 use slidercrank::integrator::methods::explicit::Explicit;
+use slidercrank::integrator::methods::named;
 use slidercrank::integrator::methods::{BS3, DOP853, DOPRI5, RK4, VERNER7};
 use slidercrank::integrator::{Method, StepPoint, System, Tableau};
 
@@ -172,4 +173,30 @@ fn the_estimate_of_a_block_is_at_least_as_large_as_its_error() {
             }
         }
     }
+}
+
+/// Error of two oscillations at the end of this many equal steps of `radau13`, longer than the oscillations' radian.
+fn error_by_collocation(steps: u32) -> f64 {
+    let end = 12.0_f64;
+    let problem =
+        Free::<_, 4> { accelerations: |_: f64, q: &[f64], _: &[f64], a: &mut [f64]| (a[0], a[1]) = (-q[0], -q[1]) };
+    let h = end / f64::from(steps);
+    let mut method = named::<()>("radau13", 4, 1e-10).expect("a method");
+    let mut start = point(&problem, 0.0, &[1.0, 0.0, 0.0, 1.0]);
+    for _ in 0..steps {
+        let (end, _) = step_from(&mut *method, &problem, &start, h);
+        method.remember(&start, end.t);
+        start = end;
+    }
+    let (sin, cos) = end.sin_cos();
+    distance(&start.y, &[cos, sin, -sin, cos])
+}
+
+#[test]
+fn the_error_of_oscillations_by_collocation_falls_with_the_order_that_is_claimed() {
+    let points = [5, 6, 7, 8].map(|n| (f64::from(n).recip(), error_by_collocation(n)));
+    let order = power(&points);
+    println!("radau13: order {order:.3}, errors {:.1e} to {:.1e}", points[0].1, points[3].1);
+    let claimed = f64::from(named::<()>("radau13", 4, 1e-10).expect("a method").properties().order);
+    assert!((order - claimed).abs() < 0.5, "order {order}");
 }

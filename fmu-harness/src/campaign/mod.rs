@@ -237,7 +237,7 @@ impl Campaign {
         if scene.energy.audit {
             price *= 1.5;
         }
-        if scene.solver.method == Method::Rodas4 {
+        if matches!(scene.solver.method, Method::Radau13 | Method::Rodas4) {
             price *= 3.0;
         }
         most / price

@@ -43,7 +43,7 @@ const TIGHT: f64 = 1e-6;
 /// Largest residual of the energy balance, as a share of the converted energy. Works and losses have no weight in the
 /// error norm. This value was measured for a body of a milligram, whose velocities are accurate to 1e-5 m/s.
 const BALANCE: f64 = 1e-3;
-/// Largest residual with linearly implicit steps, which do not resolve stiff transients and the energy lost in them.
+/// Largest residual with implicit steps, which do not resolve stiff transients and the energy lost in them.
 const IMPLICIT_BALANCE: f64 = 0.1;
 
 /// Inputs from this size on may make outputs overflow; the FMU does not return such outputs.
@@ -247,7 +247,7 @@ impl<'a> Trial<'a> {
     /// Checks the energy balance of a run with an audit and a tolerance.
     fn balance(&self) -> Result<(), Stop> {
         let solver = &self.file.scene.solver;
-        let implicit = matches!(solver.method, Method::Rodas4 | Method::Automatic);
+        let implicit = matches!(solver.method, Method::Automatic | Method::Radau13 | Method::Rodas4);
         let share = if implicit { IMPLICIT_BALANCE } else { BALANCE };
         let weighted = !solver.method.has("fixed step") && solver.tolerance <= TIGHT;
         if !weighted || self.residual <= share * self.turned_over + noticeable(&self.file.scene) {

@@ -14,9 +14,10 @@ use slidercrank::simulation::Simulation;
 use std::time::Duration;
 
 /// The methods, the default first.
-const METHODS: [(Method, &str); 5] = [
+const METHODS: [(Method, &str); 6] = [
     (Method::Automatic, "automatic"),
     (Method::Cong8, "cong8"),
+    (Method::Radau13, "radau13"),
     (Method::Verner7, "verner7"),
     (Method::Dop853, "dop853"),
     (Method::Dopri5, "dopri5"),

@@ -1,10 +1,9 @@
-//! `automatic`: `verner7` where the motion is not stiff, `rodas4` where it is stiff, and `cong8` in non-stiff motion of
+//! `automatic`: `verner7` where the motion is not stiff, `radau13` where it is stiff, and `cong8` in non-stiff motion of
 //! a system that suits blocks. `StiffnessSwitch` selects the kind.
 
 use super::block::Cong8;
 use super::explicit::Explicit;
-use super::rodas4::RODAS4;
-use super::rosenbrock::Rosenbrock;
+use super::radau13::Radau13;
 use super::stiffness_switch::{StiffnessSwitch, fastest};
 use super::verner7::VERNER7;
 use crate::integrator::method::{Attempt, Method, MethodKind, Properties, StepAdvice};
@@ -16,7 +15,7 @@ use crate::integrator::system::System;
 /// 1 between |z| = 4.44 (at 110° from the positive real axis) and 4.75.
 const BOUND: f64 = 4.4;
 
-/// The order-7 pair, which switches to the L-stable order-4 pair in stiff motion and to steps in blocks where they pay.
+/// The order-7 pair, which switches to the L-stable collocation method in stiff motion and to steps in blocks where they pay.
 #[derive(Clone, Debug)]
 pub struct Automatic {
     kind: MethodKind,
@@ -25,22 +24,22 @@ pub struct Automatic {
     /// Method for non-stiff motion; its last two stages are at the step's end.
     explicit: Explicit,
     /// Method for stiff motion.
-    implicit: Rosenbrock,
+    implicit: Radau13,
     /// Properties of each kind, in the order of [`MethodKind::ALL`].
     properties: [Properties; 3],
 }
 
 impl Automatic {
-    /// The method for `states` states.
-    pub fn new(states: usize) -> Self {
+    /// The method for `states` states and a `tolerance`.
+    pub fn new(states: usize, tolerance: f64) -> Self {
         let block = Cong8::new(states);
-        let (explicit, implicit) = (Explicit::new(&VERNER7, states), Rosenbrock::new(&RODAS4, states));
+        let (explicit, implicit) = (Explicit::new(&VERNER7, states), Radau13::new(states, tolerance));
         let with = |properties: &Properties, others: &'static [MethodKind]| Properties {
             name: "automatic",
             others,
             ..*properties
         };
-        let implicit_properties = with(implicit.properties(), &[MethodKind::Explicit, MethodKind::Block]);
+        let implicit_properties = with(Method::<()>::properties(&implicit), &[MethodKind::Explicit, MethodKind::Block]);
         let properties = [
             with(Method::<()>::properties(&block), &[MethodKind::Explicit, MethodKind::Implicit]),
             with(explicit.properties(), &[MethodKind::Implicit, MethodKind::Block]),
@@ -60,7 +59,7 @@ impl<D: Copy> Method<D> for Automatic {
     fn begin(&mut self, system: &dyn System<Discrete = D>) {
         self.switch = if system.suits_blocks() { StiffnessSwitch::BLOCKS } else { StiffnessSwitch::NON_STIFF };
         self.kind = self.switch.kind;
-        Method::<D>::forget(&mut self.block);
+        Method::<D>::forget(self);
     }
 
     fn attempt(
@@ -79,11 +78,20 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn remember(&mut self, start: &StepPoint<D>, end: f64) {
-        self.block.remember(start, end);
+        match self.kind {
+            MethodKind::Block => self.block.remember(start, end),
+            MethodKind::Explicit => {}
+            MethodKind::Implicit => self.implicit.remember(start, end),
+        }
+    }
+
+    fn inside(&self, start: &StepPoint<D>, end: f64, t: f64, y: &mut [f64]) -> bool {
+        self.kind == MethodKind::Implicit && self.implicit.inside(start, end, t, y)
     }
 
     fn forget(&mut self) {
         Method::<D>::forget(&mut self.block);
+        Method::<D>::forget(&mut self.implicit);
     }
 
     fn accepted(&mut self, system: &dyn System<Discrete = D>, start: &StepPoint<D>, end: &StepPoint<D>) -> StepAdvice {
@@ -127,15 +135,16 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let StiffnessSwitch { kind, steps, check_interval, unpaid, block } = self.switch;
-        snapshot.reals.push(block);
+        let StiffnessSwitch { kind, steps, check_interval, unpaid, block, reach } = self.switch;
+        snapshot.reals.extend([block, reach]);
         snapshot.integers.extend([self.kind as u64, kind as u64]);
         snapshot.integers.extend([steps, check_interval, unpaid].map(u64::from));
         Method::<D>::save(&self.block, snapshot);
+        Method::<D>::save(&self.implicit, snapshot);
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let block = reader.real()?;
+        let [block, reach] = reader.reals()?;
         self.kind = read_kind(reader)?;
         self.switch = StiffnessSwitch {
             kind: read_kind(reader)?,
@@ -143,8 +152,10 @@ impl<D: Copy> Method<D> for Automatic {
             check_interval: reader.integer()?.try_into().ok()?,
             unpaid: reader.integer()?.try_into().ok()?,
             block,
+            reach,
         };
         Method::<D>::load(&mut self.block, reader)?;
+        Method::<D>::load(&mut self.implicit, reader)?;
         self.switch.is_sound().then_some(())
     }
 }

@@ -28,6 +28,7 @@ const PROPERTIES: Properties = Properties {
     interpolates: true,
     gives_end: false,
     predicts: false,
+    keeps_length: false,
     error_share: ERROR_SHARE,
     others: &[],
 };

@@ -65,6 +65,7 @@ const PROPERTIES: Properties = Properties {
     interpolates: true,
     gives_end: true,
     predicts: true,
+    keeps_length: true,
     error_share: ERROR_SHARE,
     others: &[],
 };

@@ -43,6 +43,7 @@ impl Explicit {
             interpolates: true,
             gives_end: tableau.first_same_as_last,
             predicts: false,
+            keeps_length: false,
             error_share: ERROR_SHARE,
             others: &[],
         };

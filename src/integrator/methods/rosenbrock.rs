@@ -2,11 +2,11 @@
 //!
 //! Stage i solves (1/(hγ) − J)·u_i = f(t + α_i·h, y + Σ a_ij·u_j) + Σ (c_ij/h)·u_j + γ_i·h·∂f/∂t, and the step ends at
 //! y + Σ m_j·u_j (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.7, in the variables of (7.25)).
-//! The rates of positions are velocities. Hence u of a position is hγ times its right-hand side plus u of its velocity,
-//! and only the equations of velocities and first-order states are factorised.
+//! [`second_order`] solves these equations.
 
 use crate::integrator::linear::Factors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
+use crate::integrator::second_order;
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::{Jacobian, StateLayout, System};
 
@@ -60,21 +60,12 @@ impl Rosenbrock {
             interpolates: false,
             gives_end: false,
             predicts: false,
+            keeps_length: false,
             error_share: ERROR_SHARE,
             others: &[],
         };
         let (jacobian, factors) = (Jacobian::new(states), Factors::with_capacity(states));
         Self { coefficients, properties, jacobian, factors, stages: vec![0.0; STAGES * states] }
-    }
-
-    /// See [`Method::properties`].
-    pub fn properties(&self) -> &Properties {
-        &self.properties
-    }
-
-    /// The derivatives of the rates at the start of the last attempt, as workspace for other uses between attempts.
-    pub fn jacobian(&mut self) -> &mut Jacobian {
-        &mut self.jacobian
     }
 }
 
@@ -99,12 +90,7 @@ impl<D: Copy> Method<D> for Rosenbrock {
         let StateLayout { positions: p, states, .. } = system.layout();
         let g = method.gamma * h;
         system.jacobian(&start.discrete, start.t, &start.y, jacobian);
-        factors.of(states - p, |i, j| {
-            let row = jacobian.row(p + i);
-            let unit = if i == j { 1.0 } else { 0.0 };
-            let through_position = if j < p { g * row[j] } else { 0.0 };
-            unit - g * (row[p + j] + through_position)
-        });
+        factors.of(states - p, |i, j| second_order::element(jacobian, p, g, i, j));
         for i in 0..STAGES {
             let (earlier, later) = u.split_at_mut(i * states);
             let right = &mut later[..states];
@@ -122,28 +108,13 @@ impl<D: Copy> Method<D> for Rosenbrock {
             for (right, slope) in right.iter_mut().zip(&jacobian.time) {
                 *right += method.slopes[i] * h * slope;
             }
-            solve(factors, jacobian, g, p, right);
+            second_order::solve(jacobian, p, g, right, |rest| factors.solve(rest));
         }
         sum(&mut end.y, |k| start.y[k], &method.weights, u);
         sum(&mut attempt.error, |_| 0.0, &method.error, u);
         attempt.unseen.fill(0.0);
         // The Jacobian counts as one evaluation.
         STAGES as u64
-    }
-}
-
-/// Replaces the right-hand side of a stage by its u.
-fn solve(factors: &Factors, jacobian: &Jacobian, g: f64, p: usize, right: &mut [f64]) {
-    let states = right.len();
-    let (of_positions, rest) = right.split_at_mut(p);
-    for (i, right) in (p..states).zip(rest.iter_mut()) {
-        let row = &jacobian.row(i)[..p];
-        let through: f64 = row.iter().zip(&*of_positions).map(|(slope, right)| slope * right).sum();
-        *right = g * (*right + g * through);
-    }
-    factors.solve(rest);
-    for (position, velocity) in of_positions.iter_mut().zip(rest) {
-        *position = g * (*position + *velocity);
     }
 }
 

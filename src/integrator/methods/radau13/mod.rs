@@ -1,0 +1,446 @@
+//! `radau13`: the collocation method of Radau IIA type with seven stages, of order 13, for stiff motion (E. Hairer,
+//! G. Wanner, J. Comput. Appl. Math. 111 (1999) 93; Solving Ordinary Differential Equations II, IV.8). It is L-stable,
+//! and a stage has order 7: the order does not fall in stiff motion as that of a linearly implicit method does.
+//!
+//! A step follows, in each state, the polynomial of degree seven from y that satisfies the equations at the nodes c_i of
+//! Radau's right quadrature, the last of which is the step's end. The changes z_i = y(t + c_i·h) − y satisfy
+//!
+//! ```text
+//! z_i = h·Σ_j a_ij·f(t + c_j·h, y + z_j),      i = 1 … 7.
+//! ```
+//!
+//! Newton's method solves them with the exact Jacobian J at the step's start. With A⁻¹ = V·Λ·U, U = V⁻¹, and w = U·z, a
+//! correction falls apart into equations of the size of the system, one real and three complex ones; `modes` below:
+//!
+//! ```text
+//! (λ_k/h − J)·Δw_k = (U·f)_k − λ_k/h·w_k,      z = V·w.
+//! ```
+//!
+//! The four matrices are factorised together, in the four numbers of a register. The stages of a state fill a row of eight,
+//! in which the last stage stands twice; [`second_order`] eliminates the positions.
+//!
+//! Newton's method begins with the polynomial of the last step or, without one, with constant accelerations. It has
+//! converged once the error that is left, which follows from the ratio of two corrections, is a small share of the
+//! tolerance. If it does not converge, the step is repeated, shorter. A step after which it would hardly converge is not
+//! made: the ratio of the corrections bounds the next step through the error.
+//!
+//! Error estimate: the difference from a quadrature of order 7 with the additional node 0, of weight h/λ₁, filtered by
+//! (1 − h/λ₁·J)⁻¹ so that it stays bounded in stiff motion: (1 − h/λ₁·J)⁻¹·(h/λ₁·f(t, y) + Σ e_i·z_i).
+
+mod tables;
+
+use crate::integrator::linear::FourFactors;
+use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
+use crate::integrator::second_order;
+use crate::integrator::snapshot::{Reader, Snapshot};
+use crate::integrator::state::{StepPoint, is_valid};
+use crate::integrator::step_control::{SAFETY, norm};
+use crate::integrator::system::{Jacobian, StateLayout, System};
+use crate::math::{Complex4, F64x8, Fused, Real};
+use tables::{EIGENVALUES, ERROR, NODES, TO_MODES, TO_STAGES};
+
+/// Number of stages.
+const STAGES: usize = 7;
+/// Power of the step to which the error estimate is proportional.
+const ERROR_POWER: i32 = STAGES as i32 + 1;
+/// Maximum number of Newton iterations.
+const MAX_ITERATIONS: usize = 10;
+/// Newton's method has converged once the error that is left is this share of the tolerance: the errors of all steps have the
+/// same sign, and add up.
+const CONVERGED: f64 = 0.002;
+/// Ratio of two corrections that is assumed after the first.
+const FIRST_RATIO: f64 = 0.1;
+/// Newton's method does not converge if a correction is larger than this share of the one before.
+const MAX_RATIO: f64 = 0.9;
+/// A ratio of two corrections that a step should have. The ratio is about proportional to the step.
+const GOOD_RATIO: f64 = 0.15;
+/// Bounds of the factor between the step in which Newton's method did not converge and the next attempt.
+const RETRY: [f64; 2] = [0.2, 0.5];
+/// A step longer than this many times the last one is not predicted from it.
+const MAX_LENGTH_RATIO: f64 = 6.0;
+
+const PROPERTIES: Properties = Properties {
+    name: "radau13",
+    order: 13,
+    adaptive: true,
+    coarse: false,
+    locates: true,
+    error_power: ERROR_POWER as f64,
+    interpolates: false,
+    gives_end: false,
+    predicts: true,
+    keeps_length: false,
+    error_share: ERROR_SHARE,
+    others: &[],
+};
+
+/// History of the predictor: the polynomial of the last step, or of an attempt that failed.
+#[derive(Clone, Debug)]
+struct History {
+    /// [s] Start of the step.
+    begin: f64,
+    /// [s] End of the step; equal to `begin` without history.
+    end: f64,
+    /// z of the step.
+    changes: Vec<F64x8>,
+}
+
+/// The seven-stage method.
+#[derive(Clone, Debug)]
+pub struct Radau13 {
+    tolerance: f64,
+    history: History,
+    /// Whether `changes` are those of a step: whether Newton's method has converged.
+    converged: bool,
+    jacobian: Jacobian,
+    factors: FourFactors,
+    /// z: changes of the states from the step's start to its stages.
+    changes: Vec<F64x8>,
+    /// w.
+    modes: Vec<Complex4>,
+    /// Right-hand side of a correction, then the correction Δw.
+    correction: Vec<Complex4>,
+    stages: Stages,
+}
+
+impl Radau13 {
+    /// The method for `states` states. Newton's method converges to a share of the `tolerance`.
+    pub fn new(states: usize, tolerance: f64) -> Self {
+        let rows = || vec![F64x8::ZERO; states];
+        let modes = || vec![Complex4::ZERO; states];
+        Self {
+            tolerance,
+            history: History { begin: 0.0, end: 0.0, changes: rows() },
+            converged: false,
+            jacobian: Jacobian::new(states),
+            factors: FourFactors::with_capacity(states),
+            changes: rows(),
+            modes: modes(),
+            correction: modes(),
+            stages: Stages::new(states),
+        }
+    }
+
+    /// The derivatives of the rates at the start of the last attempt, as workspace for other uses between attempts.
+    pub fn jacobian(&mut self) -> &mut Jacobian {
+        &mut self.jacobian
+    }
+
+    /// Predicts z of a step of `h` [s] from `start` with `positions` positions.
+    fn predict<D>(&mut self, start: &StepPoint<D>, h: f64, positions: usize) {
+        let Self { history, changes, .. } = self;
+        let Some(origin) = history.origin(start.t, h) else {
+            let time = NODES * h;
+            for (i, change) in changes.iter_mut().enumerate() {
+                *change = time * start.rates[i];
+                if i < positions {
+                    *change += time * time * (0.5 * start.rates[positions + i]);
+                }
+            }
+            return;
+        };
+        let weights = weights(NODES * (h / (history.end - history.begin)) + origin);
+        for (change, before) in changes.iter_mut().zip(&history.changes) {
+            let passed = if origin > 0.0 { before.last() } else { 0.0 };
+            *change = combined(&weights, before.numbers(), F64x8::constant(-passed));
+        }
+    }
+
+    /// Solves for z by Newton's method. Returns the number of iterations and the largest ratio of two successive corrections;
+    /// [`converged`](Self::converged) is then known.
+    fn iterate<D: Copy>(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        h: f64,
+        attempt: &mut Attempt,
+    ) -> (usize, f64) {
+        let Self { tolerance, converged, jacobian, factors, changes, modes, correction, stages, .. } = self;
+        let layout = system.layout();
+        let (shift, per_step) = (EIGENVALUES.reciprocal() * h, EIGENVALUES * (1.0 / h));
+        for (mode, change) in modes.iter_mut().zip(&*changes) {
+            *mode = to_modes(*change);
+        }
+        let (mut before, mut worst) = (f64::INFINITY, 0.0_f64);
+        *converged = false;
+        for iteration in 1..=MAX_ITERATIONS {
+            stages.evaluate(system, start, h, changes);
+            for ((correction, rates), mode) in correction.iter_mut().zip(&stages.rates).zip(&*modes) {
+                *correction = to_modes(*rates) - per_step * *mode;
+            }
+            second_order::solve(jacobian, layout.positions, shift, correction, |rest| factors.solve(rest));
+            for (i, correction) in correction.iter().enumerate() {
+                modes[i] = modes[i] + *correction;
+                let change = combined(&TO_STAGES, correction.row().numbers(), F64x8::ZERO);
+                changes[i] += change;
+                attempt.error[i] = change.numbers().into_iter().fold(0.0, |most, change| change.abs().max(most));
+            }
+            let size = norm(attempt, &start.y, system.scales(), layout, false, *tolerance);
+            if !size.is_finite() {
+                return (iteration, f64::INFINITY);
+            }
+            let mut ratio = FIRST_RATIO;
+            if iteration > 1 {
+                ratio = size / before;
+                worst = worst.max(ratio);
+            }
+            let left = |iterations: usize| {
+                let shrinkage = (0..iterations).fold(1.0, |product, _| product * ratio);
+                shrinkage * size * ratio / (1.0 - ratio.min(MAX_RATIO))
+            };
+            if left(0) <= CONVERGED {
+                *converged = true;
+                return (iteration, worst);
+            }
+            if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > CONVERGED) {
+                return (iteration, worst);
+            }
+            before = size;
+        }
+        (MAX_ITERATIONS, worst)
+    }
+
+    /// Writes the error estimate of a step of `h` [s] from `start`.
+    fn estimate<D>(&mut self, start: &StepPoint<D>, h: f64, positions: usize, error: &mut [f64]) {
+        let Self { jacobian, factors, changes, correction, .. } = self;
+        let shift = EIGENVALUES.reciprocal() * h;
+        for ((right, rate), change) in correction.iter_mut().zip(&start.rates).zip(&*changes) {
+            *right = Complex4::real(rate + (ERROR * *change).sum() / shift.first());
+        }
+        second_order::solve(jacobian, positions, shift, correction, |rest| factors.solve(rest));
+        for (error, found) in error.iter_mut().zip(&*correction) {
+            *error = found.first();
+        }
+    }
+}
+
+impl<D: Copy> Method<D> for Radau13 {
+    fn properties(&self) -> &Properties {
+        &PROPERTIES
+    }
+
+    fn kind(&self) -> MethodKind {
+        MethodKind::Implicit
+    }
+
+    #[inline(never)]
+    fn attempt(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        h: f64,
+        end: &mut StepPoint<D>,
+        attempt: &mut Attempt,
+    ) -> u64 {
+        let layout = system.layout();
+        let StateLayout { positions, states, .. } = layout;
+        self.predict(start, h, positions);
+        let Self { jacobian, factors, .. } = self;
+        system.jacobian(&start.discrete, start.t, &start.y, jacobian);
+        let shift = EIGENVALUES.reciprocal() * h;
+        factors.of(states - positions, |i, j| second_order::element(jacobian, positions, shift, i, j));
+        attempt.unseen.fill(0.0);
+        let (iterations, ratio) = self.iterate(system, start, h, attempt);
+        for ((end, start), change) in end.y.iter_mut().zip(&start.y).zip(&self.changes) {
+            let y = start + change.last();
+            *end = if is_valid(y) { y } else { *start };
+        }
+        if self.converged {
+            self.estimate(start, h, positions, &mut attempt.error);
+            let tolerance = ERROR_SHARE * self.tolerance;
+            let size = norm(attempt, &start.y, system.scales(), layout, false, tolerance);
+            let least = (SAFETY * ratio / GOOD_RATIO).powi(ERROR_POWER).min(1.0);
+            if size < least {
+                let factor = least / size.max(f64::MIN_POSITIVE);
+                attempt.error.iter_mut().for_each(|error| *error *= factor);
+            }
+        } else {
+            // An error for which step control shortens the step by this factor.
+            let factor = (GOOD_RATIO / ratio).clamp(RETRY[0], RETRY[1]);
+            let error = (SAFETY / factor).powi(ERROR_POWER) * self.tolerance;
+            attempt.error.fill(0.0);
+            for (found, scale) in attempt.error.iter_mut().zip(system.scales()) {
+                *found = error * scale;
+            }
+        }
+        // The Jacobian counts as one evaluation.
+        (STAGES * iterations) as u64 + 1
+    }
+
+    fn remember(&mut self, start: &StepPoint<D>, end: f64) {
+        let Self { history, changes, converged, .. } = self;
+        if *converged {
+            (history.begin, history.end) = (start.t, end);
+            history.changes.copy_from_slice(changes);
+        }
+    }
+
+    fn inside(&self, start: &StepPoint<D>, end: f64, t: f64, y: &mut [f64]) -> bool {
+        let History { begin, end: known, changes } = &self.history;
+        if start.t != *begin || end != *known {
+            return false;
+        }
+        let weights = weights((t - start.t) / (end - start.t));
+        for ((y, start), change) in y.iter_mut().zip(&start.y).zip(changes) {
+            let change = weights.iter().zip(change.numbers()).fold(0.0, |sum, (weight, change)| sum + weight * change);
+            *y = start + change;
+        }
+        true
+    }
+
+    fn forget(&mut self) {
+        self.history.end = self.history.begin;
+    }
+
+    fn save(&self, snapshot: &mut Snapshot) {
+        let History { begin, end, changes } = &self.history;
+        snapshot.integers.push(u64::from(end > begin));
+        if end > begin {
+            snapshot.reals.extend([begin, end]);
+            snapshot.reals.extend(changes.iter().flat_map(|row| row.numbers().into_iter().take(STAGES)));
+        }
+    }
+
+    fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
+        let History { begin, end, changes } = &mut self.history;
+        (*begin, *end) = (0.0, 0.0);
+        if reader.integer()? != 0 {
+            [*begin, *end] = reader.reals()?;
+            for row in changes {
+                let stages: [f64; STAGES] = reader.reals()?;
+                *row = F64x8::of(std::array::from_fn(|stage| stages[stage.min(STAGES - 1)]));
+            }
+        }
+        (*begin <= *end).then_some(())
+    }
+}
+
+impl History {
+    /// The point of the last step at which a step of `h` [s] from `t` starts: its start (0) or its end (1). `None` if the step
+    /// cannot be predicted.
+    fn origin(&self, t: f64, h: f64) -> Option<f64> {
+        let length = self.end - self.begin;
+        if length <= 0.0 || h > MAX_LENGTH_RATIO * length {
+            None
+        } else if t == self.end {
+            Some(1.0)
+        } else {
+            (t == self.begin).then_some(0.0)
+        }
+    }
+}
+
+/// States and rates at the stages.
+#[derive(Clone, Debug)]
+struct Stages {
+    y: Vec<F64x8>,
+    rates: Vec<F64x8>,
+    /// The same, one stage after the other.
+    one_by_one: [Vec<f64>; 2],
+}
+
+impl Stages {
+    fn new(states: usize) -> Self {
+        let rows = || vec![F64x8::ZERO; states];
+        Self { y: rows(), rates: rows(), one_by_one: [vec![0.0; STAGES * states], vec![0.0; STAGES * states]] }
+    }
+
+    /// Computes the rates at the stages of a step of `h` [s] from `start` whose states change by `changes`.
+    fn evaluate<D: Copy>(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        h: f64,
+        changes: &[F64x8],
+    ) {
+        let Self { y, rates, one_by_one: [at, found] } = self;
+        let t = NODES.multiply_add(h, F64x8::constant(start.t));
+        for ((y, change), start) in y.iter_mut().zip(changes).zip(&start.y) {
+            *y = *change + *start;
+        }
+        if system.suits_blocks() {
+            system.rates_in_row(&start.discrete, &t, y, rates);
+            return;
+        }
+        let states = y.len();
+        for (i, y) in y.iter().enumerate() {
+            for (stage, y) in y.numbers().into_iter().take(STAGES).enumerate() {
+                at[stage * states + i] = y;
+            }
+        }
+        let stages = at.chunks_exact(states).zip(found.chunks_exact_mut(states));
+        for ((at, found), t) in stages.zip(t.numbers()) {
+            system.rates(&start.discrete, t, at, found);
+        }
+        for (i, rates) in rates.iter_mut().enumerate() {
+            *rates = F64x8::of(std::array::from_fn(|stage| found[stage.min(STAGES - 1) * states + i]));
+        }
+    }
+}
+
+/// U times the numbers of the stages.
+fn to_modes(stages: F64x8) -> Complex4 {
+    Complex4::from_row(combined(&TO_MODES, stages.numbers(), F64x8::ZERO))
+}
+
+/// The sum of the `columns` times `numbers`, and `term`.
+#[inline(always)]
+fn combined<const COLUMNS: usize>(columns: &[F64x8; COLUMNS], numbers: [f64; 8], term: F64x8) -> F64x8 {
+    columns.iter().zip(numbers).fold(term, |sum, (column, number)| column.multiply_add(number, sum))
+}
+
+/// Weights of z₁ … z₇ in the polynomial of a step through 0 at its start, at the share `x` of the step.
+fn weights<R: Real>(x: R) -> [R; STAGES] {
+    let nodes = NODES.numbers();
+    std::array::from_fn(|j| {
+        let others = (0..STAGES).filter(|k| *k != j).map(|k| nodes[k]).chain([0.0]);
+        others.fold(R::ONE, |product, other| product * ((x - other) * (1.0 / (nodes[j] - other))))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// V times complex numbers.
+    fn to_stages(modes: Complex4) -> [f64; 8] {
+        combined(&TO_STAGES, modes.row().numbers(), F64x8::ZERO).numbers()
+    }
+
+    #[test]
+    fn the_modes_are_those_of_collocation_at_the_nodes() {
+        // A·c^k = c^(k + 1)/(k + 1), hence A⁻¹·c^(k + 1) = (k + 1)·c^k.
+        for k in 0..STAGES as i32 {
+            let powers = F64x8::of(NODES.numbers().map(|c| c.powi(k + 1)));
+            let found = to_stages(EIGENVALUES * to_modes(powers));
+            for (found, c) in found.iter().zip(NODES.numbers()) {
+                let wanted = f64::from(k + 1) * c.powi(k);
+                assert!((found - wanted).abs() < 1e-11, "{found} is not {wanted} for power {k} at {c}");
+            }
+            for (found, power) in to_stages(to_modes(powers)).iter().zip(powers.numbers()) {
+                assert!((found - power).abs() < 1e-12, "{found} is not {power}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_error_estimate_sees_the_first_power_that_a_quadrature_of_order_seven_misses() {
+        // z = x^k on a step of length 1 has the rate k·x^(k − 1) and the estimate f(0)/λ₁ + Σ e_i·z_i.
+        for k in 1..=STAGES as i32 + 1 {
+            let changes = F64x8::of(NODES.numbers().map(|c| c.powi(k)));
+            let rate = if k == 1 { EIGENVALUES.reciprocal().first() } else { 0.0 };
+            let estimate = rate + (ERROR * changes).sum();
+            assert_eq!(estimate.abs() < 1e-14, k <= STAGES as i32, "{estimate:e} for power {k}");
+        }
+    }
+
+    #[test]
+    fn a_polynomial_of_degree_seven_is_continued_exactly() {
+        let polynomial = |x: f64| x * (1.0 + x * (0.5 - x.powi(5)));
+        for x in [0.0, 0.3, 1.0, 1.4] {
+            let weights = weights(x);
+            let found: f64 = weights.iter().zip(NODES.numbers()).map(|(weight, c)| weight * polynomial(c)).sum();
+            assert!((found - polynomial(x)).abs() < 1e-11, "{found} at {x}");
+        }
+    }
+}
