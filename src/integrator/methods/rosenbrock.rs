@@ -2,7 +2,7 @@
 //!
 //! Stage i solves (1/(hγ) − J)·u_i = f(t + α_i·h, y + Σ a_ij·u_j) + Σ (c_ij/h)·u_j + γ_i·h·∂f/∂t, and the step ends at
 //! y + Σ m_j·u_j (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.7, in the variables of (7.25)).
-//! [`second_order`] solves these equations.
+//! `second_order` solves these equations.
 
 use crate::integrator::linear::Factors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};

@@ -17,7 +17,7 @@
 //! ```
 //!
 //! The four matrices are factorised together, in the four numbers of a register. The stages of a state fill a row of eight,
-//! in which the last stage stands twice; [`second_order`] eliminates the positions.
+//! in which the last stage stands twice; `second_order` eliminates the positions.
 //!
 //! Newton's method begins with the polynomial of the last step or, without one, with constant accelerations. It has
 //! converged once the error that is left, which follows from the ratio of two corrections, is a small share of the
