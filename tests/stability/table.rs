@@ -21,13 +21,20 @@ macro_rules! cases {
 
 cases! {
     blanking: [Energy(1e-8), Depth(2.0), Work(250_000)]
+    bristles_and_a_mode: [Depth(2.0), Work(80_000)]
+    bristles_fast: [Depth(2.0), Work(90_000)]
+    bristles_in_a_press: [Depth(2.0), Work(100_000)]
+    bristles_under_load: [Depth(2.0), Work(60_000)]
     buckling: [Energy(1e-7), Work(10_000), Also(special::sags_and_swings)]
     chatter: [Energy(1e-7), Depth(2.0), Work(30_000), Rests(1e-6), Also(special::calms_down)]
+    crawling: [Depth(2.0), Work(70_000)]
+    creeping: [Depth(2.0), Work(1_100_000)]
     dead_centre_worn: [Energy(1e-8), Depth(2.0), Work(100_000)]
     deep_start: [Energy(1e-7), Depth(2.0), Work(500_000), Also(special::lets_go)]
     equal: [Energy(1e-5), Ends(REACH), Work(1_000)]
     equal_worn: [Energy(1e-7), Depth(6.0), Work(1_200_000)]
     fast: [Energy(1e-8), Depth(2.0), Work(500_000)]
+    five_modes_pressed: [Depth(2.0), Work(180_000)]
     friction: [Energy(1e-7), Depth(2.0), Work(1_500_000)]
     grazing: [Energy(1e-7), Depth(2.0), Work(10_000), Rests(1e-6), Also(special::calms_down)]
     grazing_unlimited: [Energy(1e-8), Depth(2.0), Work(100_000)]
@@ -40,6 +47,7 @@ cases! {
     nearly_equal: [Energy(1e-5), Work(30_000), Also(special::goes_round)]
     oil_blows: [Energy(1e-6), Work(2_000_000)]
     outer_dead_centre: [Energy(0.0), Work(10_000), Also(special::stands)]
+    pressed_everywhere: [Depth(2.0), Work(400_000)]
     rattle: [Work(9_000_000), Depth(2.0), Statistics]
     rattle_everywhere: [Work(15_000_000), Depth(2.0), Statistics]
     restitution: [Energy(1e-6), Depth(2.0), Work(4_000_000)]
@@ -53,7 +61,9 @@ cases! {
     sticking: [Energy(1e-7), Depth(2.0), Work(10_000), Rests(1e-9), Also(special::sticks)]
     stiffness: [Energy(1e-8), Depth(2.0), Work(1_200_000)]
     thick_oil: [Energy(1e-6), Work(2_000_000)]
+    three_pins_tight: [Depth(2.0), Work(800_000)]
     torque_step: [Energy(1e-8), Depth(2.0), Work(300_000), Also(special::has_one_spike)]
+    worn_pin_tight: [Depth(2.0), Work(110_000)]
 }
 
 #[test]

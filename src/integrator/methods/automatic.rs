@@ -59,7 +59,8 @@ impl<D: Copy> Method<D> for Automatic {
     fn begin(&mut self, system: &dyn System<Discrete = D>) {
         self.switch = if system.suits_blocks() { StiffnessSwitch::BLOCKS } else { StiffnessSwitch::NON_STIFF };
         self.kind = self.switch.kind;
-        Method::<D>::forget(self);
+        self.block.begin(system);
+        self.implicit.begin(system);
     }
 
     fn attempt(
@@ -102,14 +103,14 @@ impl<D: Copy> Method<D> for Automatic {
             MethodKind::Block => switch.after_block(h, || {
                 system.jacobian(&end.discrete, end.t, &end.y, implicit.jacobian());
                 advice.evaluations += 1;
-                fastest(implicit.jacobian(), layout, scales)
+                fastest(implicit.jacobian(), layout, scales, &end.rates)
             }),
             MethodKind::Explicit if system.suits_blocks() => {
                 switch.after_explicit_beside_blocks(h, BOUND, || explicit.stiffness(layout, scales));
             }
             MethodKind::Explicit => switch.after_explicit(BOUND, || explicit.stiffness(layout, scales)),
             MethodKind::Implicit => {
-                let fastest = fastest(implicit.jacobian(), layout, scales);
+                let fastest = fastest(implicit.jacobian(), layout, scales, &end.rates);
                 if let Some(longest) = switch.after_implicit(h, BOUND, fastest, layout.positions) {
                     advice.longest_step = longest;
                 }

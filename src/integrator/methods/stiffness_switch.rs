@@ -161,8 +161,9 @@ impl StiffnessSwitch {
 }
 
 /// [1/s] Estimate of the fastest rate of the motion near a state, from its Jacobian by power iteration on a vector
-/// without pattern. After an even number of iterations an oscillation has returned to its phase.
-pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64]) -> f64 {
+/// without pattern, whose signs are those of the `rates` there: a mirrored motion has the same rate. After an even number of
+/// iterations an oscillation has returned to its phase.
+pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64], rates: &[f64]) -> f64 {
     let StateLayout { positions, weighted, .. } = layout;
     let next = |y: &mut [f64; MAX_STATES]| {
         let before = *y;
@@ -177,8 +178,8 @@ pub fn fastest(jacobian: &Jacobian, layout: StateLayout, scales: &[f64]) -> f64 
     let square =
         |y: &[f64; MAX_STATES]| y.iter().zip(scales).take(weighted).map(|(y, scale)| (y / scale).powi(2)).sum::<f64>();
     let mut y = [0.0; MAX_STATES];
-    for (i, (y, scale)) in y.iter_mut().zip(scales).enumerate() {
-        *y = scale * (0.5 + (GOLDEN * i as f64).fract());
+    for (i, ((y, scale), rate)) in y.iter_mut().zip(scales).zip(rates).enumerate() {
+        *y = (scale * (0.5 + (GOLDEN * i as f64).fract())).copysign(*rate);
     }
     for _ in 0..2 {
         next(&mut y);
@@ -206,7 +207,7 @@ mod tests {
                 jacobian.row_mut(2 + i)[2 + j] = -damped[i][j];
             }
         }
-        fastest(&jacobian, EXTENT, &scales)
+        fastest(&jacobian, EXTENT, &scales, &[1.0; 4])
     }
 
     #[test]

@@ -9,7 +9,8 @@
 //! z_i = h·Σ_j a_ij·f(t + c_j·h, y + z_j),      i = 1 … 7.
 //! ```
 //!
-//! Newton's method solves them with the exact Jacobian J at the step's start. With A⁻¹ = V·Λ·U, U = V⁻¹, and w = U·z, a
+//! Newton's method solves them with the exact Jacobian J at the step's start or, if it does not converge, at the end that it
+//! has come to. With A⁻¹ = V·Λ·U, U = V⁻¹, and w = U·z, a
 //! correction falls apart into equations of the size of the system, one real and three complex ones; `modes` below:
 //!
 //! ```text
@@ -37,17 +38,15 @@ use crate::integrator::state::{StepPoint, is_valid};
 use crate::integrator::step_control::{SAFETY, norm};
 use crate::integrator::system::{Jacobian, StateLayout, System};
 use crate::math::{Complex4, F64x8, Fused, Real};
-use tables::{EIGENVALUES, ERROR, NODES, TO_MODES, TO_STAGES};
+use tables::{EIGENVALUES, ERROR, NODES, STAGES, TO_MODES, TO_STAGES};
 
-/// Number of stages.
-const STAGES: usize = 7;
 /// Power of the step to which the error estimate is proportional.
 const ERROR_POWER: i32 = STAGES as i32 + 1;
 /// Maximum number of Newton iterations.
 const MAX_ITERATIONS: usize = 10;
 /// Newton's method has converged once the error that is left is this share of the tolerance: the errors of all steps have the
 /// same sign, and add up.
-const CONVERGED: f64 = 0.002;
+const CONVERGED: f64 = 0.005;
 /// Ratio of two corrections that is assumed after the first.
 const FIRST_RATIO: f64 = 0.1;
 /// Newton's method does not converge if a correction is larger than this share of the one before.
@@ -83,6 +82,8 @@ struct History {
     end: f64,
     /// z of the step.
     changes: Vec<F64x8>,
+    /// Whether the motion has gone on without an event since then, so that the polynomial predicts the next step.
+    goes_on: bool,
 }
 
 /// The seven-stage method.
@@ -110,7 +111,7 @@ impl Radau13 {
         let modes = || vec![Complex4::ZERO; states];
         Self {
             tolerance,
-            history: History { begin: 0.0, end: 0.0, changes: rows() },
+            history: History { begin: 0.0, end: 0.0, changes: rows(), goes_on: false },
             converged: false,
             jacobian: Jacobian::new(states),
             factors: FourFactors::with_capacity(states),
@@ -127,6 +128,7 @@ impl Radau13 {
     }
 
     /// Predicts z of a step of `h` [s] from `start` with `positions` positions.
+    #[inline(never)] // keeps the frame below the equations' own small
     fn predict<D>(&mut self, start: &StepPoint<D>, h: f64, positions: usize) {
         let Self { history, changes, .. } = self;
         let Some(origin) = history.origin(start.t, h) else {
@@ -148,6 +150,7 @@ impl Radau13 {
 
     /// Solves for z by Newton's method. Returns the number of iterations and the largest ratio of two successive corrections;
     /// [`converged`](Self::converged) is then known.
+    #[inline(never)] // keeps the frame below the equations' own small
     fn iterate<D: Copy>(
         &mut self,
         system: &dyn System<Discrete = D>,
@@ -175,7 +178,7 @@ impl Radau13 {
                 changes[i] += change;
                 attempt.error[i] = change.numbers().into_iter().fold(0.0, |most, change| change.abs().max(most));
             }
-            let size = norm(attempt, &start.y, system.scales(), layout, false, *tolerance);
+            let size = norm(attempt, &start.y, system.scales(), layout, false, CONVERGED * *tolerance);
             if !size.is_finite() {
                 return (iteration, f64::INFINITY);
             }
@@ -188,16 +191,24 @@ impl Radau13 {
                 let shrinkage = (0..iterations).fold(1.0, |product, _| product * ratio);
                 shrinkage * size * ratio / (1.0 - ratio.min(MAX_RATIO))
             };
-            if left(0) <= CONVERGED {
+            if left(0) <= 1.0 {
                 *converged = true;
                 return (iteration, worst);
             }
-            if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > CONVERGED) {
+            if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > 1.0) {
                 return (iteration, worst);
             }
             before = size;
         }
         (MAX_ITERATIONS, worst)
+    }
+
+    /// Writes the state at the end of a step from `start`; where it is invalid, that at the start.
+    fn write_end<D>(&self, start: &StepPoint<D>, y: &mut [f64]) {
+        for ((y, start), change) in y.iter_mut().zip(&start.y).zip(&self.changes) {
+            let end = start + change.last();
+            *y = if is_valid(end) { end } else { *start };
+        }
     }
 
     /// Writes the error estimate of a step of `h` [s] from `start`.
@@ -223,6 +234,10 @@ impl<D: Copy> Method<D> for Radau13 {
         MethodKind::Implicit
     }
 
+    fn begin(&mut self, _system: &dyn System<Discrete = D>) {
+        self.history.end = self.history.begin;
+    }
+
     #[inline(never)]
     fn attempt(
         &mut self,
@@ -235,15 +250,22 @@ impl<D: Copy> Method<D> for Radau13 {
         let layout = system.layout();
         let StateLayout { positions, states, .. } = layout;
         self.predict(start, h, positions);
-        let Self { jacobian, factors, .. } = self;
-        system.jacobian(&start.discrete, start.t, &start.y, jacobian);
-        let shift = EIGENVALUES.reciprocal() * h;
-        factors.of(states - positions, |i, j| second_order::element(jacobian, positions, shift, i, j));
         attempt.unseen.fill(0.0);
-        let (iterations, ratio) = self.iterate(system, start, h, attempt);
-        for ((end, start), change) in end.y.iter_mut().zip(&start.y).zip(&self.changes) {
-            let y = start + change.last();
-            *end = if is_valid(y) { y } else { *start };
+        let shift = EIGENVALUES.reciprocal() * h;
+        let (mut evaluations, mut ratio) = (0, 0.0);
+        end.y.copy_from_slice(&start.y);
+        for t in [start.t, start.t + h] {
+            let Self { jacobian, factors, .. } = &mut *self;
+            system.jacobian(&start.discrete, t, &end.y, jacobian);
+            factors.of(states - positions, |i, j| second_order::element(jacobian, positions, shift, i, j));
+            let iterations;
+            (iterations, ratio) = self.iterate(system, start, h, attempt);
+            // The Jacobian counts as one evaluation.
+            evaluations += STAGES * iterations + 1;
+            self.write_end(start, &mut end.y);
+            if self.converged || !ratio.is_finite() {
+                break;
+            }
         }
         if self.converged {
             self.estimate(start, h, positions, &mut attempt.error);
@@ -255,6 +277,10 @@ impl<D: Copy> Method<D> for Radau13 {
                 attempt.error.iter_mut().for_each(|error| *error *= factor);
             }
         } else {
+            // A step to an event is part of one that has been accepted.
+            if self.history.contains(start.t, start.t + h) {
+                self.history.write(&start.y, start.t + h, &mut end.y);
+            }
             // An error for which step control shortens the step by this factor.
             let factor = (GOOD_RATIO / ratio).clamp(RETRY[0], RETRY[1]);
             let error = (SAFETY / factor).powi(ERROR_POWER) * self.tolerance;
@@ -263,38 +289,32 @@ impl<D: Copy> Method<D> for Radau13 {
                 *found = error * scale;
             }
         }
-        // The Jacobian counts as one evaluation.
-        (STAGES * iterations) as u64 + 1
+        evaluations as u64
     }
 
     fn remember(&mut self, start: &StepPoint<D>, end: f64) {
         let Self { history, changes, converged, .. } = self;
         if *converged {
-            (history.begin, history.end) = (start.t, end);
+            (history.begin, history.end, history.goes_on) = (start.t, end, true);
             history.changes.copy_from_slice(changes);
         }
     }
 
     fn inside(&self, start: &StepPoint<D>, end: f64, t: f64, y: &mut [f64]) -> bool {
-        let History { begin, end: known, changes } = &self.history;
-        if start.t != *begin || end != *known {
-            return false;
+        let known = end == self.history.end && self.history.contains(start.t, t);
+        if known {
+            self.history.write(&start.y, t, y);
         }
-        let weights = weights((t - start.t) / (end - start.t));
-        for ((y, start), change) in y.iter_mut().zip(&start.y).zip(changes) {
-            let change = weights.iter().zip(change.numbers()).fold(0.0, |sum, (weight, change)| sum + weight * change);
-            *y = start + change;
-        }
-        true
+        known
     }
 
     fn forget(&mut self) {
-        self.history.end = self.history.begin;
+        self.history.goes_on = false;
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let History { begin, end, changes } = &self.history;
-        snapshot.integers.push(u64::from(end > begin));
+        let History { begin, end, changes, goes_on } = &self.history;
+        snapshot.integers.extend([end > begin, *goes_on].map(u64::from));
         if end > begin {
             snapshot.reals.extend([begin, end]);
             snapshot.reals.extend(changes.iter().flat_map(|row| row.numbers().into_iter().take(STAGES)));
@@ -302,9 +322,11 @@ impl<D: Copy> Method<D> for Radau13 {
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let History { begin, end, changes } = &mut self.history;
+        let History { begin, end, changes, goes_on } = &mut self.history;
         (*begin, *end) = (0.0, 0.0);
-        if reader.integer()? != 0 {
+        let known = reader.integer()? != 0;
+        *goes_on = reader.integer()? != 0;
+        if known {
             [*begin, *end] = reader.reals()?;
             for row in changes {
                 let stages: [f64; STAGES] = reader.reals()?;
@@ -320,12 +342,26 @@ impl History {
     /// cannot be predicted.
     fn origin(&self, t: f64, h: f64) -> Option<f64> {
         let length = self.end - self.begin;
-        if length <= 0.0 || h > MAX_LENGTH_RATIO * length {
+        if !self.goes_on || length <= 0.0 || h > MAX_LENGTH_RATIO * length {
             None
         } else if t == self.end {
             Some(1.0)
         } else {
             (t == self.begin).then_some(0.0)
+        }
+    }
+
+    /// Whether `t` lies in the step, which started at `start`.
+    fn contains(&self, start: f64, t: f64) -> bool {
+        start == self.begin && self.begin < t && t <= self.end
+    }
+
+    /// Writes the state at `t` in the step that started from `start`.
+    fn write(&self, start: &[f64], t: f64, y: &mut [f64]) {
+        let weights = weights((t - self.begin) / (self.end - self.begin));
+        for ((y, start), change) in y.iter_mut().zip(start).zip(&self.changes) {
+            let change = weights.iter().zip(change.numbers()).fold(0.0, |sum, (weight, change)| sum + weight * change);
+            *y = start + change;
         }
     }
 }
@@ -362,7 +398,7 @@ impl Stages {
             system.rates_in_row(&start.discrete, &t, y, rates);
             return;
         }
-        let states = y.len();
+        let states = y.len().max(1);
         for (i, y) in y.iter().enumerate() {
             for (stage, y) in y.numbers().into_iter().take(STAGES).enumerate() {
                 at[stage * states + i] = y;

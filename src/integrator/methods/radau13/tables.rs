@@ -2,9 +2,10 @@
 
 #![expect(clippy::excessive_precision, reason = "coefficients stand as computed")]
 
-use super::STAGES;
 use crate::math::{Complex4, F64x8, ROW};
 
+/// Number of stages.
+pub const STAGES: usize = 7;
 /// Nodes c₁ … c₇; the last stands twice.
 pub const NODES: F64x8 = F64x8::of([
     0.029_316_427_159_784_891_97,
