@@ -46,7 +46,7 @@ const ERROR_POWER: i32 = STAGES as i32 + 1;
 const MAX_ITERATIONS: usize = 10;
 /// Newton's method has converged once the error that is left is this share of the tolerance: the errors of all steps have the
 /// same sign, and add up.
-const CONVERGED: f64 = 0.005;
+const CONVERGED: f64 = 0.01;
 /// Ratio of two corrections that is assumed after the first.
 const FIRST_RATIO: f64 = 0.1;
 /// Newton's method does not converge if a correction is larger than this share of the one before.
@@ -176,7 +176,7 @@ impl Radau13 {
                 modes[i] = modes[i] + *correction;
                 let change = combined(&TO_STAGES, correction.row().numbers(), F64x8::ZERO);
                 changes[i] += change;
-                attempt.error[i] = change.numbers().into_iter().fold(0.0, |most, change| change.abs().max(most));
+                attempt.error[i] = (change * change).sum().sqrt();
             }
             let size = norm(attempt, &start.y, system.scales(), layout, false, CONVERGED * *tolerance);
             if !size.is_finite() {
@@ -203,10 +203,12 @@ impl Radau13 {
         (MAX_ITERATIONS, worst)
     }
 
-    /// Writes the state at the end of a step from `start`; where it is invalid, that at the start.
-    fn write_end<D>(&self, start: &StepPoint<D>, y: &mut [f64]) {
+    /// Writes the state at the end of a step from `start`. Where it is invalid, the step has not converged, and the state at
+    /// the start is written.
+    fn write_end<D>(&mut self, start: &StepPoint<D>, y: &mut [f64]) {
         for ((y, start), change) in y.iter_mut().zip(&start.y).zip(&self.changes) {
             let end = start + change.last();
+            self.converged &= is_valid(end);
             *y = if is_valid(end) { end } else { *start };
         }
     }
