@@ -58,7 +58,7 @@ cases! {
     sixteen_modes: [Energy(1e-8), Depth(2.0), Work(50_000)]
     slow: [Energy(1e-8), Depth(2.0), Work(300_000)]
     small_and_large: [Energy(1e-8), Depth(2.0), Work(600_000)]
-    sticking: [Energy(1e-7), Depth(2.0), Work(10_000), Rests(1e-9), Also(special::sticks)]
+    sticking: [Energy(1e-7), Depth(2.0), Work(15_000), Rests(1e-9), Also(special::sticks)]
     stiffness: [Energy(1e-8), Depth(2.0), Work(1_200_000)]
     thick_oil: [Energy(1e-6), Work(2_000_000)]
     three_pins_tight: [Depth(2.0), Work(800_000)]

@@ -46,7 +46,7 @@ const ERROR_POWER: i32 = STAGES as i32 + 1;
 const MAX_ITERATIONS: usize = 10;
 /// Newton's method has converged once the error that is left is this share of the tolerance: the errors of all steps have the
 /// same sign, and add up.
-const CONVERGED: f64 = 0.01;
+const CONVERGED: f64 = 0.005;
 /// Ratio of two corrections that is assumed after the first.
 const FIRST_RATIO: f64 = 0.1;
 /// Newton's method does not converge if a correction is larger than this share of the one before.
