@@ -30,3 +30,18 @@ fn hard_scenes_arrive_within_next_to_no_evaluations() {
         assert!(hurried > 10.0 * calm, "{name}: {hurried:e} after {calm:e}");
     }
 }
+
+#[test]
+fn an_implicit_step_that_has_not_converged_is_too_large_for_any_budget() {
+    let flexrod = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-harness/scenes/flexrod.toml");
+    let text = std::fs::read_to_string(&flexrod).expect("a shipped scene");
+    let mut file = slidercrank::scene::read::read(&text, "flexrod.toml").expect("a scene");
+    (file.run.end, file.run.step) = (End::Time(0.04), 1e-5);
+    for deadline in [4e5, 7e5, 1e6, 2e6] {
+        file.scene.solver.deadline = deadline;
+        let trace = run(&file);
+        assert_eq!(trace.failure, None, "{deadline:e} evaluations a second");
+        let farthest = trace.greatest(|outputs| outputs.slider.x.abs());
+        assert!(farthest < 1.0, "{deadline:e} evaluations a second: {farthest:e} m");
+    }
+}

@@ -53,8 +53,8 @@ const FIRST_RATIO: f64 = 0.1;
 const MAX_RATIO: f64 = 0.9;
 /// A ratio of two corrections that a step should have. The ratio is about proportional to the step.
 const GOOD_RATIO: f64 = 0.15;
-/// Bounds of the factor between the step in which Newton's method did not converge and the next attempt.
-const RETRY: [f64; 2] = [0.2, 0.5];
+/// [scales] Error of a step in which Newton's method has not converged. No budget makes it tolerable.
+const NOT_CONVERGED: f64 = 1e30;
 /// A step longer than this many times the last one is not predicted from it.
 const MAX_LENGTH_RATIO: f64 = 6.0;
 
@@ -185,17 +185,22 @@ impl Radau13 {
             let mut ratio = FIRST_RATIO;
             if iteration > 1 {
                 ratio = size / before;
-                worst = worst.max(ratio);
+                if !*converged {
+                    worst = worst.max(ratio);
+                }
             }
             let left = |iterations: usize| {
                 let shrinkage = (0..iterations).fold(1.0, |product, _| product * ratio);
                 shrinkage * size * ratio / (1.0 - ratio.min(MAX_RATIO))
             };
             if left(0) <= 1.0 {
+                // States without weight follow from the others, and converge an iteration later.
+                if *converged || layout.weighted == layout.states {
+                    *converged = true;
+                    return (iteration, worst);
+                }
                 *converged = true;
-                return (iteration, worst);
-            }
-            if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > 1.0) {
+            } else if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > 1.0) {
                 return (iteration, worst);
             }
             before = size;
@@ -283,12 +288,8 @@ impl<D: Copy> Method<D> for Radau13 {
             if self.history.contains(start.t, start.t + h) {
                 self.history.write(&start.y, start.t + h, &mut end.y);
             }
-            // An error for which step control shortens the step by this factor.
-            let factor = (GOOD_RATIO / ratio).clamp(RETRY[0], RETRY[1]);
-            let error = (SAFETY / factor).powi(ERROR_POWER) * self.tolerance;
-            attempt.error.fill(0.0);
-            for (found, scale) in attempt.error.iter_mut().zip(system.scales()) {
-                *found = error * scale;
+            for (error, scale) in attempt.error.iter_mut().zip(system.scales()) {
+                *error = NOT_CONVERGED * scale;
             }
         }
         evaluations as u64
