@@ -278,7 +278,7 @@ impl<D: Copy> Method<D> for Radau13 {
             self.estimate(start, h, positions, &mut attempt.error);
             let tolerance = ERROR_SHARE * self.tolerance;
             let size = norm(attempt, &start.y, system.scales(), layout, false, tolerance);
-            let least = (SAFETY * ratio / GOOD_RATIO).powi(ERROR_POWER).min(1.0);
+            let least = (0..ERROR_POWER).fold(1.0, |power, _| power * (SAFETY * ratio / GOOD_RATIO)).min(1.0);
             if size < least {
                 let factor = least / size.max(f64::MIN_POSITIVE);
                 attempt.error.iter_mut().for_each(|error| *error *= factor);
