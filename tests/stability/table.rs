@@ -32,7 +32,7 @@ cases! {
     dead_centre_worn: [Energy(1e-8), Depth(2.0), Work(100_000)]
     deep_start: [Energy(1e-7), Depth(2.0), Work(500_000), Also(special::lets_go)]
     equal: [Energy(1e-5), Ends(REACH), Work(1_000)]
-    equal_worn: [Energy(1e-7), Depth(6.0), Work(1_200_000)]
+    equal_worn: [Energy(1e-6), Depth(6.0), Work(1_200_000)]
     fast: [Energy(1e-8), Depth(2.0), Work(500_000)]
     five_modes_pressed: [Depth(2.0), Work(180_000)]
     friction: [Energy(1e-7), Depth(2.0), Work(1_500_000)]

@@ -185,22 +185,17 @@ impl Radau13 {
             let mut ratio = FIRST_RATIO;
             if iteration > 1 {
                 ratio = size / before;
-                if !*converged {
-                    worst = worst.max(ratio);
-                }
+                worst = worst.max(ratio);
             }
             let left = |iterations: usize| {
                 let shrinkage = (0..iterations).fold(1.0, |product, _| product * ratio);
                 shrinkage * size * ratio / (1.0 - ratio.min(MAX_RATIO))
             };
             if left(0) <= 1.0 {
-                // States without weight follow from the others, and converge an iteration later.
-                if *converged || layout.weighted == layout.states {
-                    *converged = true;
-                    return (iteration, worst);
-                }
                 *converged = true;
-            } else if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > 1.0) {
+                return (iteration, worst);
+            }
+            if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > 1.0) {
                 return (iteration, worst);
             }
             before = size;
