@@ -237,13 +237,11 @@ pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &F64x8
     let (mut at, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
     for (node, t) in t.numbers().into_iter().enumerate() {
         for (at, y) in at.iter_mut().zip(y) {
-            *at = y.numbers()[node];
+            *at = y.number(node);
         }
         system.rates(discrete, t, &at[..n], &mut found[..n]);
         for (rates, found) in rates.iter_mut().zip(&found) {
-            let mut numbers = rates.numbers();
-            numbers[node] = *found;
-            *rates = F64x8::of(numbers);
+            rates.set(node, *found);
         }
     }
 }

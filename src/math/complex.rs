@@ -18,13 +18,13 @@ impl Complex4 {
     /// Four zeros.
     pub const ZERO: Self = Self { re: f64x4::ZERO, im: f64x4::ZERO };
 
+    /// Four ones.
+    pub const ONE: Self = Self { re: f64x4::ONE, im: f64x4::ZERO };
+
     /// Packs real and imaginary parts.
     pub const fn of(re: [f64; LANES], im: [f64; LANES]) -> Self {
         Self { re: f64x4::new(re), im: f64x4::new(im) }
     }
-
-    /// Four ones.
-    pub const ONE: Self = Self { re: f64x4::ONE, im: f64x4::ZERO };
 
     /// The same real number four times.
     pub fn real(number: f64) -> Self {

@@ -49,6 +49,18 @@ impl F64x8 {
         self.0
     }
 
+    /// The number at a place from 0 to 7.
+    #[inline(always)]
+    pub fn number(&self, place: usize) -> f64 {
+        self.0[place / LANES].as_array_ref()[place % LANES]
+    }
+
+    /// Replaces the number at a place from 0 to 7.
+    #[inline(always)]
+    pub fn set(&mut self, place: usize, number: f64) {
+        self.0[place / LANES].as_array_mut()[place % LANES] = number;
+    }
+
     /// The last of the eight numbers.
     #[inline(always)]
     pub fn last(self) -> f64 {

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Newton's method solves them with the exact Jacobian J at the step's start or, if it does not converge, at the end that it
-//! has come to. With A⁻¹ = V·Λ·U, U = V⁻¹, and w = U·z, a
-//! correction falls apart into equations of the size of the system, one real and three complex ones; `modes` below:
+//! has come to. With A⁻¹ = V·Λ·U, U = V⁻¹, and w = U·z, a correction falls apart into equations of the size of the system, one
+//! real and three complex ones; `modes` below:
 //!
 //! ```text
 //! (λ_k/h − J)·Δw_k = (U·f)_k − λ_k/h·w_k,      z = V·w.
@@ -36,7 +36,7 @@ use crate::integrator::second_order;
 use crate::integrator::snapshot::{Reader, Snapshot};
 use crate::integrator::state::{StepPoint, is_valid};
 use crate::integrator::step_control::{SAFETY, norm};
-use crate::integrator::system::{Jacobian, StateLayout, System};
+use crate::integrator::system::{Jacobian, StateLayout, System, one_by_one};
 use crate::math::{Complex4, F64x8, Fused, Real};
 use tables::{EIGENVALUES, ERROR, NODES, STAGES, TO_MODES, TO_STAGES};
 
@@ -101,7 +101,10 @@ pub struct Radau13 {
     modes: Vec<Complex4>,
     /// Right-hand side of a correction, then the correction Δw.
     correction: Vec<Complex4>,
-    stages: Stages,
+    /// States at the stages.
+    y: Vec<F64x8>,
+    /// Rates at the stages.
+    rates: Vec<F64x8>,
 }
 
 impl Radau13 {
@@ -118,7 +121,8 @@ impl Radau13 {
             changes: rows(),
             modes: modes(),
             correction: modes(),
-            stages: Stages::new(states),
+            y: rows(),
+            rates: rows(),
         }
     }
 
@@ -158,18 +162,27 @@ impl Radau13 {
         h: f64,
         attempt: &mut Attempt,
     ) -> (usize, f64) {
-        let Self { tolerance, converged, jacobian, factors, changes, modes, correction, stages, .. } = self;
+        let Self { tolerance, converged, jacobian, factors, changes, modes, correction, y, rates, .. } = self;
         let layout = system.layout();
         let (shift, per_step) = (EIGENVALUES.reciprocal() * h, EIGENVALUES * (1.0 / h));
         for (mode, change) in modes.iter_mut().zip(&*changes) {
             *mode = to_modes(*change);
         }
+        let t = NODES.multiply_add(h, F64x8::constant(start.t));
         let (mut before, mut worst) = (f64::INFINITY, 0.0_f64);
         *converged = false;
         for iteration in 1..=MAX_ITERATIONS {
-            stages.evaluate(system, start, h, changes);
-            for ((correction, rates), mode) in correction.iter_mut().zip(&stages.rates).zip(&*modes) {
-                *correction = to_modes(*rates) - per_step * *mode;
+            for ((y, change), start) in y.iter_mut().zip(&*changes).zip(&start.y) {
+                *y = *change + *start;
+            }
+            if system.suits_blocks() {
+                system.rates_in_row(&start.discrete, &t, y, rates);
+            } else {
+                // Eight instants together would save no time, and take more stack.
+                one_by_one(system, &start.discrete, &t, y, rates);
+            }
+            for ((correction, rate), mode) in correction.iter_mut().zip(&*rates).zip(&*modes) {
+                *correction = to_modes(*rate) - per_step * *mode;
             }
             second_order::solve(jacobian, layout.positions, shift, correction, |rest| factors.solve(rest));
             for (i, correction) in correction.iter().enumerate() {
@@ -360,54 +373,6 @@ impl History {
         for ((y, start), change) in y.iter_mut().zip(start).zip(&self.changes) {
             let change = weights.iter().zip(change.numbers()).fold(0.0, |sum, (weight, change)| sum + weight * change);
             *y = start + change;
-        }
-    }
-}
-
-/// States and rates at the stages.
-#[derive(Clone, Debug)]
-struct Stages {
-    y: Vec<F64x8>,
-    rates: Vec<F64x8>,
-    /// The same, one stage after the other.
-    one_by_one: [Vec<f64>; 2],
-}
-
-impl Stages {
-    fn new(states: usize) -> Self {
-        let rows = || vec![F64x8::ZERO; states];
-        Self { y: rows(), rates: rows(), one_by_one: [vec![0.0; STAGES * states], vec![0.0; STAGES * states]] }
-    }
-
-    /// Computes the rates at the stages of a step of `h` [s] from `start` whose states change by `changes`.
-    fn evaluate<D: Copy>(
-        &mut self,
-        system: &dyn System<Discrete = D>,
-        start: &StepPoint<D>,
-        h: f64,
-        changes: &[F64x8],
-    ) {
-        let Self { y, rates, one_by_one: [at, found] } = self;
-        let t = NODES.multiply_add(h, F64x8::constant(start.t));
-        for ((y, change), start) in y.iter_mut().zip(changes).zip(&start.y) {
-            *y = *change + *start;
-        }
-        if system.suits_blocks() {
-            system.rates_in_row(&start.discrete, &t, y, rates);
-            return;
-        }
-        let states = y.len().max(1);
-        for (i, y) in y.iter().enumerate() {
-            for (stage, y) in y.numbers().into_iter().take(STAGES).enumerate() {
-                at[stage * states + i] = y;
-            }
-        }
-        let stages = at.chunks_exact(states).zip(found.chunks_exact_mut(states));
-        for ((at, found), t) in stages.zip(t.numbers()) {
-            system.rates(&start.discrete, t, at, found);
-        }
-        for (i, rates) in rates.iter_mut().enumerate() {
-            *rates = F64x8::of(std::array::from_fn(|stage| found[stage.min(STAGES - 1) * states + i]));
         }
     }
 }
