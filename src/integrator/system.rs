@@ -216,7 +216,7 @@ pub trait Linearizable: Ode {
 pub trait SeveralInstants: Ode {
     /// Writes the rates of eight states, each at its own time.
     fn rates_in_row(&self, discrete: &Self::Discrete, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
-        one_by_one(self, discrete, t, y, rates);
+        one_by_one(|t, y, rates| self.rates(discrete, t, y, rates), t, y, rates);
     }
 
     /// Whether rates at eight states take so little more time than at one that steps in blocks pay; see
@@ -231,15 +231,15 @@ pub trait System: Events + Linearizable + SeveralInstants {}
 
 impl<S: Events + Linearizable + SeveralInstants + ?Sized> System for S {}
 
-/// [`SeveralInstants::rates_in_row`] by one evaluation per state.
-pub fn one_by_one<S: Ode + ?Sized>(system: &S, discrete: &S::Discrete, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
+/// [`SeveralInstants::rates_in_row`] by one evaluation per state: `of` writes the rates of one state at its time.
+pub fn one_by_one(of: impl Fn(f64, &[f64], &mut [f64]), t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
     let n = y.len();
     let (mut at, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
     for (node, t) in t.numbers().into_iter().enumerate() {
         for (at, y) in at.iter_mut().zip(y) {
             *at = y.number(node);
         }
-        system.rates(discrete, t, &at[..n], &mut found[..n]);
+        of(t, &at[..n], &mut found[..n]);
         for (rates, found) in rates.iter_mut().zip(&found) {
             rates.set(node, *found);
         }

@@ -64,7 +64,7 @@ impl F64x8 {
     /// The last of the eight numbers.
     #[inline(always)]
     pub fn last(self) -> f64 {
-        self.0[1].to_array()[LANES - 1]
+        self.number(ROW - 1)
     }
 
     /// The sum of all eight numbers.

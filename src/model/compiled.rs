@@ -18,8 +18,9 @@ use super::scalar::{Scalar, Tangent};
 use super::stages::run_stages;
 use super::state::{Conditions, Evaluation, Pose};
 use super::structure::{Structure, Topology};
-use crate::integrator::{EventFunctions, MAX_STATES, Tableau};
-use crate::math::{F64x8, ROW};
+use crate::integrator::system::one_by_one;
+use crate::integrator::{EventFunctions, Tableau};
+use crate::math::F64x8;
 
 /// Writes the rates of a state.
 type Rates = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64]);
@@ -237,26 +238,10 @@ impl Mechanism {
     pub fn rates_of_eight(&self, conditions: &Conditions, t: F64x8, y: &[F64x8], rates: &mut [F64x8]) {
         match &self.rod {
             None => self.rates(&self.structure, conditions, t, y, rates),
-            Some(rod) if rod.modes.room == RodCapacity::All => self.rates_one_by_one(conditions, t, y, rates),
+            Some(rod) if rod.modes.room == RodCapacity::All => {
+                one_by_one(|t, y, rates| self.rates_of_one(conditions, t, y, rates), &t, y, rates);
+            }
             Some(rod) => self.flexible_rates_of_eight::<8, 40>(rod, conditions, t, y, rates),
-        }
-    }
-
-    fn rates_one_by_one(&self, conditions: &Conditions, t: F64x8, y: &[F64x8], rates: &mut [F64x8]) {
-        let mut columns = [[0.0; ROW]; MAX_STATES];
-        let (mut state, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
-        let (state, found) = (&mut state[..y.len()], &mut found[..y.len()]);
-        for (lane, t) in t.numbers().into_iter().enumerate() {
-            for (number, row) in state.iter_mut().zip(y) {
-                *number = row.numbers()[lane];
-            }
-            self.rates_of_one(conditions, t, state, found);
-            for (column, number) in columns.iter_mut().zip(&*found) {
-                column[lane] = *number;
-            }
-        }
-        for (rate, column) in rates.iter_mut().zip(columns) {
-            *rate = F64x8::of(column);
         }
     }
 

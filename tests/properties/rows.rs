@@ -4,7 +4,7 @@
 use super::chance::Chance;
 use super::scenes::{Play, all_plays, contacts, crooked, letters, revolutes, with_play};
 use slidercrank::integrator::SeveralInstants;
-use slidercrank::integrator::system::one_by_one;
+use slidercrank::integrator::system::{Ode, one_by_one};
 use slidercrank::math::{F64x8, ROW, Real};
 use slidercrank::model::Model;
 use slidercrank::model::mechanism_model::MechanismModel;
@@ -117,7 +117,8 @@ fn a_problem_that_knows_no_rows_is_asked_for_each_state() {
     let model = Model::assemble(&scene);
     let rows = [F64x8::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
     let mut alone = [F64x8::ZERO; 2];
-    one_by_one(&model, &Default::default(), &F64x8::ZERO, &rows, &mut alone);
+    let of = |t: f64, y: &[f64], rates: &mut [f64]| model.rates(&Default::default(), t, y, rates);
+    one_by_one(of, &F64x8::ZERO, &rows, &mut alone);
     let mut together = [F64x8::ZERO; 2];
     model.rates_in_row(&Default::default(), &F64x8::ZERO, &rows, &mut together);
     assert_eq!(alone, together);
