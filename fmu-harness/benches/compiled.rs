@@ -52,7 +52,7 @@ fn main() -> anyhow::Result<()> {
 fn of_stage(model: &Model, time: f64, states: &[f64]) -> f64 {
     let mut start = StepPoint::new(time, states, Conditions::without_inputs(model.start_contacts(time, states)));
     model.rates(&start.discrete, time, states, &mut start.rates);
-    let (mut end, mut attempt) = (start.clone(), Attempt::new(states.len()));
+    let (mut end, mut attempt) = (start.clone(), Attempt::new(states.len(), 1e-6));
     let mut method = Explicit::new(&VERNER7, states.len());
     repeated(|| {
         method.attempt(model, black_box(&start), STEP, &mut end, &mut attempt);

@@ -55,9 +55,13 @@ impl MethodKind {
     pub const ALL: [Self; 3] = [Self::Block, Self::Explicit, Self::Implicit];
 }
 
-/// Results of an attempted step other than the state at its end.
+/// The tolerance of an attempted step, and its results other than the state at its end.
 #[derive(Clone, Debug)]
 pub struct Attempt {
+    /// The tolerance, in scales of the states, for a method that iterates.
+    pub tolerance: f64,
+    /// Number of Jacobians that the attempt has computed and factorised.
+    pub jacobians: u64,
     /// Estimated error of each state.
     pub error: Vec<f64>,
     /// Second error estimate, where the method has one.
@@ -70,11 +74,21 @@ pub struct Attempt {
 }
 
 impl Attempt {
-    /// Workspace for `states` states.
-    pub fn new(states: usize) -> Self {
+    /// Workspace for `states` states and a tolerance.
+    pub fn new(states: usize, tolerance: f64) -> Self {
         let zeros = || vec![0.0; states];
-        Self { error: zeros(), coarse_error: zeros(), unseen: zeros(), events: [Default::default(); MAX_EVENTS] }
+        let events = [Default::default(); MAX_EVENTS];
+        Self { tolerance, jacobians: 0, error: zeros(), coarse_error: zeros(), unseen: zeros(), events }
     }
+}
+
+/// What an accepted step took, and what follows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepWork {
+    /// Number of evaluations of the rates, those of rejected attempts included.
+    pub evaluations: u64,
+    /// [s] Length that step control proposes for the next step.
+    pub next: f64,
 }
 
 /// What a method reports after one of its steps has been accepted.
@@ -131,6 +145,7 @@ pub trait Method<D: Copy>: Send {
         _system: &dyn System<Discrete = D>,
         _start: &StepPoint<D>,
         _end: &StepPoint<D>,
+        _work: StepWork,
     ) -> StepAdvice {
         StepAdvice::NONE
     }

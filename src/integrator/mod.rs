@@ -32,9 +32,9 @@ pub mod tangent;
 mod truncate;
 mod unilateral;
 
-pub use deadline::{Account, Deadline};
+pub use deadline::{Account, Deadline, Pace};
 pub use error::IntegrationError;
-pub use method::{Method, MethodKind, Properties};
+pub use method::{Method, MethodKind, Properties, StepWork};
 pub use methods::moreau::Moreau;
 pub use snapshot::{Reader, Snapshot};
 pub use state::{SolverState, StepPoint};
@@ -218,6 +218,7 @@ impl<D: Copy> Integrator<D> {
         // Attempt and judge.
         let predicted = step_acceptance::predicted_discontinuity(stepper, system);
         let earlier_kind = stepper.method.kind();
+        let evaluations = stepper.state.statistics.evaluations;
         stepper.state.begin_step();
         stepper.begin_budget();
         stepper.set_kind(stepper.method.next_kind());
@@ -236,7 +237,9 @@ impl<D: Copy> Integrator<D> {
         if let Some(component) = first_invalid(&stepper.state.end().rates) {
             return self.take_back(before, h, component);
         }
-        let advice = stepper.method.accepted(system, stepper.state.start(), stepper.state.end());
+        let SolverState { statistics, step, .. } = &stepper.state;
+        let work = StepWork { evaluations: statistics.evaluations - evaluations, next: *step };
+        let advice = stepper.method.accepted(system, stepper.state.start(), stepper.state.end(), work);
         stepper.state.step = stepper.state.step.min(advice.longest_step);
         stepper.state.statistics.evaluations += advice.evaluations;
         if system.event_count() == 0 {

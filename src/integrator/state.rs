@@ -212,6 +212,11 @@ impl<D: Copy> SolverState<D> {
         Step { t: start.t, h: end.t - start.t, y0: &start.y, f0: &start.rates, y1: &end.y, f1: &end.rates, layout }
     }
 
+    /// Work since the start: evaluations, and what Jacobians take.
+    pub fn work(&self) -> u64 {
+        self.statistics.evaluations.saturating_add(self.account.jacobians)
+    }
+
     /// Whether a run at `time` can have produced this state: the last step contains `time`, is at most `longest_step`
     /// [s] long and has valid states.
     pub fn is_sound(&self, time: f64, longest_step: f64) -> bool {
@@ -223,11 +228,11 @@ impl<D: Copy> SolverState<D> {
         let length = end.t - start.t;
         let Statistics { steps, rejected, evaluations, events } = *statistics;
         let counted = [*crossings, steps, rejected, evaluations, events].iter().all(|count| *count <= MAX_COUNT);
-        let Account { interval, before, counted: accounted, work, covered, looseness, hits, error } = *account;
-        let accounted = [interval, hits].iter().all(|count| *count <= MAX_COUNT)
-            && before.max(accounted) <= evaluations
-            && (0.0..INVALID_FROM).contains(&work)
-            && (0.0..INVALID_FROM).contains(&covered)
+        let Account { interval, jacobians, before, counted: accounted, recent, mean, looseness, hits, error } =
+            *account;
+        let accounted = [interval, jacobians, hits].iter().all(|count| *count <= MAX_COUNT)
+            && before.max(accounted) <= evaluations.saturating_add(jacobians)
+            && [recent.work, recent.covered, mean.work, mean.covered].iter().all(|x| (0.0..INVALID_FROM).contains(x))
             && (1.0..=MAX_LOOSENESS).contains(&looseness)
             && error >= 0.0;
         [start, end, front].iter().all(|front| valid(&front.y) && impacts_end(front))

@@ -130,7 +130,8 @@ fn fitted<D: Copy>(
             state.account.error += error * tolerance;
             state.account.hits += u64::from(error * looseness > 1.0);
             if let Some(deadline) = &stepper.deadline {
-                deadline.end_step(&mut state.account, h, state.statistics.evaluations, full);
+                let work = state.work();
+                deadline.end_step(&mut state.account, h, work, full);
             }
             state.cuts = match (cut, failed) {
                 (true, _) => state.cuts + 1,

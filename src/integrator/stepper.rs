@@ -1,6 +1,6 @@
 //! The last step and the operations on it: attempt, evaluate its end, commit, interpolate.
 
-use super::deadline::{Deadline, stretch};
+use super::deadline::{self, Deadline, stretch};
 use super::dense_output::Correction;
 use super::method::{Attempt, Method, MethodKind, Properties};
 use super::state::{SolverState, StepPoint, first_invalid};
@@ -34,7 +34,7 @@ impl<D: Copy> Stepper<D> {
         state: SolverState<D>,
     ) -> Self {
         let n = state.front().y.len();
-        let (attempt, correction) = (Attempt::new(n), Correction::new(n));
+        let (attempt, correction) = (Attempt::new(n, settings.tolerance), Correction::new(n));
         let events = attempt.events;
         let (properties, layout) = (*method.properties(), system.layout());
         let mut stepper = Self {
@@ -84,7 +84,8 @@ impl<D: Copy> Stepper<D> {
         let Some(deadline) = self.deadline else { return };
         let time = self.state.start().t;
         let before = self.state.account.looseness;
-        deadline.begin_step(&mut self.state.account, time, self.state.statistics.evaluations);
+        let work = self.state.work();
+        deadline.begin_step(&mut self.state.account, time, work);
         self.state.step *= stretch(self.looseness() / before, self.properties.error_power);
     }
 
@@ -92,9 +93,10 @@ impl<D: Copy> Stepper<D> {
     pub(super) fn looseness(&mut self) -> f64 {
         let Some(deadline) = self.deadline else { return 1.0 };
         let (time, power) = (self.state.start().t, self.properties.error_power);
-        let SolverState { account, statistics, .. } = &mut self.state;
-        account.looseness = deadline.looseness(account, time, statistics.evaluations, self.settings.tolerance, power);
-        account.looseness
+        let state = &mut self.state;
+        state.account.looseness =
+            deadline.looseness(&state.account, time, state.work(), self.settings.tolerance, power);
+        state.account.looseness
     }
 
     /// The tolerance of the last step over the nominal tolerance; 1 without a budget.
@@ -104,9 +106,17 @@ impl<D: Copy> Stepper<D> {
 
     /// Attempts a step of length `h` [s] from the start of the present step.
     pub(super) fn attempt(&mut self, system: &dyn System<Discrete = D>, h: f64) {
-        let (start, end) = self.state.ends();
-        let evaluations = self.method.attempt(system, start, h, end, &mut self.attempt);
+        let evaluations = self.made(system, h);
         self.state.statistics.evaluations += evaluations;
+        self.state.account.jacobians += deadline::work_of(self.attempt.jacobians, self.layout.states);
+    }
+
+    /// Attempts a step of length `h` [s] from the start of the present step. Returns the number of evaluations.
+    fn made(&mut self, system: &dyn System<Discrete = D>, h: f64) -> u64 {
+        self.attempt.tolerance = self.allowed_looseness() * self.settings.tolerance;
+        self.attempt.jacobians = 0;
+        let (start, end) = self.state.ends();
+        self.method.attempt(system, start, h, end, &mut self.attempt)
     }
 
     /// Repeats the attempt at the last step so that it ends at `t`.
@@ -209,9 +219,8 @@ impl<D: Copy> Stepper<D> {
         if self.properties.interpolates || t <= self.state.start().t {
             return false;
         }
-        let (start, end) = self.state.ends();
-        self.method.attempt(system, start, t - start.t, end, &mut self.attempt);
-        first_invalid(&end.y).is_none()
+        self.made(system, t - self.state.start().t);
+        first_invalid(&self.state.attempt().y).is_none()
     }
 
     /// Interpolates the state at `t` within the last step.

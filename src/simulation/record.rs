@@ -1,6 +1,6 @@
 //! Conversion between the memory of a run and a snapshot.
 
-use crate::integrator::{Account, Impulses, Reader, Snapshot, SolverState, Statistics, StepPoint};
+use crate::integrator::{Account, Impulses, Pace, Reader, Snapshot, SolverState, Statistics, StepPoint};
 use crate::model::contact::ContactState;
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
@@ -85,8 +85,9 @@ pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
     let SolverState { step, last_error, cuts, crossings, statistics, account, .. } = state;
     let states = state.front().y.len();
     snapshot.integers.push(states as u64);
-    let Account { interval, before, counted, work, covered, looseness, hits, error } = *account;
-    snapshot.reals.extend([*step, *last_error, work, covered, looseness, error]);
+    let Account { interval, jacobians, before, counted, recent, mean, looseness, hits, error } = *account;
+    snapshot.reals.extend([*step, *last_error, looseness, error]);
+    snapshot.reals.extend([recent, mean].iter().flat_map(|pace| [pace.work, pace.covered]));
     for StepPoint { t, y, rates, discrete, impact_end } in [state.start(), state.end(), state.front()] {
         snapshot.reals.extend([*t, *impact_end]);
         snapshot.reals.extend(y.iter().chain(rates));
@@ -94,7 +95,7 @@ pub fn save<D: Discrete>(state: &SolverState<D>, snapshot: &mut Snapshot) {
     }
     let Statistics { steps, rejected, evaluations, events } = *statistics;
     snapshot.integers.extend([u64::from(*cuts), *crossings, steps, rejected, evaluations, events]);
-    snapshot.integers.extend([interval, before, counted, hits]);
+    snapshot.integers.extend([interval, jacobians, before, counted, hits]);
 }
 
 /// Reads what [`save`] appended in a run of `model` at `time` [s]; `None` if no run can have produced it.
@@ -103,7 +104,8 @@ pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Rea
     if reader.integer()? != states as u64 {
         return None;
     }
-    let [step, last_error, work, covered, looseness, error] = reader.reals()?;
+    let [step, last_error, looseness, error] = reader.reals()?;
+    let [recent, mean] = [reader.reals()?, reader.reals()?].map(|[work, covered]| Pace { work, covered });
     let points = [take_point(states, reader)?, take_point(states, reader)?, take_point(states, reader)?];
     let mut state = SolverState::of(points, step);
     state.last_error = last_error;
@@ -117,10 +119,11 @@ pub fn load<D: Discrete>(model: &dyn MechanismModel, time: f64, reader: &mut Rea
     };
     state.account = Account {
         interval: reader.integer()?,
+        jacobians: reader.integer()?,
         before: reader.integer()?,
         counted: reader.integer()?,
-        work,
-        covered,
+        recent,
+        mean,
         looseness,
         hits: reader.integer()?,
         error,

@@ -48,8 +48,7 @@ impl Run {
         let mut y = vec![0.0; n];
         model.write_start(pose, &mut y);
         let conditions = Conditions::new(model.start_contacts(0.0, &y), inputs);
-        let method =
-            named(scene.solver.method.name(), n, scene.solver.tolerance).expect("every declared method is implemented");
+        let method = named(scene.solver.method.name(), n).expect("every declared method is implemented");
         let integrator = Integrator::start(model.as_ref(), method, settings, 0.0, &y, conditions);
         let integrator = integrator.with_deadline(deadline(scene));
         let Scale { length, frequency, relative, .. } = Scale::of(scene);

@@ -36,21 +36,25 @@ struct Ran {
 
 /// Runs the oscillator with a budget of so many evaluations in each interval, with `points` communication points in each.
 fn run(fast: f64, slow: f64, budget: Option<f64>, points: u32) -> Ran {
-    let problem = oscillator(fast, slow);
+    run_by("verner7", &oscillator(fast, slow), budget, points)
+}
+
+/// As [`run`], by another method and of another problem.
+fn run_by(method: &str, problem: &Free<Accelerations, 2>, budget: Option<f64>, points: u32) -> Ran {
     let deadline = budget.map(|budget| Deadline { per_second: budget / INTERVAL, interval: INTERVAL });
-    let mut integrator = begin("verner7", &problem, SETTINGS, 0.0, [1.0, 0.0], ()).with_deadline(deadline);
+    let mut integrator = begin(method, problem, SETTINGS, 0.0, [1.0, 0.0], ()).with_deadline(deadline);
     let spent_by = |integrator: &Integrator<()>| integrator.state().statistics.evaluations;
     let (mut spent, mut before) = (vec![], spent_by(&integrator));
     for interval in 0..INTERVALS {
         for point in 1..=points {
             let t = INTERVAL * (f64::from(interval) + f64::from(point) / f64::from(points));
-            integrator.advance(&problem, t).expect("a motion without trouble");
+            integrator.advance(problem, t).expect("a motion without trouble");
         }
         spent.push(spent_by(&integrator) - before);
         before = spent_by(&integrator);
     }
     let account = integrator.state().account;
-    let y = integrator.state_at(&problem, INTERVAL * f64::from(INTERVALS)).0.to_vec();
+    let y = integrator.state_at(problem, INTERVAL * f64::from(INTERVALS)).0.to_vec();
     Ran { spent, account, bits: y.iter().map(|y| y.to_bits()).collect(), position: y[0] }
 }
 
@@ -78,6 +82,27 @@ fn each_interval_keeps_its_budget_and_errors_grow_as_it_shrinks() {
     // The sum of the errors of all steps bounds that of a motion that does not amplify them.
     assert!(errors.iter().zip(&estimates).all(|(error, estimate)| error < estimate), "{errors:?}, {estimates:?}");
     assert!(errors[2] < 1e-4, "a third of the evaluations: {errors:?}");
+}
+
+#[test]
+fn an_implicit_method_converges_no_further_than_its_budget_allows() {
+    let pendulum = Free {
+        accelerations: Box::new(|_: f64, q: &[f64], _: &[f64], a: &mut [f64]| a[0] = -2500.0 * q[0].sin())
+            as Accelerations,
+    };
+    let free = run_by("radau13", &pendulum, None, 1);
+    let needed = free.spent.iter().max().copied().unwrap_or_default();
+    for share in [2, 3] {
+        let budget = needed / share;
+        let ran = run_by("radau13", &pendulum, Some(budget as f64), 1);
+        let most = ran.spent.iter().max().copied().unwrap_or_default();
+        println!(
+            "{most} evaluations of {budget}, {needed} without a deadline, error {:e}",
+            ran.position - free.position
+        );
+        assert!(most <= budget, "{most} evaluations of {budget}");
+        assert!((ran.position - free.position).abs() < 1e-2, "{:e}", ran.position - free.position);
+    }
 }
 
 #[test]

@@ -12,6 +12,8 @@ pub struct Free<A, const N: usize = 4> {
     pub accelerations: A,
 }
 
+/// Tolerance of a single step, for a method that iterates.
+const TOLERANCE: f64 = 1e-10;
 /// Weights of one: the tolerance is the error that a step may make.
 static UNIT: [f64; 16] = [1.0; 16];
 
@@ -54,7 +56,7 @@ pub fn begin<D: Copy + 'static>(
     discrete: D,
 ) -> Integrator<D> {
     let y = y.as_ref();
-    let method = named(method, y.len(), settings.tolerance).expect("a method of this name");
+    let method = named(method, y.len()).expect("a method of this name");
     Integrator::start(system, method, settings, t, y, discrete)
 }
 
@@ -72,7 +74,7 @@ pub fn step_from(
     start: &StepPoint<()>,
     h: f64,
 ) -> (StepPoint<()>, Attempt) {
-    let (mut end, mut made) = (start.clone(), Attempt::new(start.y.len()));
+    let (mut end, mut made) = (start.clone(), Attempt::new(start.y.len(), TOLERANCE));
     method.attempt(system, start, h, &mut end, &mut made);
     end.t = start.t + h;
     (end, made)

@@ -25,7 +25,7 @@ fn the_error_follows_the_tolerance() {
         let work = power(&runs.map(|(tolerance, (_, steps))| (tolerance, steps as f64)));
         let ratios = runs.map(|(tolerance, (error, _))| error / tolerance);
         println!("{}: error ~ tolerance^{found:.2}, steps ~ tolerance^{work:.3}, {ratios:.1?}", method);
-        let method = named::<()>(method, 4, 1e-6).expect("a method of this name");
+        let method = named::<()>(method, 4).expect("a method of this name");
         let (properties, method) = (method.properties(), method.properties().name);
         // Error per step: the error of a whole run falls with tolerance^(order/error_power); steps grow
         // with tolerance^(−1/error_power), those of the start apart, which the tolerance does not set.

@@ -83,8 +83,7 @@ fn start(method: &str, problem: &Following, tolerance: f64) -> Integrator<()> {
 
 /// Another integrator that goes on from where this one is.
 fn resumed(problem: &Following, tolerance: f64, integrator: &Integrator<()>) -> Integrator<()> {
-    let (mut saved, mut method) =
-        (Snapshot::default(), named("automatic", 4, tolerance).expect("a method of this name"));
+    let (mut saved, mut method) = (Snapshot::default(), named("automatic", 4).expect("a method of this name"));
     integrator.method().save(&mut saved);
     method.load(&mut Reader::new(&saved)).expect("what was saved");
     Integrator::resume(problem, method, settings(tolerance), integrator.state().clone())

@@ -150,14 +150,8 @@ fn a_face_keeps_the_approach_speed_of_its_first_touch_until_it_is_open() {
     model.write_start(&StartPose::of(&scene).expect("a loop that closes"), &mut y);
     let conditions = Conditions::without_inputs(model.start_contacts(0.0, &y));
     let settings = Settings { tolerance: 1e-8, fixed_step: 1e-6, effort: WorkLimit::ANY };
-    let mut integrator = Integrator::start(
-        &model,
-        named("verner7", y.len(), settings.tolerance).expect("a method"),
-        settings,
-        0.0,
-        &y,
-        conditions,
-    );
+    let mut integrator =
+        Integrator::start(&model, named("verner7", y.len()).expect("a method"), settings, 0.0, &y, conditions);
     let (mut closings, mut passages) = (0, 0);
     let (mut before, mut before_count) = (conditions, [0; 2]);
     while integrator.state().front().t < 0.03 {

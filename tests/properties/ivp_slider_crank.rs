@@ -119,14 +119,8 @@ fn at_the_end(factor: f64) -> (Evaluation, [f64; 4]) {
     let y = [0.0, 0.0, a, b, 0.444896105, 0.463434311e-2, c, d];
     let conditions = Conditions::without_inputs(model.start_contacts(0.0, &y));
     let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: WorkLimit::ANY };
-    let mut integrator = Integrator::start(
-        &model,
-        named("verner7", 8, settings.tolerance).expect("a method"),
-        settings,
-        0.0,
-        &y,
-        conditions,
-    );
+    let mut integrator =
+        Integrator::start(&model, named("verner7", 8).expect("a method"), settings, 0.0, &y, conditions);
     integrator.advance(&model, 0.1).expect("no trouble");
     let (y, conditions) = integrator.state_at(&model, 0.1);
     let node = |k: usize| y[2] * nodes[0][k] + y[3] * nodes[1][k];

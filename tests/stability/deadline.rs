@@ -1,7 +1,9 @@
 //! Deadlines that no motion can keep: it arrives nevertheless, with numbers, and says what it gave up.
 
 use crate::run::{Trace, case, not_finite, run};
+use slidercrank::scene::read::{SceneFile, read};
 use slidercrank::scene::run::End;
+use std::path::Path;
 
 /// Hard scenes, and the span [s] of each that takes long enough.
 const HARD: [(&str, f64); 5] =
@@ -31,11 +33,33 @@ fn hard_scenes_arrive_within_next_to_no_evaluations() {
     }
 }
 
+/// A scene that is shipped.
+fn shipped(name: &str) -> SceneFile {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("fmu-harness/scenes/{name}.toml"));
+    let text = std::fs::read_to_string(&path).expect("a shipped scene");
+    read(&text, name).expect("a scene")
+}
+
+/// In the two hard milliseconds of `oilpress` its guide is stiff: explicit steps of any tolerance take 17 000 evaluations a
+/// millisecond, implicit ones of the nominal tolerance 1 800.
+#[test]
+fn a_stiff_motion_keeps_its_budget_since_the_method_remains_implicit() {
+    let mut file = shipped("oilpress");
+    (file.run.end, file.run.step) = (End::Time(0.11), 1e-3);
+    for deadline in [1e6, 2e6, 4e6] {
+        file.scene.solver.deadline = deadline;
+        let trace = run(&file);
+        assert_eq!(trace.failure, None, "{deadline:e} evaluations a second");
+        let spent = trace.outputs.windows(2).map(|pair| pair[1].solver.evaluations - pair[0].solver.evaluations);
+        let most = f64::from(spent.max().unwrap_or_default());
+        println!("{most} evaluations of {:e}", deadline * file.run.step);
+        assert!(most < 1.5 * deadline * file.run.step, "{most} evaluations of {:e}", deadline * file.run.step);
+    }
+}
+
 #[test]
 fn an_implicit_step_that_has_not_converged_is_too_large_for_any_budget() {
-    let flexrod = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-harness/scenes/flexrod.toml");
-    let text = std::fs::read_to_string(&flexrod).expect("a shipped scene");
-    let mut file = slidercrank::scene::read::read(&text, "flexrod.toml").expect("a scene");
+    let mut file = shipped("flexrod");
     (file.run.end, file.run.step) = (End::Time(0.04), 1e-5);
     for deadline in [4e5, 7e5, 1e6, 2e6] {
         file.scene.solver.deadline = deadline;

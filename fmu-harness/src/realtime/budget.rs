@@ -32,7 +32,8 @@ pub struct Budgeted {
     pub window: Result<f64, String>,
     /// Without a deadline.
     pub free: Trial,
-    /// [1/s] The largest deadline found whose worst step keeps to the share; the last guess if none does.
+    /// [1/s] The largest deadline found whose worst step keeps to the share; the one whose worst step is shortest if none
+    /// does.
     pub deadline: f64,
     /// Within it.
     pub kept: Trial,
@@ -67,12 +68,14 @@ impl Budgeted {
                 kept: free.clone(),
                 scheduler: scheduler.clone(),
             };
-            let mut guess = found.first_guess();
+            let (mut guess, mut best) = (found.first_guess(), f64::INFINITY);
             for _ in 0..GUESSES {
                 let (kept, _) = trial(Rung::Deadline(guess))?;
                 let part = kept.timing.as_ref().map_or(f64::INFINITY, Timing::worst) / (share * STEP);
-                if part <= 1.0 || !found.is_kept() {
-                    (found.deadline, found.kept) = (guess, kept);
+                // A smaller deadline need not make the worst step shorter.
+                let is_better = if best <= 1.0 { part <= 1.0 && guess > found.deadline } else { part < best };
+                if is_better || found.deadline == 0.0 {
+                    (found.deadline, found.kept, best) = (guess, kept, part);
                 }
                 if (CLOSE..=1.0).contains(&part) || !part.is_finite() || found.has_spare() {
                     break;

@@ -141,14 +141,8 @@ impl ReturnMap for Oscillator {
         let [x, v] = [phase.states[0], phase.states[1]];
         let (start, touches) = ([x, v, omega], x > self.stop.gap);
         let settings = Settings { tolerance: TOLERANCE, fixed_step: 0.0, effort: WorkLimit::ANY };
-        let mut integrator = Integrator::start(
-            self,
-            named("verner7", 3, settings.tolerance).expect("a method"),
-            settings,
-            0.0,
-            &start,
-            touches,
-        );
+        let mut integrator =
+            Integrator::start(self, named("verner7", 3).expect("a method"), settings, 0.0, &start, touches);
         let none = DMatrix::zeros(0, 3);
         let state = integrator.state();
         let mut tangents = Tangents::new(self, state, DMatrix::identity(3, 3), none, vec![1.0; 3], TOLERANCE);

@@ -19,14 +19,7 @@ impl<const N: usize, P: integrator::System<Discrete = ()>> System<N, P> {
     /// Starts at time 0.
     pub fn start(problem: P, start: [f64; N]) -> Self {
         let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: WorkLimit::ANY };
-        let integrator = Integrator::start(
-            &problem,
-            named("verner7", N, settings.tolerance).expect("a method"),
-            settings,
-            0.0,
-            &start,
-            (),
-        );
+        let integrator = Integrator::start(&problem, named("verner7", N).expect("a method"), settings, 0.0, &start, ());
         Self { problem, integrator, time: 0.0 }
     }
 

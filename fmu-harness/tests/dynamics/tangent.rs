@@ -66,14 +66,7 @@ impl TangentFlow for Tangent {
 fn all_exponents_of_lorenz_are_found() {
     let settings = Settings { tolerance: 1e-9, fixed_step: 0.0, effort: WorkLimit::ANY };
     let start = [1.0, 1.0, 20.0];
-    let integrator = Integrator::start(
-        &Lorenz,
-        named("verner7", 3, settings.tolerance).expect("a method"),
-        settings,
-        0.0,
-        &start,
-        (),
-    );
+    let integrator = Integrator::start(&Lorenz, named("verner7", 3).expect("a method"), settings, 0.0, &start, ());
     let (all, none) = (DMatrix::identity(3, 3), DMatrix::zeros(0, 3));
     let tangents = Tangents::new(&Lorenz, integrator.state(), all, none, vec![1.0; 3], 1e-8);
     let mut flow = Tangent { integrator, tangents, time: 0.0 };

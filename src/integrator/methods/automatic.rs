@@ -6,7 +6,7 @@ use super::explicit::Explicit;
 use super::radau13::Radau13;
 use super::stiffness_switch::{StiffnessSwitch, fastest};
 use super::verner7::VERNER7;
-use crate::integrator::method::{Attempt, Method, MethodKind, Properties, StepAdvice};
+use crate::integrator::method::{Attempt, Method, MethodKind, Properties, StepAdvice, StepWork};
 use crate::integrator::snapshot::{Reader, Snapshot};
 use crate::integrator::state::StepPoint;
 use crate::integrator::system::System;
@@ -30,10 +30,10 @@ pub struct Automatic {
 }
 
 impl Automatic {
-    /// The method for `states` states and a `tolerance`.
-    pub fn new(states: usize, tolerance: f64) -> Self {
+    /// The method for `states` states.
+    pub fn new(states: usize) -> Self {
         let block = Cong8::new(states);
-        let (explicit, implicit) = (Explicit::new(&VERNER7, states), Radau13::new(states, tolerance));
+        let (explicit, implicit) = (Explicit::new(&VERNER7, states), Radau13::new(states));
         let with = |properties: &Properties, others: &'static [MethodKind]| Properties {
             name: "automatic",
             others,
@@ -95,7 +95,13 @@ impl<D: Copy> Method<D> for Automatic {
         Method::<D>::forget(&mut self.implicit);
     }
 
-    fn accepted(&mut self, system: &dyn System<Discrete = D>, start: &StepPoint<D>, end: &StepPoint<D>) -> StepAdvice {
+    fn accepted(
+        &mut self,
+        system: &dyn System<Discrete = D>,
+        start: &StepPoint<D>,
+        end: &StepPoint<D>,
+        work: StepWork,
+    ) -> StepAdvice {
         let Self { kind, switch, explicit, implicit, .. } = self;
         let (h, layout, scales) = (end.t - start.t, system.layout(), system.scales());
         let mut advice = StepAdvice::NONE;
@@ -111,7 +117,7 @@ impl<D: Copy> Method<D> for Automatic {
             MethodKind::Explicit => switch.after_explicit(BOUND, || explicit.stiffness(layout, scales)),
             MethodKind::Implicit => {
                 let fastest = fastest(implicit.jacobian(), layout, scales, &end.rates);
-                if let Some(longest) = switch.after_implicit(h, BOUND, fastest, layout.positions) {
+                if let Some(longest) = switch.after_implicit(h, work, BOUND, fastest, layout.positions) {
                     advice.longest_step = longest;
                 }
             }
@@ -136,22 +142,22 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let StiffnessSwitch { kind, steps, check_interval, unpaid, block, reach } = self.switch;
-        snapshot.reals.extend([block, reach]);
+        let StiffnessSwitch { kind, steps, check_interval, balance, block, reach } = self.switch;
+        snapshot.reals.extend([balance, block, reach]);
         snapshot.integers.extend([self.kind as u64, kind as u64]);
-        snapshot.integers.extend([steps, check_interval, unpaid].map(u64::from));
+        snapshot.integers.extend([steps, check_interval].map(u64::from));
         Method::<D>::save(&self.block, snapshot);
         Method::<D>::save(&self.implicit, snapshot);
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let [block, reach] = reader.reals()?;
+        let [balance, block, reach] = reader.reals()?;
         self.kind = read_kind(reader)?;
         self.switch = StiffnessSwitch {
             kind: read_kind(reader)?,
             steps: reader.integer()?.try_into().ok()?,
             check_interval: reader.integer()?.try_into().ok()?,
-            unpaid: reader.integer()?.try_into().ok()?,
+            balance,
             block,
             reach,
         };

@@ -35,17 +35,16 @@ use rosenbrock::Rosenbrock;
 /// All explicit Runge-Kutta methods.
 pub static EXPLICIT: [&Tableau; 6] = [&BS3, &DOPRI5, &VERNER7, &DOP853, &RK4, &RK4_UNLOCATED];
 
-/// The method of this name in the `solver.method` enumeration, for `states` states and a tolerance; `None` for an unknown
-/// name.
-pub fn named<D: Copy + 'static>(name: &str, states: usize, tolerance: f64) -> Option<Box<dyn Method<D>>> {
+/// The method of this name in the `solver.method` enumeration, for `states` states; `None` for an unknown name.
+pub fn named<D: Copy + 'static>(name: &str, states: usize) -> Option<Box<dyn Method<D>>> {
     if let Some(tableau) = EXPLICIT.into_iter().find(|tableau| tableau.name == name) {
         return Some(Box::new(Explicit::new(tableau, states)));
     }
     match name {
-        "automatic" => Some(Box::new(Automatic::new(states, tolerance))),
+        "automatic" => Some(Box::new(Automatic::new(states))),
         "bathe" => Some(Box::new(Bathe::new(states))),
         "cong8" => Some(Box::new(Cong8::new(states))),
-        "radau13" => Some(Box::new(Radau13::new(states, tolerance))),
+        "radau13" => Some(Box::new(Radau13::new(states))),
         "rodas4" => Some(Box::new(Rosenbrock::new(&RODAS4, states))),
         _ => None,
     }

@@ -113,6 +113,7 @@ impl<D: Copy> Method<D> for Rosenbrock {
         sum(&mut end.y, |k| start.y[k], &method.weights, u);
         sum(&mut attempt.error, |_| 0.0, &method.error, u);
         attempt.unseen.fill(0.0);
+        attempt.jacobians = 1;
         // The Jacobian counts as one evaluation.
         STAGES as u64
     }

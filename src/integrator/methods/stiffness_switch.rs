@@ -11,36 +11,42 @@
 //!
 //! A block is the cheapest kind where the system suits it, and the first to be short in fast motion: its corrector converges
 //! slowly there. The implicit method, whose stages are evaluated together like those of a block, is then tried and kept while
-//! its steps are longer than blocks by the ratio of the costs. If they are not, the explicit method is tried in the same way.
+//! its steps are longer than blocks by the ratio of the costs, for a series at most. If they are not, the explicit method is tried in the same way.
 
-use crate::integrator::method::MethodKind;
+use crate::integrator::method::{MethodKind, StepWork};
 use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 
 /// Number of accepted steps between two checks after a change that paid.
 const MIN_CHECK_INTERVAL: u32 = 32;
 /// Maximum number of accepted steps between two checks, after changes that did not pay.
-const MAX_CHECK_INTERVAL: u32 = 1024;
+const MAX_CHECK_INTERVAL: u32 = 256;
 /// A step is suspected to be stiff above this share of the stability bound.
 const SUSPECTED_SHARE: f64 = 0.6;
 /// Length of a block times the fastest rate above which the implicit method is tried.
 const SUSPECTED_REACH: f64 = 0.3;
-/// Cost of an implicit step in blocks, as measured with one clearance in a pin, rod rigid and flexible.
-const IMPLICIT_COST_IN_BLOCKS: f64 = 2.5;
-/// Cost of an implicit step in explicit steps, without its part for each position; as measured with three to thirteen
-/// positions.
-const IMPLICIT_COST: f64 = 2.0;
-/// Cost of an implicit step in explicit steps for each position.
-const IMPLICIT_COST_PER_POSITION: f64 = 0.45;
+/// Length of usual blocks times the fastest rate. A block that began to grow before a trial is no measure of the blocks
+/// that a trial is instead of.
+const USUAL_REACH: f64 = 0.8;
+/// Cost of an evaluation of an implicit step, with its share of the linear algebra, in explicit steps and without its part
+/// for each position; as measured with three to twelve positions.
+const IMPLICIT_COST: f64 = 0.08;
+/// Cost of an evaluation of an implicit step in explicit steps for each position.
+const IMPLICIT_COST_PER_POSITION: f64 = 0.033;
 /// Cost of an explicit step in blocks, as measured with one clearance in a pin, rod rigid and flexible.
 const EXPLICIT_COST_IN_BLOCKS: f64 = 0.85;
 /// In a system that suits blocks, a series of explicit steps ends after this many steps, to check whether it still
 /// pays.
 const EXPLICIT_SERIES: u32 = 256;
-/// A trial ends after this many successive steps that do not pay.
-const MAX_UNPAID: u32 = 3;
-/// A series of implicit steps that has paid ends after this many successive steps that do not pay: about the cost of waiting
-/// for the next trial.
-const PATIENCE: u32 = 12;
+/// A series of implicit steps ends after this many steps, to check whether another kind would do: a flexible rod in fast
+/// motion has rates that no step follows, and blocks that could be longer.
+const IMPLICIT_SERIES: u32 = 256;
+/// A trial, and a series of steps that has paid, ends where its balance falls below this. A step changes the balance by
+/// what it gains over a step of the other kind, by 1 at most.
+const OVERDRAFT: f64 = -2.0;
+/// Largest balance of a series of steps that has paid.
+const CREDIT: f64 = 6.0;
+/// A step of a trial that does not pay yet costs nothing if the next step is longer by this factor.
+const GROWING: f64 = 1.5;
 /// A series of fewer steps did not pay.
 const MIN_PAID_STEPS: u32 = 10;
 /// The golden ratio less 1.
@@ -55,8 +61,8 @@ pub struct StiffnessSwitch {
     pub steps: u32,
     /// Number of steps between two checks.
     pub check_interval: u32,
-    /// Number of successive last steps that did not pay.
-    pub unpaid: u32,
+    /// What the last steps have gained over steps of another kind.
+    pub balance: f64,
     /// [s] Length of the last block before a series of other steps; 0 if there was none.
     pub block: f64,
     /// Length of the last block before a series of implicit steps times the fastest rate there; 0 if there was none.
@@ -69,7 +75,7 @@ impl StiffnessSwitch {
         kind: MethodKind::Explicit,
         steps: 0,
         check_interval: MIN_CHECK_INTERVAL,
-        unpaid: 0,
+        balance: 0.0,
         block: 0.0,
         reach: 0.0,
     };
@@ -79,7 +85,7 @@ impl StiffnessSwitch {
     /// Whether a run can have produced this state.
     pub fn is_sound(&self) -> bool {
         (MIN_CHECK_INTERVAL..=MAX_CHECK_INTERVAL).contains(&self.check_interval)
-            && self.unpaid < PATIENCE
+            && self.balance.is_finite()
             && self.block.is_finite()
             && self.reach >= 0.0
     }
@@ -90,7 +96,7 @@ impl StiffnessSwitch {
         if self.check_is_due(self.check_interval) {
             let reach = h * fastest();
             if reach > SUSPECTED_REACH {
-                *self = Self { kind: MethodKind::Implicit, block: h, reach, ..*self };
+                *self = Self { kind: MethodKind::Implicit, block: h, reach, balance: 0.0, ..*self };
             }
         }
     }
@@ -106,13 +112,20 @@ impl StiffnessSwitch {
     /// Records an accepted explicit step of length `h` [s] in a system that suits blocks; otherwise as
     /// [`after_explicit`](Self::after_explicit).
     pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
-        self.unpaid = if h < EXPLICIT_COST_IN_BLOCKS * self.block { self.unpaid + 1 } else { 0 };
+        if self.block > 0.0 {
+            self.enter(h / (EXPLICIT_COST_IN_BLOCKS * self.block));
+        }
         if self.check_is_due(EXPLICIT_SERIES) {
             let kind = if stiffness() > SUSPECTED_SHARE * bound { MethodKind::Implicit } else { MethodKind::Block };
             *self = Self { kind, ..Self::NON_STIFF };
-        } else if self.unpaid == MAX_UNPAID {
+        } else if self.balance <= OVERDRAFT {
             self.end_trial(Self::BLOCKS);
         }
+    }
+
+    /// Enters a step that is worth `gain` steps of another kind into the balance.
+    fn enter(&mut self, gain: f64) {
+        self.balance = (self.balance + (gain - 1.0).min(1.0)).min(CREDIT);
     }
 
     /// Counts a step and returns whether a check is due.
@@ -126,18 +139,25 @@ impl StiffnessSwitch {
     }
 
     /// Records an accepted implicit step of length `h` [s] of a system with `positions` positions and the
-    /// fastest rate `fastest` [1/s]. Returns the upper bound of the next step [s] if that is to be explicit.
-    pub fn after_implicit(&mut self, h: f64, bound: f64, fastest: f64, positions: usize) -> Option<f64> {
+    /// fastest rate `fastest` [1/s], which took the `work`. Returns the upper bound of the next step [s] if that is to be explicit.
+    pub fn after_implicit(
+        &mut self,
+        h: f64,
+        work: StepWork,
+        bound: f64,
+        fastest: f64,
+        positions: usize,
+    ) -> Option<f64> {
         self.steps = self.steps.saturating_add(1);
+        let cost = work.evaluations as f64 * (IMPLICIT_COST + IMPLICIT_COST_PER_POSITION * positions as f64);
         // The length times the fastest rate from which on a step pays.
-        let worth = if self.reach > 0.0 {
-            IMPLICIT_COST_IN_BLOCKS * self.reach
-        } else {
-            (IMPLICIT_COST + IMPLICIT_COST_PER_POSITION * positions as f64) * bound
-        };
-        self.unpaid = if h * fastest < worth { self.unpaid + 1 } else { 0 };
-        let patience = if self.steps < MIN_PAID_STEPS { MAX_UNPAID } else { PATIENCE };
-        if self.unpaid < patience {
+        let worth = cost * if self.reach > 0.0 { EXPLICIT_COST_IN_BLOCKS * self.reach.max(USUAL_REACH) } else { bound };
+        let gain = h * fastest / worth;
+        let is_growing = self.steps < MIN_PAID_STEPS && work.next > GROWING * h;
+        if gain > 1.0 || !is_growing {
+            self.enter(gain);
+        }
+        if self.balance > OVERDRAFT && self.steps < IMPLICIT_SERIES {
             return None;
         }
         self.end_trial(Self { block: self.block, ..Self::NON_STIFF });
@@ -224,6 +244,11 @@ mod tests {
         }
     }
 
+    /// The work of an implicit step that converges well and lets the next be as long.
+    fn work(h: f64) -> StepWork {
+        StepWork { evaluations: 15, next: h }
+    }
+
     #[test]
     fn a_trial_that_does_not_pay_makes_the_next_wait_longer() {
         let mut switch = StiffnessSwitch::NON_STIFF;
@@ -232,10 +257,10 @@ mod tests {
                 switch.after_explicit(4.6, || 4.0);
                 switch.kind == MethodKind::Implicit
             });
-            let ends = (1..2000).find(|_| switch.after_implicit(1e-6, 4.6, 4e6, 2).is_some());
+            let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), 4.6, 4e6, 2).is_some());
             (steps, ends)
         };
-        for check_interval in [32, 64, 128, 256, 512, 1024, 1024] {
+        for check_interval in [32, 64, 128, 256, 256] {
             assert_eq!(trial(&mut switch), (Some(check_interval), Some(3)));
             assert!(switch.is_sound());
         }
@@ -243,9 +268,21 @@ mod tests {
         switch.kind = MethodKind::Implicit;
         let ends = (0..50).find(|step| {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
-            switch.after_implicit(h, 4.6, 4e6, 2).is_some()
+            switch.after_implicit(h, work(h), 4.6, 4e6, 2).is_some()
         });
-        assert_eq!((ends, switch), (Some(31), StiffnessSwitch::NON_STIFF));
+        assert_eq!((ends, switch), (Some(28), StiffnessSwitch::NON_STIFF));
+    }
+
+    #[test]
+    fn a_trial_goes_on_while_its_steps_grow_and_ends_sooner_where_attempts_fail() {
+        let steps_of_trial = |work: StepWork| {
+            let mut switch = StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::NON_STIFF };
+            (1..100).find(|_| switch.after_implicit(9e-6, work, 4.6, 1e6, 2).is_some())
+        };
+        assert_eq!(steps_of_trial(StepWork { evaluations: 15, next: 9e-6 }), Some(19));
+        assert_eq!(steps_of_trial(StepWork { evaluations: 60, next: 9e-6 }), Some(3));
+        assert_eq!(steps_of_trial(StepWork { evaluations: 60, next: 18e-6 }), Some(12));
+        assert_eq!(steps_of_trial(StepWork { evaluations: 12, next: 9e-6 }), None);
     }
 
     #[test]
@@ -269,7 +306,7 @@ mod tests {
                     MethodKind::Block => switch.after_block(1e-6, || 1e6),
                     MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, || 2.0),
                     MethodKind::Implicit => {
-                        switch.after_implicit(implicit, 4.6, 1e6, 2);
+                        switch.after_implicit(implicit, work(implicit), 4.6, 1e6, 2);
                     }
                 }
                 assert!(switch.is_sound());
@@ -279,11 +316,11 @@ mod tests {
             }
             steps
         };
-        for check_interval in [32, 128, 512, 1024, 1024] {
-            assert_eq!(trial(&mut switch, 2e-6, 0.5e-6), [check_interval, 3, 3]);
+        for check_interval in [32, 128, 256, 256] {
+            assert_eq!(trial(&mut switch, 0.4e-6, 0.2e-6), [check_interval, 3, 3]);
         }
-        assert_eq!(trial(&mut switch, 2e-6, 2e-6), [1024, 256, 3]);
-        assert_eq!(trial(&mut switch, 3e-6, 2e-6), [32, 0, 1968]);
+        assert_eq!(trial(&mut switch, 0.4e-6, 2e-6), [256, 256, 3]);
+        assert_eq!(trial(&mut switch, 3e-6, 0.2e-6), [32, 3, 256]);
         let mut switch = StiffnessSwitch { kind: MethodKind::Explicit, block: 1e-6, ..StiffnessSwitch::BLOCKS };
         while switch.kind == MethodKind::Explicit {
             switch.after_explicit_beside_blocks(2e-6, 4.6, || 4.0);

@@ -89,7 +89,6 @@ struct History {
 /// The seven-stage method.
 #[derive(Clone, Debug)]
 pub struct Radau13 {
-    tolerance: f64,
     history: History,
     /// Whether `changes` are those of a step: whether Newton's method has converged.
     converged: bool,
@@ -108,12 +107,11 @@ pub struct Radau13 {
 }
 
 impl Radau13 {
-    /// The method for `states` states. Newton's method converges to a share of the `tolerance`.
-    pub fn new(states: usize, tolerance: f64) -> Self {
+    /// The method for `states` states.
+    pub fn new(states: usize) -> Self {
         let rows = || vec![F64x8::ZERO; states];
         let modes = || vec![Complex4::ZERO; states];
         Self {
-            tolerance,
             history: History { begin: 0.0, end: 0.0, changes: rows(), goes_on: false },
             converged: false,
             jacobian: Jacobian::new(states),
@@ -162,7 +160,7 @@ impl Radau13 {
         h: f64,
         attempt: &mut Attempt,
     ) -> (usize, f64) {
-        let Self { tolerance, converged, jacobian, factors, changes, modes, correction, y, rates, .. } = self;
+        let Self { converged, jacobian, factors, changes, modes, correction, y, rates, .. } = self;
         let layout = system.layout();
         let (shift, per_step) = (EIGENVALUES.reciprocal() * h, EIGENVALUES * (1.0 / h));
         for (mode, change) in modes.iter_mut().zip(&*changes) {
@@ -191,7 +189,7 @@ impl Radau13 {
                 changes[i] += change;
                 attempt.error[i] = (change * change).sum().sqrt();
             }
-            let size = norm(attempt, &start.y, system.scales(), layout, false, CONVERGED * *tolerance);
+            let size = norm(attempt, &start.y, system.scales(), layout, false, CONVERGED * attempt.tolerance);
             if !size.is_finite() {
                 return (iteration, f64::INFINITY);
             }
@@ -275,6 +273,7 @@ impl<D: Copy> Method<D> for Radau13 {
             factors.of(states - positions, |i, j| second_order::element(jacobian, positions, shift, i, j));
             let iterations;
             (iterations, ratio) = self.iterate(system, start, h, attempt);
+            attempt.jacobians += 1;
             // The Jacobian counts as one evaluation.
             evaluations += STAGES * iterations + 1;
             self.write_end(start, &mut end.y);
@@ -284,7 +283,7 @@ impl<D: Copy> Method<D> for Radau13 {
         }
         if self.converged {
             self.estimate(start, h, positions, &mut attempt.error);
-            let tolerance = ERROR_SHARE * self.tolerance;
+            let tolerance = ERROR_SHARE * attempt.tolerance;
             let size = norm(attempt, &start.y, system.scales(), layout, false, tolerance);
             let least = (0..ERROR_POWER).fold(1.0, |power, _| power * (SAFETY * ratio / GOOD_RATIO)).min(1.0);
             if size < least {
