@@ -1,7 +1,7 @@
 //! The model of a scene: its mechanism, with the interfaces of the integrator and the simulation.
 
 use super::bristles::bristled_contacts;
-use super::compiled::Compiled;
+use super::compiled::{Compiled, ROWS_WITH_MODES};
 use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
@@ -64,7 +64,9 @@ impl Model {
         }
         Self {
             compiled: Compiled::of(&mechanism),
-            suits_blocks: structure.topology.has_one_pin_clearance() && states == 2 * p,
+            suits_blocks: structure.topology.has_one_pin_clearance()
+                && states == 2 * p
+                && (mechanism.rod.is_none() || ROWS_WITH_MODES),
             scales,
             longest_step: scale.longest_step,
             event_scale: if structure.closed { IdealMechanism::CHANGE_POINT_SCALE } else { scale.length },

@@ -166,9 +166,7 @@ fn bristles_layers_and_an_implicit_method() {
 
 #[test]
 fn oil() {
-    let mut scene = shipped("oilpress");
-    scene.solver.tolerance = 1e-10;
-    check("oilpress", &scene, 1e-3, 1e-4, &["joint.B.viscosity", "joint.B.clearance"]);
+    check("oilpress", &shipped("oilpress"), 1e-3, 1e-4, &["joint.B.viscosity", "joint.B.clearance"]);
 }
 
 #[test]

@@ -20,8 +20,11 @@ use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 const MIN_CHECK_INTERVAL: u32 = 32;
 /// Maximum number of accepted steps between two checks, after changes that did not pay.
 const MAX_CHECK_INTERVAL: u32 = 256;
-/// A step is suspected to be stiff above this share of the stability bound.
-const SUSPECTED_SHARE: f64 = 0.6;
+/// A step is suspected to be stiff above this share of the stability bound. What two stages reveal is less than the bound
+/// where the fastest motion is at rest.
+const SUSPECTED_SHARE: f64 = 0.3;
+/// Share of the stability bound at which explicit steps begin after a series of implicit ones.
+const STABLE_SHARE: f64 = 0.6;
 /// Length of a block times the fastest rate above which the implicit method is tried.
 const SUSPECTED_REACH: f64 = 0.3;
 /// Length of usual blocks times the fastest rate. A block that began to grow before a trial is no measure of the blocks
@@ -161,7 +164,7 @@ impl StiffnessSwitch {
             return None;
         }
         self.end_trial(Self { block: self.block, ..Self::NON_STIFF });
-        Some(SUSPECTED_SHARE * bound / fastest)
+        Some(STABLE_SHARE * bound / fastest)
     }
 
     /// Records a step that was completed in `kind` after the intended kind had failed.
@@ -289,7 +292,7 @@ mod tests {
     fn steps_far_within_stability_are_never_tried() {
         let mut switch = StiffnessSwitch::NON_STIFF;
         for _ in 0..1000 {
-            switch.after_explicit(4.6, || 2.0);
+            switch.after_explicit(4.6, || 1.0);
         }
         assert_eq!(switch.kind, MethodKind::Explicit);
     }
@@ -304,7 +307,7 @@ mod tests {
                 steps[switch.kind as usize] += 1;
                 match switch.kind {
                     MethodKind::Block => switch.after_block(1e-6, || 1e6),
-                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, || 2.0),
+                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, || 1.0),
                     MethodKind::Implicit => {
                         switch.after_implicit(implicit, work(implicit), 4.6, 1e6, 2);
                     }
