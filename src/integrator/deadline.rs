@@ -28,7 +28,7 @@ const MEAN_INTERVALS: f64 = 4.0;
 /// Share of the budget that is held back for errors of the prediction at the end of an interval.
 const RESERVE: f64 = 0.1;
 /// Largest tolerance, in scales of the states.
-const LOOSEST: f64 = 0.01;
+const LOOSEST: f64 = 1e-3;
 /// Work of a Jacobian and its factorisation for each state, in evaluations: they take the time of 2.4 to 4.2, as measured with
 /// three to twelve positions.
 const JACOBIAN: u64 = 3;

@@ -3,17 +3,18 @@
 //!
 //! The method gives up accuracy before it makes more evaluations, so that the longest step is bounded by their number.
 //! What an evaluation takes depends on machine, scene and method. The search therefore measures steps within a first
-//! guess, corrects the guess by what the worst step took, and measures again.
+//! guess, corrects the guess by what the worst step took, and measures again. Each run is made twice, and the shorter time
+//! of a step counts.
 
 use super::deadline::{Bench, Trial};
 use super::scheduler::{Scheduler, in_real_time};
-use super::{STEP, Timing};
+use super::{STEP, Step, Timing};
 use crate::precision::ladder::Rung;
 use anyhow::Result;
 use std::time::Duration;
 
 /// Maximum number of guesses.
-const GUESSES: usize = 5;
+const GUESSES: usize = 6;
 /// A guess whose worst step takes at least this share of what it may take needs no correction.
 const CLOSE: f64 = 0.9;
 /// Part of a step that a corrected guess is meant to take of what it may take.
@@ -52,7 +53,7 @@ impl Budgeted {
         let (method, tolerance) = (scene.solver.method, Rung::Tolerance(scene.solver.tolerance));
         let trial = |rung| {
             tick();
-            let (trial, scheduler) = in_real_time(|| bench.trial(method, rung, count, budget));
+            let (trial, scheduler) = in_real_time(|| bench.trial(method, rung, count, budget, true));
             Ok::<_, anyhow::Error>((trial?, scheduler))
         };
         let (free, scheduler) = trial(tolerance)?;
@@ -68,7 +69,7 @@ impl Budgeted {
                 kept: free.clone(),
                 scheduler: scheduler.clone(),
             };
-            let (mut guess, mut best) = (found.first_guess(), f64::INFINITY);
+            let (mut guess, mut best, mut least_refused) = (found.first_guess(), f64::INFINITY, f64::INFINITY);
             for _ in 0..GUESSES {
                 let (kept, _) = trial(Rung::Deadline(guess))?;
                 let part = kept.timing.as_ref().map_or(f64::INFINITY, Timing::worst) / (share * STEP);
@@ -80,7 +81,14 @@ impl Budgeted {
                 if (CLOSE..=1.0).contains(&part) || !part.is_finite() || found.has_spare() {
                     break;
                 }
-                guess *= (AIM / part).clamp(0.3, 2.0);
+                if part > 1.0 {
+                    least_refused = guess.min(least_refused);
+                }
+                guess = if best <= 1.0 && least_refused.is_finite() {
+                    (found.deadline * least_refused).sqrt()
+                } else {
+                    guess * (AIM / part).clamp(0.5, 2.0)
+                };
             }
             let done = found.is_kept() && found.kept.point.error.is_none_or(|error| error <= TOLERABLE);
             all.push(found);
@@ -91,10 +99,11 @@ impl Budgeted {
         Ok(all)
     }
 
-    /// [1/s] The evaluations that the share would allow at the price that they have without a deadline.
+    /// [1/s] The evaluations that the share would allow at the price that they have in the longest step without a deadline.
     fn first_guess(&self) -> f64 {
-        let price = self.free.timing.as_ref().map_or(0.0, Timing::price);
-        if price > 0.0 { self.share / price } else { 1.0 / STEP }
+        let longest =
+            self.free.timing.as_ref().map_or_else(|_| Step::default(), |timing| timing.longest(|step| step.cpu));
+        if longest.cpu > 0.0 { self.share * longest.evaluations.max(1.0) / longest.cpu } else { 1.0 / STEP }
     }
 
     /// Whether the worst step within the deadline keeps to the share.

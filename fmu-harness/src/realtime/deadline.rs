@@ -76,17 +76,19 @@ impl<'a> Bench<'a> {
         self.reference.as_ref().map(|reference| reference.window).map_err(Clone::clone)
     }
 
-    /// Measures the error of a setting, and the times of `count` steps with it, or of as many as `budget` allows.
+    /// Measures the error of a setting, and the times of `count` steps with it, or of as many as `budget` allows, in one run
+    /// or in the shorter of two.
     ///
     /// # Errors
     /// If the run cannot be compared with the reference.
-    pub fn trial(&self, method: Method, rung: Rung, count: usize, budget: Duration) -> Result<Trial> {
+    pub fn trial(&self, method: Method, rung: Rung, count: usize, budget: Duration, twice: bool) -> Result<Trial> {
         let Self { subject, ruler, reference } = self;
         let point = match reference {
             Ok(reference) => Point::in_window(subject, ruler, reference, method, rung, BUDGET)?,
             Err(why) => Point::stopped(method, rung, why),
         };
-        let timing = Timing::of(subject.file, subject.fmu, settings(method, rung), count, budget, |_| {});
+        let run = || Timing::of(subject.file, subject.fmu, settings(method, rung), count, budget, |_| {});
+        let timing = run().and_then(|once| Ok(if twice { once.shorter_of(&run()?) } else { once }));
         Ok(Trial { point, timing: timing.map_err(|error| format!("{error:#}")) })
     }
 }
@@ -110,7 +112,7 @@ impl Trials {
     pub fn of(bench: &Bench, count: usize, budget: Duration, tick: impl Fn(Method, Rung)) -> Result<Self> {
         let trial = |(method, rung)| {
             tick(method, rung);
-            bench.trial(method, rung, count, budget)
+            bench.trial(method, rung, count, budget, false)
         };
         let trials = TRIED.into_iter().map(trial).collect::<Result<_>>()?;
         Ok(Self { scene: bench.subject.file.name.clone(), window: bench.window(), trials })

@@ -25,9 +25,6 @@ const SLOW: f64 = 0.5;
 /// Outputs that are read after every step: counters, and the crank's angle.
 const ASKED: [&str; 6] =
     ["solver.steps", "solver.evaluations", "solver.events", "solver.deadline_hits", "solver.error_estimate", ANGLE];
-/// Quantile of the price of an evaluation in [`Timing::price`]; steps that were interrupted are beyond it.
-const USUAL: f64 = 0.99;
-
 /// One communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {
@@ -127,19 +124,19 @@ impl Timing {
         sum(|step| step.cpu) / sum(|step| step.evaluations)
     }
 
-    /// [s] Price of an evaluation where it is highest: in steps with at least half as many evaluations as the largest, as
-    /// CPU time, with few exceptions. Methods differ in the price of their evaluations, and so do steps.
-    pub fn price(&self) -> f64 {
-        let half = 0.5 * self.longest(|step| step.evaluations).evaluations;
-        let busy = self.steps.iter().filter(|step| step.evaluations >= half.max(1.0));
-        let mut prices: Vec<f64> = busy.map(|step| step.cpu / step.evaluations).collect();
-        prices.sort_by(f64::total_cmp);
-        quantile(&prices, USUAL)
+    /// [s] CPU time of the longest step.
+    pub fn worst(&self) -> f64 {
+        self.longest(|step| step.cpu).cpu
     }
 
-    /// [s] Time of the step with the most evaluations at the highest usual price.
-    pub fn worst(&self) -> f64 {
-        self.longest(|step| step.evaluations).evaluations * self.price()
+    /// The same steps with the shorter times of two runs. The motion is the same in both, to the bit; what the machine did
+    /// beside it is not.
+    #[must_use]
+    pub fn shorter_of(mut self, again: &Self) -> Self {
+        for (step, again) in self.steps.iter_mut().zip(&again.steps) {
+            (step.wall, step.cpu) = (step.wall.min(again.wall), step.cpu.min(again.cpu));
+        }
+        self
     }
 
     /// [s] Time of the step with the most evaluations on an otherwise idle processor.
@@ -232,13 +229,12 @@ mod tests {
     }
 
     #[test]
-    fn the_price_is_that_of_the_dearest_of_the_busy_steps() {
-        let mut timing = timing();
-        assert_eq!((timing.price(), timing.worst()), (3.0 / 200.0, 3.0));
-        timing.steps[0].evaluations = 99.0;
-        timing.steps[0].cpu = 1e3;
-        assert_eq!(timing.price(), 3.0 / 200.0, "a step with few evaluations does not count");
-        assert_eq!(Timing::default().worst(), 0.0);
+    fn what_interrupts_one_run_does_not_count() {
+        let (mut once, mut again) = (timing(), timing());
+        (once.steps[0].cpu, again.steps[1].cpu) = (9.0, 9.0);
+        assert_eq!((once.worst(), again.worst()), (9.0, 9.0));
+        assert_eq!(once.shorter_of(&again), timing());
+        assert_eq!((timing().worst(), Timing::default().worst()), (3.0, 0.0));
     }
 
     #[test]

@@ -11,16 +11,14 @@ use std::path::Path;
 
 /// A number of a series of steps.
 type Measure = fn(&Timing) -> f64;
-/// Times of a communication step: the most evaluations at the highest usual price, and the longest single steps.
-const TIMES: [Measure; 3] =
-    [Timing::worst, |timing| timing.longest(|step| step.cpu).cpu, |timing| timing.longest(|step| step.wall).wall];
+/// The longest communication step, in CPU time and by the clock.
+const TIMES: [Measure; 2] = [Timing::worst, |timing| timing.longest(|step| step.wall).wall];
 
 /// Longest step and error of each scene without a deadline and within it.
 pub fn table(scenes: &[Budgeted]) -> Table {
     let mut table = Table::default();
-    let head =
-        ["1 ms step at most", "without deadline", "error", "of a core", "deadline [1/s]", "within it", "worst CPU"];
-    let more = ["worst by the clock", "most evaluations", "error", "estimate", "loosened steps"];
+    let head = ["1 ms step at most", "without deadline", "error", "of a core", "deadline [1/s]", "within it"];
+    let more = ["by the clock", "most evaluations", "error", "estimate", "loosened steps"];
     table.line(head.into_iter().chain(more).map(String::from).collect());
     for scene in scenes {
         let mut line = vec![scene.scene.clone()];
@@ -87,12 +85,10 @@ pub fn sentence(scene: &Budgeted) -> String {
 /// All numbers in SI units.
 pub fn write_csv(scenes: &[Budgeted], file: &Path) -> Result<()> {
     let mut csv = csv::Writer::from_path(file)?;
-    let measures: [(&str, Measure); 6] = [
-        ("worst_s", Timing::worst),
-        ("worst_cpu_s", |timing| timing.longest(|step| step.cpu).cpu),
+    let measures: [(&str, Measure); 4] = [
+        ("worst_cpu_s", Timing::worst),
         ("worst_wall_s", |timing| timing.longest(|step| step.wall).wall),
         ("most_evaluations", |timing| timing.longest(|step| step.evaluations).evaluations),
-        ("price_s", Timing::price),
         ("steps", |timing| timing.steps.len() as f64),
     ];
     let mut head = ["scene", "step_s", "share", "deadline", "window_s", "loosened"].map(String::from).to_vec();
@@ -151,7 +147,7 @@ mod tests {
     fn table_sentence_and_csv_tell_the_same() {
         let scene = budgeted();
         let markdown = table(std::slice::from_ref(&scene)).markdown();
-        let row = "| own | 150 % | 1e-5 | 50.0 % | 4.50e5 | 45.0 % | 45.0 % | 90.0 % | 450 | 3e-3 | 3e-3 | 10.0 % |";
+        let row = "| own | 150 % | 1e-5 | 50.0 % | 4.50e5 | 45.0 % | 90.0 % | 450 | 3e-3 | 3e-3 | 10.0 % |";
         assert!(markdown.contains(row), "{markdown}");
         let text = sentence(&scene);
         for part in
