@@ -27,11 +27,11 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Limits with which six diagrams take less than ten minutes.
+    /// Limits with which six diagrams take less than a quarter of an hour.
     pub const FULL: Self = Self {
         run: Duration::from_millis(2500),
         reference: Duration::from_secs(8),
-        scene: Duration::from_secs(65),
+        scene: Duration::from_secs(120),
         quick: false,
     };
     /// Limits for a quick overview.
