@@ -124,8 +124,8 @@ impl Deadline {
         }
     }
 
-    /// Tolerance of a step that starts at `time` [s] over the nominal `tolerance`, after so much `work`. The
-    /// error is proportional to the step to the `power`.
+    /// Tolerance of a step that starts at `time` [s] over the nominal `tolerance`, after so much `work`. The error is
+    /// proportional to the step to the `power`.
     pub fn looseness(&self, account: &Account, time: f64, work: u64, tolerance: f64, power: f64) -> f64 {
         let Self { per_second, interval } = *self;
         let budget = per_second * interval;

@@ -11,7 +11,11 @@
 //!
 //! A block is the cheapest kind where the system suits it, and the first to be short in fast motion: its corrector converges
 //! slowly there. The implicit method, whose stages are evaluated together like those of a block, is then tried and kept while
-//! its steps are longer than blocks by the ratio of the costs, for a series at most. If they are not, the explicit method is tried in the same way.
+//! its steps are longer than blocks by the ratio of the costs, for a series at most. If they are not, the explicit method is
+//! tried in the same way.
+//!
+//! Whether steps pay is kept as a balance: what a step of the series gains over steps of the other kind in the same time, for
+//! all the work that its attempts took.
 
 use crate::integrator::method::{MethodKind, StepWork};
 use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
@@ -141,8 +145,8 @@ impl StiffnessSwitch {
         now
     }
 
-    /// Records an accepted implicit step of length `h` [s] of a system with `positions` positions and the
-    /// fastest rate `fastest` [1/s], which took the `work`. Returns the upper bound of the next step [s] if that is to be explicit.
+    /// Records an accepted implicit step of length `h` [s], which took the `work`, of a system with `positions` positions and
+    /// the fastest rate `fastest` [1/s]. Returns the upper bound of the next step [s] if that is to be explicit.
     pub fn after_implicit(
         &mut self,
         h: f64,
