@@ -26,7 +26,7 @@ const REST: f64 = 0.5;
 /// Number of intervals over which the mean pace is taken.
 const MEAN_INTERVALS: f64 = 4.0;
 /// Share of the budget that is held back for errors of the prediction at the end of an interval.
-const RESERVE: f64 = 0.1;
+const RESERVE: f64 = 0.15;
 /// Largest tolerance, in scales of the states.
 const LOOSEST: f64 = 1e-3;
 /// Work of a Jacobian and its factorisation for each state, in evaluations: they take the time of 2.4 to 4.2, as measured with
