@@ -104,15 +104,15 @@ impl<D: Copy> Stepper<D> {
         self.deadline.map_or(1.0, |_| self.state.account.looseness)
     }
 
-    /// Attempts a step of length `h` [s] from the start of the present step.
+    /// Attempts a step of length `h` [s] from the start of the present step, and counts its work.
     pub(super) fn attempt(&mut self, system: &dyn System<Discrete = D>, h: f64) {
-        let evaluations = self.made(system, h);
+        let evaluations = self.attempt_uncounted(system, h);
         self.state.statistics.evaluations += evaluations;
         self.state.account.jacobians += deadline::work_of(self.attempt.jacobians, self.layout.states);
     }
 
-    /// Attempts a step of length `h` [s] from the start of the present step. Returns the number of evaluations.
-    fn made(&mut self, system: &dyn System<Discrete = D>, h: f64) -> u64 {
+    /// As [`attempt`](Self::attempt), but counts nothing. Returns the number of evaluations.
+    fn attempt_uncounted(&mut self, system: &dyn System<Discrete = D>, h: f64) -> u64 {
         self.attempt.tolerance = self.allowed_looseness() * self.settings.tolerance;
         self.attempt.jacobians = 0;
         let (start, end) = self.state.ends();
@@ -219,7 +219,7 @@ impl<D: Copy> Stepper<D> {
         if self.properties.interpolates || t <= self.state.start().t {
             return false;
         }
-        self.made(system, t - self.state.start().t);
+        self.attempt_uncounted(system, t - self.state.start().t);
         first_invalid(&self.state.attempt().y).is_none()
     }
 

@@ -1,9 +1,7 @@
 //! Deadlines that no motion can keep: it arrives nevertheless, with numbers, and says what it gave up.
 
-use crate::run::{Trace, case, not_finite, run};
-use slidercrank::scene::read::{SceneFile, read};
+use crate::run::{Trace, case, not_finite, run, shipped};
 use slidercrank::scene::run::End;
-use std::path::Path;
 
 /// Hard scenes, and the span [s] of each that takes long enough.
 const HARD: [(&str, f64); 5] =
@@ -31,13 +29,6 @@ fn hard_scenes_arrive_within_next_to_no_evaluations() {
         assert!(hasty.last().solver.deadline_hits > 0, "{name}");
         assert!(hurried > 10.0 * calm, "{name}: {hurried:e} after {calm:e}");
     }
-}
-
-/// A scene that is shipped.
-fn shipped(name: &str) -> SceneFile {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("fmu-harness/scenes/{name}.toml"));
-    let text = std::fs::read_to_string(&path).expect("a shipped scene");
-    read(&text, name).expect("a scene")
 }
 
 /// In the two hard milliseconds of `oilpress` its guide is stiff: explicit steps of any tolerance take 17 000 evaluations a

@@ -50,7 +50,16 @@ pub fn folder(kind: &str) -> PathBuf {
 
 /// The scene file of a case.
 pub fn case(name: &str) -> SceneFile {
-    let path = folder("cases").join(format!("{name}.toml"));
+    file(&folder("cases"), name)
+}
+
+/// The file of a scene that is shipped.
+pub fn shipped(name: &str) -> SceneFile {
+    file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-harness/scenes"), name)
+}
+
+fn file(folder: &Path, name: &str) -> SceneFile {
+    let path = folder.join(format!("{name}.toml"));
     let text = std::fs::read_to_string(&path).expect("a scene file");
     read(&text, &path.display().to_string()).unwrap_or_else(|error| panic!("{error}"))
 }

@@ -69,14 +69,16 @@ impl Budgeted {
                 kept: free.clone(),
                 scheduler: scheduler.clone(),
             };
-            let (mut guess, mut best, mut least_refused) = (found.first_guess(), f64::INFINITY, f64::INFINITY);
+            let (mut guess, mut least_refused) = (found.first_guess(), f64::INFINITY);
             for _ in 0..GUESSES {
                 let (kept, _) = trial(Rung::Deadline(guess))?;
-                let part = kept.timing.as_ref().map_or(f64::INFINITY, Timing::worst) / (share * STEP);
+                let tried = Self { deadline: guess, kept, ..found.clone() };
+                let part = tried.part();
                 // A smaller deadline need not make the worst step shorter.
-                let is_better = if best <= 1.0 { part <= 1.0 && guess > found.deadline } else { part < best };
+                let is_better =
+                    if found.is_kept() { tried.is_kept() && guess > found.deadline } else { part < found.part() };
                 if is_better || found.deadline == 0.0 {
-                    (found.deadline, found.kept, best) = (guess, kept, part);
+                    found = tried;
                 }
                 if (CLOSE..=1.0).contains(&part) || !part.is_finite() || found.has_spare() {
                     break;
@@ -84,7 +86,7 @@ impl Budgeted {
                 if part > 1.0 {
                     least_refused = guess.min(least_refused);
                 }
-                guess = if best <= 1.0 && least_refused.is_finite() {
+                guess = if found.is_kept() && least_refused.is_finite() {
                     (found.deadline * least_refused).sqrt()
                 } else {
                     guess * (AIM / part).clamp(0.5, 2.0)
@@ -106,9 +108,14 @@ impl Budgeted {
         if longest.cpu > 0.0 { self.share * longest.evaluations.max(1.0) / longest.cpu } else { 1.0 / STEP }
     }
 
+    /// The worst step within the deadline over what it may take.
+    fn part(&self) -> f64 {
+        self.kept.timing.as_ref().map_or(f64::INFINITY, Timing::worst) / (self.share * STEP)
+    }
+
     /// Whether the worst step within the deadline keeps to the share.
     pub fn is_kept(&self) -> bool {
-        self.deadline > 0.0 && self.kept.timing.as_ref().is_ok_and(|timing| timing.worst() <= self.share * STEP)
+        self.deadline > 0.0 && self.part() <= 1.0
     }
 
     /// Whether no step needed more evaluations than it had.

@@ -25,6 +25,7 @@ const SLOW: f64 = 0.5;
 /// Outputs that are read after every step: counters, and the crank's angle.
 const ASKED: [&str; 6] =
     ["solver.steps", "solver.evaluations", "solver.events", "solver.deadline_hits", "solver.error_estimate", ANGLE];
+
 /// One communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {

@@ -92,7 +92,8 @@ impl StiffnessSwitch {
     /// Whether a run can have produced this state.
     pub fn is_sound(&self) -> bool {
         (MIN_CHECK_INTERVAL..=MAX_CHECK_INTERVAL).contains(&self.check_interval)
-            && self.balance.is_finite()
+            && self.balance > OVERDRAFT
+            && self.balance <= CREDIT
             && self.block.is_finite()
             && self.reach >= 0.0
     }
@@ -103,7 +104,7 @@ impl StiffnessSwitch {
         if self.check_is_due(self.check_interval) {
             let reach = h * fastest();
             if reach > SUSPECTED_REACH {
-                *self = Self { kind: MethodKind::Implicit, block: h, reach, balance: 0.0, ..*self };
+                *self = Self { kind: MethodKind::Implicit, block: h, reach, ..*self };
             }
         }
     }
@@ -119,9 +120,7 @@ impl StiffnessSwitch {
     /// Records an accepted explicit step of length `h` [s] in a system that suits blocks; otherwise as
     /// [`after_explicit`](Self::after_explicit).
     pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
-        if self.block > 0.0 {
-            self.enter(h / (EXPLICIT_COST_IN_BLOCKS * self.block));
-        }
+        self.enter(h / (EXPLICIT_COST_IN_BLOCKS * self.block));
         if self.check_is_due(EXPLICIT_SERIES) {
             let kind = if stiffness() > SUSPECTED_SHARE * bound { MethodKind::Implicit } else { MethodKind::Block };
             *self = Self { kind, ..Self::NON_STIFF };
