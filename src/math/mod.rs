@@ -21,7 +21,7 @@ pub use fused::{Fused, PORTABLE};
 pub(crate) use lanes::larger;
 pub use lanes::{LANES, Lanes};
 pub use real::Real;
-pub(crate) use unroll::unroll;
+pub(crate) use unroll::{unroll, unroll_four};
 pub use vec2::Vec2;
 
 /// (sin x, cos x).

@@ -1,13 +1,13 @@
 //! The equations of motion compiled for several number types and for constant structures.
 //!
 //! The generic equations are compiled once per number type for any structure: for one state, for eight states and for a
-//! state with derivatives. With a flexible rod they are compiled for two array sizes; few modes are computed in the arrays
-//! for many. If there is little to compute, the branches on the structure take about as long as the computation, and if
-//! the number of modes is unknown, arrays stay in memory. For the structures listed here, those of the usual studies, the
-//! same source is therefore compiled again with the structure as a constant. `cargo bench --bench compiled` measures the
-//! saving in a stage of a step: about a tenth with four clearances, half with one, and half with a flexible rod. A
-//! structure with a smaller saving does not belong here. What is specialised are the stages of a step, where the time
-//! goes; code for eight states only where steps in blocks are usual.
+//! state with derivatives. A flexible rod is computed in the arrays for any rod. If there is little to compute, the
+//! branches on the structure take about as long as the computation, and if the number of modes is unknown, arrays stay in
+//! memory. For the structures listed here, those of the usual studies, the same source is therefore compiled again with the
+//! structure as a constant. `cargo bench --bench compiled` measures the saving in a stage of a step: about a tenth with
+//! four clearances, half with one, and half with a flexible rod. A structure with a smaller saving does not belong here.
+//! What is specialised are the stages of a step, where the time goes; code for eight states only where steps in blocks are
+//! usual.
 //!
 //! The loop over the stages of a step is compiled together with the equations, so that the results of a stage do not
 //! pass through memory in other portions than they are read in.
@@ -216,25 +216,15 @@ fn stages_of_all(states: usize) -> Stages {
     of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// `with_capacity!(rod, name(arguments))` calls `name::<K, F>(arguments)` with the array sizes of the rod: `K` modes
-/// and `F` functions along the rod.
-macro_rules! with_capacity {
-    ($rod:expr, $own:ident . $name:ident $(:: <$number:ty>)? ($($argument:expr),*)) => {
-        match $rod.modes.room {
-            RodCapacity::Few | RodCapacity::Many => $own.$name::<$($number,)? 8, 40>($($argument),*),
-            RodCapacity::All => $own.$name::<$($number,)? ALL_MODES, ALL_FUNCTIONS>($($argument),*),
-        }
-    };
-}
-
-/// Code compiled once per number type for any structure; with a flexible rod, once per array size in use.
+/// Code compiled once per number type for any structure; with a flexible rod, in the arrays for any rod, but for eight states,
+/// whose arrays would not fit into a host's stack.
 impl Mechanism {
     /// Writes the rates of a state.
     #[inline(never)]
     pub fn rates_of_one(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
             None => self.rates(&self.structure, conditions, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<f64>(rod, conditions, t, y, rates)),
+            Some(rod) => self.flexible_rates_of_one(rod, conditions, t, y, rates),
         }
     }
 
@@ -247,7 +237,7 @@ impl Mechanism {
             Some(rod) if rod.modes.room == RodCapacity::All || !ROWS_WITH_MODES => {
                 one_by_one(|t, y, rates| self.rates_of_one(conditions, t, y, rates), &t, y, rates);
             }
-            Some(rod) => self.flexible_rates_of_eight::<8, 40>(rod, conditions, t, y, rates),
+            Some(rod) => self.flexible_rates_of_eight(rod, conditions, t, y, rates),
         }
     }
 
@@ -255,10 +245,8 @@ impl Mechanism {
     #[inline(never)]
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
-            None => {
-                self.rigid_tangent_evaluation(conditions, t, y, rates);
-            }
-            Some(rod) => with_capacity!(rod, self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates)),
+            None => self.drop_rigid_evaluation(conditions, t, y, rates),
+            Some(rod) => self.flexible_tangent_rates(rod, conditions, t, y, rates),
         }
     }
 
@@ -274,7 +262,7 @@ impl Mechanism {
     ) {
         match &self.rod {
             None => self.rates_and_event_functions(&self.structure, conditions, t, y, rates, event_functions),
-            Some(rod) => with_capacity!(rod, self.flexible_ends(rod, conditions, t, y, rates, event_functions)),
+            Some(rod) => self.flexible_ends(rod, conditions, t, y, rates, event_functions),
         }
     }
 
@@ -286,7 +274,7 @@ impl Mechanism {
     /// Angles, places and velocities with a flexible rod, and its chord.
     #[inline(never)]
     pub(super) fn pose_and_chord(&self, rod: &FlexibleRod, t: f64, y: &[f64]) -> (Pose, Chord<f64>) {
-        with_capacity!(rod, self.flexible_pose::<f64>(rod, t, y))
+        self.flexible_pose::<f64, ALL_MODES, ALL_FUNCTIONS>(rod, t, y)
     }
 
     /// The evaluation of an instant; writes the rates.
@@ -294,7 +282,7 @@ impl Mechanism {
     pub fn evaluation(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) -> Evaluation {
         match &self.rod {
             None => self.rates_and_evaluation(&self.structure, conditions, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.flexible_instant::<f64>(rod, conditions, t, y, rates)),
+            Some(rod) => self.flexible_instant::<f64>(rod, conditions, t, y, rates),
         }
     }
 
@@ -309,7 +297,7 @@ impl Mechanism {
     ) -> Evaluation<Tangent> {
         match &self.rod {
             None => self.rigid_tangent_evaluation(conditions, t, y, rates),
-            Some(rod) => with_capacity!(rod, self.flexible_instant::<Tangent>(rod, conditions, t, y, rates)),
+            Some(rod) => self.flexible_instant::<Tangent>(rod, conditions, t, y, rates),
         }
     }
 
@@ -326,6 +314,12 @@ impl Mechanism {
         self.rates_and_evaluation(&self.structure, conditions, t, y, rates)
     }
 
+    /// Writes the rates and discards the evaluation, which leaves the stack.
+    #[inline(never)]
+    fn drop_rigid_evaluation(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+        self.rigid_tangent_evaluation(conditions, t, y, rates);
+    }
+
     /// The motion with a flexible rod whose counts are known at compile time; writes the rates. `None` if the rod is rigid.
     #[inline(always)]
     fn counted_motion<R: Scalar, C: CompiledCounts>(
@@ -337,11 +331,11 @@ impl Mechanism {
         rates: &mut [R],
     ) -> Option<FlexibleMotion<R, 4>> {
         let rod = self.rod.as_ref()?;
-        Some(self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates, &mut Inertia::default()))
+        Some(self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates, &mut Inertia::default(), None))
     }
 
     #[inline(never)]
-    fn flexible_ends<const K: usize, const F: usize>(
+    fn flexible_ends(
         &self,
         rod: &FlexibleRod,
         conditions: &Conditions,
@@ -350,12 +344,12 @@ impl Mechanism {
         rates: &mut [f64],
         event_functions: &mut EventFunctions,
     ) {
-        let motion = self.flexible_motion::<f64, K, F>(rod, conditions, t, y, rates, &mut Inertia::default());
+        let motion = self.flexible_motion::<f64>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
         motion.event_functions(self, &self.structure, &conditions.contacts, event_functions);
     }
 
     #[inline(never)]
-    fn flexible_rates_of_eight<const K: usize, const F: usize>(
+    fn flexible_rates_of_eight(
         &self,
         rod: &FlexibleRod,
         conditions: &Conditions,
@@ -364,37 +358,73 @@ impl Mechanism {
         rates: &mut [F64x8],
     ) {
         let inertia = &mut Inertia::default();
-        self.flexible_rates::<F64x8, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates, inertia);
+        self.flexible_rates::<F64x8, RuntimeCounts, { RodCapacity::Many.size()[0] }, { RodCapacity::Many.size()[1] }>(
+            &self.structure,
+            rod,
+            conditions,
+            t,
+            y,
+            rates,
+            inertia,
+            None,
+        );
     }
 
     #[inline(never)]
-    fn flexible_motion<R: Scalar, const K: usize, const F: usize>(
+    #[expect(clippy::too_many_arguments, reason = "as of what is inlined into it")]
+    fn flexible_motion<R: Scalar>(
         &self,
         rod: &FlexibleRod,
         conditions: &Conditions,
         t: R,
         y: &[R],
         rates: &mut [R],
-        inertia: &mut Inertia<R, K>,
-    ) -> FlexibleMotion<R, K> {
-        self.flexible_rates::<R, RuntimeCounts, K, F>(&self.structure, rod, conditions, t, y, rates, inertia)
+        inertia: &mut Inertia<R, ALL_MODES>,
+        modal_energy: Option<&mut R>,
+    ) -> FlexibleMotion<R, ALL_MODES> {
+        self.flexible_rates::<R, RuntimeCounts, ALL_MODES, ALL_FUNCTIONS>(
+            &self.structure,
+            rod,
+            conditions,
+            t,
+            y,
+            rates,
+            inertia,
+            modal_energy,
+        )
     }
 
     /// Writes the rates and discards the motion.
     #[inline(never)]
-    fn drop_flexible_motion<R: Scalar, const K: usize, const F: usize>(
+    fn flexible_rates_of_one(&self, rod: &FlexibleRod, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
+        self.flexible_motion::<f64>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
+    }
+
+    /// Writes the rates. The motion, which is discarded, has no place on the stack beside the inertia: both are long.
+    #[inline(never)]
+    fn flexible_tangent_rates(
         &self,
         rod: &FlexibleRod,
         conditions: &Conditions,
-        t: R,
-        y: &[R],
-        rates: &mut [R],
+        t: Tangent,
+        y: &[Tangent],
+        rates: &mut [Tangent],
     ) {
-        self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates, &mut Inertia::default());
+        let inertia = &mut Inertia::default();
+        self.flexible_rates::<Tangent, RuntimeCounts, ALL_MODES, ALL_FUNCTIONS>(
+            &self.structure,
+            rod,
+            conditions,
+            t,
+            y,
+            rates,
+            inertia,
+            None,
+        );
     }
 
     #[inline(never)]
-    fn flexible_instant<R: Scalar, const K: usize, const F: usize>(
+    fn flexible_instant<R: Scalar>(
         &self,
         rod: &FlexibleRod,
         conditions: &Conditions,
@@ -403,7 +433,8 @@ impl Mechanism {
         rates: &mut [R],
     ) -> Evaluation<R> {
         let mut inertia = Inertia::default();
-        let motion = self.flexible_motion::<R, K, F>(rod, conditions, t, y, rates, &mut inertia);
-        motion.evaluation(&inertia, self, rod, y, rates)
+        let mut energy = R::ZERO;
+        let motion = self.flexible_motion::<R>(rod, conditions, t, y, rates, &mut inertia, Some(&mut energy));
+        motion.evaluation(&inertia, energy, self, rod, y, rates)
     }
 }

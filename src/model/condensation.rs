@@ -17,13 +17,13 @@ use super::structure::{CRANK, ROD, SLIDER};
 use crate::math::{Real, unroll};
 
 /// The equations of at most `K` modal coordinates.
-pub struct ModalEquations<R, const K: usize> {
+pub struct ModalEquations<'a, R, const K: usize> {
     /// Number of modal coordinates.
     pub size: usize,
     /// Which of the angles of crank, rod and slider are coupled with the modes.
     pub angles: [bool; 3],
-    /// [kg] M_ηη; the lower triangle.
-    pub matrix: [[R; K]; K],
+    /// [kg] M_ηη; the lower triangle. With derivatives it is long, so it stays where the rod's inertia was.
+    pub matrix: &'a mut [[R; K]; K],
     /// [kg·m] C: coupling of the angles of crank, rod and slider with each mode.
     pub with: [[R; K]; 3],
     /// [N] Q_η: right-hand side.
@@ -54,7 +54,7 @@ fn add_product<R: Real>([p, q]: [R; 2], [x, y]: [R; 2], sum: R) -> R {
     p.multiply_add(x, q.multiply_add(y, sum))
 }
 
-impl<R: Real, const K: usize> ModalEquations<R, K> {
+impl<R: Real, const K: usize> ModalEquations<'_, R, K> {
     /// Eliminates the modal coordinates from the equations of the angles and returns the inverse determinants of the
     /// blocks.
     #[inline(always)]
@@ -231,8 +231,8 @@ mod tests {
     /// equations.
     fn found<C: CompiledCounts>(size: usize) -> ([f64; ROOM], [f64; 3]) {
         let right = |i: usize| (0..size + 3).map(|j| element(i, j) * solution(j)).sum::<f64>();
-        let (matrix, with) = ([[0.0; ROOM]; ROOM], [[0.0; ROOM]; 3]);
-        let mut modal = ModalEquations { size, angles: [true; 3], matrix, with, right: [0.0; ROOM] };
+        let (mut matrix, with) = ([[0.0; ROOM]; ROOM], [[0.0; ROOM]; 3]);
+        let mut modal = ModalEquations { size, angles: [true; 3], matrix: &mut matrix, with, right: [0.0; ROOM] };
         for i in 0..size {
             for j in 0..=i {
                 modal.matrix[i][j] = element(i, j);

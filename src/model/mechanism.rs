@@ -163,7 +163,7 @@ impl Mechanism {
 
     /// Writes the rates of the state `y` at `t` for a flexible rod, in arrays of `K` modes and `F` functions along the
     /// rod, with counts `C` that may be known at compile time. Writes the rod's inertia into `inertia`, which must be
-    /// zero, and returns the motion.
+    /// zero, and the kinetic energy of its modes [J] into `modal_energy`, and returns the motion.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "inlined")]
     pub(super) fn flexible_rates<R: Scalar, C: CompiledCounts, const K: usize, const F: usize>(
@@ -175,6 +175,7 @@ impl Mechanism {
         y: &[R],
         rates: &mut [R],
         inertia: &mut Inertia<R, K>,
+        modal_energy: Option<&mut R>,
     ) -> FlexibleMotion<R, K> {
         let modes: Arrays<'_, K, F> = rod.modes.arrays();
         let rigid = of.positions;
@@ -200,7 +201,10 @@ impl Mechanism {
         };
         let speed = pose.rotations.speed[ROD];
         part!(R, C, modes.inertia::<R, C>(&shape, eta, rate, speed, inertia));
-        let bent = BentRod { modes, chain: rod.chain, shape: &shape, inertia, eta, rate };
+        if let Some(energy) = modal_energy {
+            *energy = inertia.modal_energy(rate);
+        }
+        let mut bent = BentRod { modes, chain: rod.chain, shape: &shape, inertia, eta, rate };
         let (bodies, gravity, modal) = (&self.augmented, self.gravity, &mut forced[rigid..]);
         let accelerations =
             part!(R, C, bent.accelerate::<C>(of, bodies, gravity, &pose.rotations, arms, closing, &loads, modal));
@@ -405,6 +409,7 @@ impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
     pub fn evaluation(
         &self,
         inertia: &Inertia<R, K>,
+        modal_energy: R,
         mechanism: &Mechanism,
         rod: &FlexibleRod,
         y: &[R],
@@ -434,16 +439,13 @@ impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
         let mut force = origin * mass + turn * perp(first) + rotation.apply(inertia.force);
         let mut moment = cross(first, origin) + inertia.about_origin * turn + inertia.couple;
         let mut opening = Vec2::<R>::ZERO;
-        let (mut with_turning, mut modal_energy) = (R::ZERO, R::ZERO);
+        let mut with_turning = R::ZERO;
         for (a, (&forced, &rate_a)) in forced.iter().zip(rate).enumerate() {
             let first_slope = Vec2::new(inertia.first_slope.x[a], inertia.first_slope.y[a]);
             force += forced * rotation.apply(first_slope);
             moment += forced * inertia.with_angle[a];
             opening += rate_a * first_slope;
             with_turning += rate_a * inertia.with_angle[a];
-            let with = inertia.modal[a].iter().zip(rate).take(a);
-            let row = with.fold(R::ZERO, |sum, (m, rate)| sum + *m * *rate);
-            modal_energy += rate_a * (row * 2.0 + inertia.modal[a][a] * rate_a);
         }
         let velocity = pose.velocity.big_end;
         let first_rate = speed * perp(first) + rotation.apply(opening);
@@ -451,7 +453,7 @@ impl<R: Scalar, const K: usize> FlexibleMotion<R, K> {
             + velocity.dot(first_rate)
             + inertia.about_origin * 0.5 * speed * speed
             + speed * with_turning
-            + modal_energy * 0.5;
+            + modal_energy;
         let flexible = FlexibleEvaluation {
             demand: InertialLoad { force, moment },
             elastic: rod.rod.elastic(chord.stretch, eta, rate),

@@ -53,7 +53,7 @@ pub(super) struct BentRod<'a, R, const K: usize, const F: usize> {
     /// Deformation of the rod.
     pub shape: &'a Shape<R, K, F>,
     /// Inertia of the rod.
-    pub inertia: &'a Inertia<R, K>,
+    pub inertia: &'a mut Inertia<R, K>,
     /// [m] Modal coordinates.
     pub eta: &'a [R],
     /// [m/s] Rates of the modal coordinates.
@@ -115,7 +115,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "inlined")]
     pub fn accelerate<C: CompiledCounts>(
-        &self,
+        &mut self,
         of: &Structure,
         constant: &AugmentedBodies,
         gravity: Vec2,
@@ -125,9 +125,9 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
         loads: &Loads<R>,
         modal: &mut [R],
     ) -> Accelerations<R> {
-        let Self { modes, chain, shape, inertia, .. } = self;
+        let Self { modes, chain, shape, ref inertia, .. } = *self;
         let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
-        let RodInChain { far, big_end, first: kappa, second, .. } = *chain;
+        let RodInChain { far, big_end, first: kappa, second, .. } = chain;
         let length = shape.chord.length;
         let bodies = chain.augmented(of, constant, length, inertia.first, inertia.about_origin);
         let mut equations = Equations::new(of, &bodies, gravity, rotations, loads, |number| number);
@@ -222,7 +222,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             closed: of.closed,
             inwards,
             angles: [turns_crank, !of.closed, with_slider],
-            rod: *chain,
+            rod: chain,
             per_mass,
             rotation: r2,
             length,
@@ -285,29 +285,30 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
     }
 
     /// The equations of the modal coordinates with their couplings, and the momentum of each mode. `end_couple` are the
-    /// couples [N·m] on the rod's end sections.
+    /// couples [N·m] on the rod's end sections. The matrix takes the place of the rod's modal inertia.
     #[inline(always)]
     fn modal_equations<C: CompiledCounts>(
-        &self,
+        &mut self,
         chain: &Chain<R>,
         end_couple: &[R; 2],
-    ) -> (ModalEquations<R, K>, Vec2<[R; K]>) {
-        let Self { modes, shape, inertia, eta, rate, .. } = self;
+    ) -> (ModalEquations<'_, R, K>, Vec2<[R; K]>) {
+        let Self { modes, shape, eta, rate, .. } = self;
+        let Inertia { first_slope: first, with_angle, modal: matrix, modal_force, .. } = &mut *self.inertia;
         let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
         // Numbers that stand alone are computed in whole registers: the lists are zero beyond the modes.
         let whole = const { R::PLAIN && !C::KNOWN };
         let count = if whole { K } else { n };
-        let (slope, first) = (&shape.chord_slope, &inertia.first_slope);
+        let slope = &shape.chord_slope;
         let own = |a: usize| Vec2::new(first.x[a], first.y[a]);
         let mut momentum = Vec2::new([R::ZERO; K], [R::ZERO; K]);
         let (mut with_rod, mut right) = ([R::ZERO; K], [R::ZERO; K]);
         unroll!(C::KNOWN, a < n, K => {
-            right[a] = modes.force(a, eta[a], rate[a], end_couple) - inertia.modal_force[a];
+            right[a] = modes.force(a, eta[a], rate[a], end_couple) - modal_force[a];
         });
         unroll!(C::KNOWN, a < count, K => {
             let along = chain.momentum(slope[a], own(a));
             (momentum.x[a], momentum.y[a]) = (along.x, along.y);
-            with_rod[a] = chain.with_rod(slope[a], own(a), inertia.with_angle[a]);
+            with_rod[a] = chain.with_rod(slope[a], own(a), with_angle[a]);
             right[a] = chain.force(slope[a], own(a), along, right[a]);
         });
         let mut with = [[R::ZERO; K]; 3];
@@ -334,7 +335,6 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             });
             chain.move_root::<C, K>(chain.p3, &momentum, &mut with[SLIDER], count);
         }
-        let mut matrix = inertia.modal;
         unroll!(C::KNOWN, a < n, K => {
             let (row, end) = (&mut matrix[a], if whole { K } else { a + 1 });
             unroll!(C::KNOWN, b < end, K => {

@@ -109,12 +109,29 @@ impl RodCapacity {
         }
     }
 
+    /// From the smallest to the largest.
+    pub const EACH: [Self; 3] = [Self::Few, Self::Many, Self::All];
+
     /// The smallest capacity for these counts.
     pub fn of(counts: Counts) -> Self {
         let suits = |room: &Self| {
             let [modes, functions] = room.size();
             counts.modes() <= modes && counts.functions() <= functions
         };
-        [Self::Few, Self::Many].into_iter().find(suits).unwrap_or(Self::All)
+        Self::EACH.into_iter().find(suits).unwrap_or(Self::All)
+    }
+
+    /// The capacity of arrays for `functions` functions.
+    pub const fn of_functions(functions: usize) -> Self {
+        match functions {
+            12 => Self::Few,
+            40 => Self::Many,
+            _ => Self::All,
+        }
+    }
+
+    /// Whether arrays of the capacity `other` hold what arrays of this one do.
+    pub const fn is_within(self, other: Self) -> bool {
+        self as usize <= other as usize
     }
 }

@@ -8,7 +8,7 @@ use super::modes::Arrays;
 use super::shape::Shape;
 use super::sums::{FunctionsToFunctions, FunctionsToModes, ModesToModes, add_rows};
 use super::tables::TableView;
-use crate::math::{LANES, Real, unroll};
+use crate::math::{LANES, Real, unroll, unroll_four};
 use crate::model::plane::{Vec2, perp};
 
 /// Inertia of the rod in its own frame, for the accelerations of the frame's origin, of its angle and of the modal
@@ -23,7 +23,7 @@ pub struct Inertia<R, const K: usize> {
     pub first_slope: Vec2<[R; K]>,
     /// [kg·m] T_a: coupling of the frame's angle with η.
     pub with_angle: [R; K],
-    /// [kg] m_ab: coupling of η with η; the lower triangle.
+    /// [kg] m_ab: coupling of η with η; the lower triangle. What solves the equations of motion overwrites it.
     pub modal: [[R; K]; K],
     /// [N] Force ∫a dm that centrifugal and Coriolis accelerations require, in the frame's axes.
     pub force: Vec2<R>,
@@ -46,6 +46,20 @@ impl<R: Real, const K: usize> Default for Inertia<R, K> {
             couple: R::ZERO,
             modal_force: [R::ZERO; K],
         }
+    }
+}
+
+impl<R: Real, const K: usize> Inertia<R, K> {
+    /// [J] η̇ᵀ·m·η̇/2, the kinetic energy of the modal coordinates alone.
+    #[inline(always)]
+    pub fn modal_energy(&self, rate: &[R]) -> R {
+        let mut twice = R::ZERO;
+        for (a, &rate_a) in rate.iter().enumerate() {
+            let with = self.modal[a].iter().zip(rate).take(a);
+            let row = with.fold(R::ZERO, |sum, (m, rate)| sum + *m * *rate);
+            twice += rate_a * (row * 2.0 + self.modal[a][a] * rate_a);
+        }
+        twice * 0.5
     }
 }
 
@@ -75,7 +89,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             let mut place = zeros();
             add_rows::<R, FunctionsToModes<C>, _, _>([&mut place], placing, 0..functions, [xi], columns);
             inertia.first.x = place[n];
-            unroll!(C::KNOWN, i < n, C::MODES => {
+            unroll_four!(C::KNOWN, i < n, C::MODES => {
                 inertia.with_angle[i] = place[i];
             });
         }
@@ -83,16 +97,16 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             let mut bias = zeros();
             add_rows::<R, FunctionsToModes<C>, _, _>([&mut bias], with_modes, pairs.clone(), [xi_bias], columns);
             inertia.force.x = bias[n];
-            unroll!(C::KNOWN, i < n, C::MODES => {
+            unroll_four!(C::KNOWN, i < n, C::MODES => {
                 inertia.couple = (-q[i]).multiply_add(bias[i], inertia.couple);
             });
         }
         let mut first_rate = Vec2::<R>::ZERO;
         {
             let (mut twist, mut moved) = (zeros(), zeros());
-            unroll!(C::KNOWN, i < shortening, C::MODES => {
+            unroll_four!(C::KNOWN, i < shortening, C::MODES => {
                 let first = counts.twists(i);
-                unroll!(C::KNOWN, j < i, C::MODES => {
+                unroll_four!(C::KNOWN, j < i, C::MODES => {
                     twist[first + j] = q[j].multiply_add(dq[i], -(q[i] * dq[j]));
                 });
             });
@@ -105,14 +119,14 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 columns,
             );
             first_rate.x = moved[n];
-            unroll!(C::KNOWN, i < n, C::MODES => {
+            unroll_four!(C::KNOWN, i < n, C::MODES => {
                 inertia.modal_force[i] = twice.multiply_add(moved[i], -(square * (q[i] * self.modal_mass[i])));
             });
         }
         {
             let mut first_slope = zeros();
             add_rows::<R, ModesToModes<C>, _, _>([&mut first_slope], shifting, 0..shortening, [q], columns);
-            unroll!(C::KNOWN, i < n, C::MODES => {
+            unroll_four!(C::KNOWN, i < n, C::MODES => {
                 inertia.first_slope.x[i] = first_slope[i];
             });
         }
@@ -131,7 +145,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 spreading = xi_rate[k].multiply_add(spread[k], spreading);
             });
         }
-        unroll!(C::KNOWN, i < n, C::MODES => {
+        unroll_four!(C::KNOWN, i < n, C::MODES => {
             let (m, moment) = (self.modal_mass[i], self.moment[i]);
             let weighted = q[i] * m;
             inertia.first.y = q[i].multiply_add(moment, inertia.first.y);
@@ -141,11 +155,11 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             inertia.first_slope.y[i] = R::constant(moment);
             inertia.modal[i][i] = R::constant(m);
         });
-        unroll!(C::KNOWN, j < axial, C::MODES => {
+        unroll_four!(C::KNOWN, j < axial, C::MODES => {
             let (a, function) = (n + j, 1 + j);
             inertia.first_slope.x[a] = R::constant(with_modes[function][n]);
             inertia.modal_force[a] = asked[function];
-            unroll!(C::KNOWN, i < n, C::MODES => {
+            unroll_four!(C::KNOWN, i < n, C::MODES => {
                 let number = with_modes[function][i];
                 inertia.with_angle[a] = (-q[i]).multiply_add(number, inertia.with_angle[a]);
                 inertia.modal_force[a] = (-(twice * number)).multiply_add(dq[i], inertia.modal_force[a]);
@@ -157,15 +171,15 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 [q],
                 n,
             );
-            unroll!(C::KNOWN, i < j + 1, C::MODES => {
+            unroll_four!(C::KNOWN, i < j + 1, C::MODES => {
                 inertia.modal[a][n + i] = R::constant(second[function][1 + i]);
             });
         });
         let mut product = zeros();
         add_rows::<R, FunctionsToFunctions<C>, _, _>([&mut product], products, pairs, [xi], counts.pairs());
-        unroll!(C::KNOWN, i < shortening, C::MODES => {
+        unroll_four!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
-            unroll!(C::KNOWN, further < shortening - i, C::MODES => {
+            unroll_four!(C::KNOWN, further < shortening - i, C::MODES => {
                 let (k, place) = (i + further, first + further);
                 inertia.modal[k][i] += product[place - 1 - axial];
                 // ∂x/∂q_i contains −2·q_k times the foreshortening of i and k.

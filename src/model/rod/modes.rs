@@ -5,12 +5,13 @@ use super::flexible::Rod;
 use super::tables::{TableView, Tables};
 use crate::math::Real;
 
-/// The modes of a rod in lists of the largest size, and its tables in the sizes of a [`RodCapacity`].
+/// The modes of a rod in lists of the largest size, and its tables in the size of every [`RodCapacity`] that code reads
+/// for it.
 #[derive(Clone, Debug)]
 pub struct Modes {
     /// Numbers of modes.
     pub counts: Counts,
-    /// Sizes of the tables.
+    /// The smallest sizes of the tables.
     pub room: RodCapacity,
     /// [m] Undeformed length.
     length: f64,
@@ -22,9 +23,8 @@ pub struct Modes {
     stiffness: Vec<f64>,
     /// [N·s/m] Modal damping: 2·ζ·ω times the modal mass.
     damping: Vec<f64>,
-    tables: Tables,
-    /// The tables of few modes in the size for many, which numbers with derivatives need.
-    wider: Option<Tables>,
+    /// The tables for few modes, for many and for all.
+    tables: [Option<Tables>; 3],
     /// [kg] ∫φ dm.
     moment: Vec<f64>,
     /// [kg] ∫φ² dm.
@@ -72,19 +72,17 @@ impl Modes {
             slope: [padded(&rod.slope[0], ALL_MODES), padded(&rod.slope[1], ALL_MODES)],
             stiffness: of_modes(&|mass, omega| mass * omega * omega),
             damping: of_modes(&|mass, omega| 2.0 * rod.damping_ratio * mass * omega),
-            tables: Tables::new(rod, room),
-            wider: (room == RodCapacity::Few).then(|| Tables::new(rod, RodCapacity::Many)),
+            tables: RodCapacity::EACH.map(|size| room.is_within(size).then(|| Tables::new(rod, size))),
             moment: padded(&rod.moment, ALL_MODES),
             modal_mass: padded(&rod.modal_mass, ALL_MODES),
         }
     }
 
-    /// Views the lists as arrays of the sizes of the modes' own capacity; few modes also as arrays for many.
+    /// Views the lists as arrays of the sizes of a capacity, at least the modes' own.
     #[inline(always)]
     pub(crate) fn arrays<const K: usize, const F: usize>(&self) -> Arrays<'_, K, F> {
-        let tables = match &self.wider {
-            Some(wider) if const { F == RodCapacity::Many.size()[1] } => wider,
-            _ => &self.tables,
+        let Some(tables) = &self.tables[const { RodCapacity::of_functions(F) as usize }] else {
+            unreachable!("a rod is computed in arrays of its own capacity or a larger one")
         };
         Arrays {
             counts: self.counts,

@@ -5,7 +5,7 @@
 use super::counts::{CompiledCounts, Counts};
 use super::modes::Arrays;
 use super::sums::{ModesToModes, add_rows};
-use crate::math::{Real, unroll};
+use crate::math::{Real, unroll_four};
 
 /// Deformation of the rod and its rate, in arrays for `K` modes and `F` functions.
 #[derive(Clone, Copy, Debug)]
@@ -55,13 +55,13 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
         let mut with_rate = [R::ZERO; K];
         let lists = [&mut *chord_slope, &mut with_rate];
         add_rows::<R, ModesToModes<C>, _, _>(lists, self.tables.shortening, 0..shortening, [eta, rate], bending);
-        unroll!(C::KNOWN, i < shortening, C::MODES => {
+        unroll_four!(C::KNOWN, i < shortening, C::MODES => {
             chord.stretch = (eta[i] * 0.5).multiply_add(chord_slope[i], chord.stretch);
             chord.rate = rate[i].multiply_add(chord_slope[i], chord.rate);
             chord.bias = rate[i].multiply_add(with_rate[i], chord.bias);
         });
         xi[0] = R::ONE;
-        unroll!(C::KNOWN, j < axial, C::MODES => {
+        unroll_four!(C::KNOWN, j < axial, C::MODES => {
             let (place, end) = (1 + j, self.end[1 + j]);
             (xi[place], xi_rate[place]) = (eta[bending + j], rate[bending + j]);
             chord_slope[bending + j] = R::constant(end);
@@ -69,9 +69,9 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
             chord.rate = xi_rate[place].multiply_add(end, chord.rate);
         });
         chord.length = chord.stretch + self.length;
-        unroll!(C::KNOWN, i < shortening, C::MODES => {
+        unroll_four!(C::KNOWN, i < shortening, C::MODES => {
             let first = counts.pair(i, i);
-            unroll!(C::KNOWN, further < shortening - i, C::MODES => {
+            unroll_four!(C::KNOWN, further < shortening - i, C::MODES => {
                 let (j, place) = (i + further, first + further);
                 let twice = if i == j { 1.0 } else { 2.0 };
                 xi[place] = eta[i] * -twice * eta[j];
@@ -79,7 +79,7 @@ impl<const K: usize, const F: usize> Arrays<'_, K, F> {
                 xi_bias[place] = rate[i] * (-2.0 * twice) * rate[j];
             });
         });
-        unroll!(C::KNOWN, i < bending, C::MODES => {
+        unroll_four!(C::KNOWN, i < bending, C::MODES => {
             for (end, slope) in slope_rate.iter_mut().zip(&self.slope) {
                 *end = rate[i].multiply_add(slope[i], *end);
             }
