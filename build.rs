@@ -1,9 +1,5 @@
 //! Makes the tables of `src/scene` and `src/fmi`, and the lists of laws of `src/model`, from the declaration.
 
-#[path = "modelDescription/mod.rs"]
-#[allow(dead_code)] // The library uses the rest.
-mod model_description;
-
 use model_description::{guid, tables, xml};
 use std::{env, error::Error, fs, path::Path};
 
@@ -11,7 +7,6 @@ use std::{env, error::Error, fs, path::Path};
 const SHARED: &str = "SLIDERCRANK_SHARED_LIBRARY";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("cargo::rerun-if-changed=modelDescription");
     let target = |property: &str| env::var(format!("CARGO_CFG_TARGET_{property}")).unwrap_or_default();
     // The command `package` links the crate as a shared library, and a test does; to all other programs it is a Rust
     // library.

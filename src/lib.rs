@@ -10,7 +10,7 @@ pub mod fmi;
 pub mod integrator;
 pub mod math;
 pub mod model;
-#[path = "../modelDescription/mod.rs"]
-pub mod model_description;
 pub mod scene;
 pub mod simulation;
+
+pub use model_description;

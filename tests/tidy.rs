@@ -60,8 +60,13 @@ fn no_file_imports_itself_by_way_of_others() {
 
 #[test]
 fn unsafe_code_lives_where_pointers_come_in() {
-    let allowed =
-        ["src/fmi/abi", "src/fmi/v2/abi", "src/fmi/v3/abi", "fmu-harness/src/host/library.rs", "fmu-harness/peers"];
+    let allowed = [
+        "src/fmi/abi",
+        "src/fmi/v2/abi",
+        "src/fmi/v3/abi",
+        "fmu-harness/host/src/host/library.rs",
+        "fmu-harness/peers",
+    ];
     for file in ["src", "fmu-harness/src", "fmu-harness/peers"].into_iter().flat_map(sources) {
         if !allowed.iter().any(|place| file.strip_prefix(root()).is_ok_and(|path| path.starts_with(place))) {
             let text = read(&file);
@@ -135,7 +140,7 @@ fn lacks(place: &str, words: &[&str]) {
 }
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").to_path_buf()
 }
 
 fn read(file: &Path) -> String {

@@ -1,6 +1,6 @@
 //! Runs that end for good: the rod comes to stand across the guide.
 
-use crate::host::Slave;
+use host::Slave;
 use slidercrank::fmi::v2::Status;
 
 const SPEED: f64 = 100.0;

@@ -1,6 +1,6 @@
 //! A deadline through the interface: its evaluations, its outputs, and the methods that refuse it.
 
-use crate::host::Slave;
+use host::Slave;
 use slidercrank::fmi::v2::Status;
 
 /// [s] Communication step.

@@ -1,6 +1,6 @@
 //! Derivatives: of inputs, of outputs, and of outputs with respect to inputs.
 
-use crate::host::{Slave, vr};
+use host::{Slave, vr};
 use slidercrank::fmi::v2::Status;
 
 const H: f64 = 1e-3;

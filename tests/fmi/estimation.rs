@@ -1,7 +1,7 @@
 //! The functions for estimators: a step's Jacobian, and phases that are set.
 
-use crate::host::log::Line;
-use crate::host::{Slave, vr};
+use host::log::Line;
+use host::{Slave, vr};
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::abi::estimation::bodies::{
     slidercrank_phase_names, slidercrank_set_phase, slidercrank_step_jacobian,

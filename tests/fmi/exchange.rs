@@ -1,7 +1,7 @@
 //! Model exchange through the C functions, with the mechanism that the linked library is packaged with: an ideal one.
 
-use crate::host::exchange::STATES;
-use crate::host::{Slave, vr};
+use host::exchange::STATES;
+use host::{Slave, vr};
 use slidercrank::fmi::v2::Status;
 use slidercrank::model_description::exchange::{FIRST_DERIVATIVE, FIRST_STATE};
 

@@ -1,7 +1,7 @@
 //! Model exchange with a small host: the classical Runge-Kutta method, events by bisection of the indicators' signs. Every
 //! mechanism moves as it does in co-simulation.
 
-use crate::host::vr;
+use host::vr;
 use slidercrank::fmi::slave::states::exchange;
 use slidercrank::fmi::slave::{Error, Permission, Slave, ValueType};
 use slidercrank::model_description::exchange::{FIRST_DERIVATIVE, FIRST_STATE};

@@ -1,8 +1,8 @@
 //! What an instance needs to come into being, and what it does not.
 
-use crate::host::api::Api;
-use crate::host::guid;
-use crate::host::log::Log;
+use host::api::Api;
+use host::guid;
+use host::log::Log;
 use slidercrank::fmi::v2::abi::types::fmi2CallbackFunctions;
 use std::ffi::{CStr, CString};
 use std::ptr::null;

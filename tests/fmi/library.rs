@@ -1,7 +1,7 @@
 //! The shared library as a host loads it.
 
-use crate::host::api::Api;
-use crate::host::library;
+use host::api::Api;
+use host::library;
 use slidercrank::fmi::v2::abi::{estimation, functions};
 use slidercrank::fmi::v2::lifecycle::Call;
 use slidercrank::fmi::v3;

@@ -1,8 +1,8 @@
 //! The log: one line for trouble, to every importer; remarks to those who asked; silence otherwise.
 
-use crate::host::Slave;
-use crate::host::api::Api;
-use crate::host::log::variadic;
+use host::Slave;
+use host::api::Api;
+use host::log::variadic;
 use slidercrank::fmi::slave::variables::LogCategory;
 use slidercrank::fmi::v2::Status;
 use std::ffi::CString;
@@ -133,7 +133,7 @@ fn a_logger_that_calls_back_is_refused() {
         step_finished: None,
         component_environment: (&raw const component).cast_mut().cast(),
     };
-    let (api, guid) = (Api::linked(), crate::host::guid());
+    let (api, guid) = (Api::linked(), host::guid());
     // SAFETY: valid strings and callbacks, which outlive the instance.
     unsafe {
         let c = (api.Instantiate)(c"x".as_ptr(), 1, guid.as_ptr(), std::ptr::null(), &raw const callbacks, 0, 1);

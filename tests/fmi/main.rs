@@ -2,9 +2,6 @@
 #![allow(unsafe_code, reason = "the tests call the C functions")]
 #![allow(clippy::panic, reason = "a test that cannot go on")]
 
-#[path = "../host/mod.rs"]
-mod host;
-
 mod calls;
 mod dead_ends;
 mod deadline;

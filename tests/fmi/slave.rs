@@ -1,6 +1,6 @@
 //! The slave without any version of FMI around it.
 
-use crate::host::{self, vr};
+use host::{self, vr};
 use slidercrank::fmi::slave::error::VariableError;
 use slidercrank::fmi::slave::{Error, Permission, Slave, ValueType};
 use slidercrank::scene::slot;

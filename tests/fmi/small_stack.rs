@@ -1,6 +1,6 @@
 //! Threads of a host may have little stack: every shipped scene lives its whole life in 64 kB of it.
 
-use crate::host::Slave;
+use host::Slave;
 use slidercrank::fmi::slave::Settings;
 use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;
@@ -24,7 +24,7 @@ const METHOD: &str = "SLIDERCRANK_TEST_METHOD";
 const MODES: &str = "modes";
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-harness/scenes")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-harness/scenes")
 }
 
 /// Every shipped scene, and every table of modes.
@@ -123,6 +123,8 @@ fn live_in_a_small_stack(path: &Path) {
         state.to_bytes().expect("bytes")
     });
     let small = thread::Builder::new().name("small".into()).stack_size(STACK);
+    // On the stack are the library's frames, not what the host reads a scene into.
+    let file = Box::new(file);
     let thread = small.spawn(move || live(&file, table.as_deref())).expect("a thread");
     thread.join().expect("a whole life");
 }

@@ -1,6 +1,6 @@
 //! Derivatives of outputs with respect to start values, in initialization mode.
 
-use crate::host::{Slave, vr};
+use host::{Slave, vr};
 use slidercrank::fmi::v2::Status;
 use slidercrank::model_description::exchange::{FIRST_DERIVATIVE, FIRST_STATE};
 

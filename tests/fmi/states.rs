@@ -1,6 +1,6 @@
 //! Saved states: the run goes on as if never stopped.
 
-use crate::host::Slave;
+use host::Slave;
 use slidercrank::fmi::slave::Settings;
 use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;

@@ -1,6 +1,6 @@
 //! Communication points, stop time, and steps that fail.
 
-use crate::host::Slave;
+use host::Slave;
 use slidercrank::fmi::v2::Status;
 
 /// The next number above.

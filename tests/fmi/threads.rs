@@ -1,6 +1,6 @@
 //! Several instances: interleaved, made here and freed there.
 
-use crate::host::Slave;
+use host::Slave;
 use slidercrank::fmi::v2::Status;
 use std::thread;
 

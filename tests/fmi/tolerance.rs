@@ -1,6 +1,6 @@
 //! Which tolerance is in use: the one that the importer set, else the experiment's, else the packaged one.
 
-use crate::host::{Slave, vr};
+use host::{Slave, vr};
 use slidercrank::fmi::v2::Status;
 
 const USED: &str = "solver.tolerance_used";

@@ -1,6 +1,6 @@
 //! Start values, inputs and outputs.
 
-use crate::host::{Slave, vr};
+use host::{Slave, vr};
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::fmi::v2::Status;
 use slidercrank::scene::parameter::{Kind, Parameter};

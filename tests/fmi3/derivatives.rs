@@ -78,7 +78,7 @@ fn the_adjoint_is_the_transpose() {
 
 #[test]
 fn rates_are_those_of_fmi2() {
-    let (three, two) = (Slave::running(Options::default()), crate::host::Slave::running());
+    let (three, two) = (Slave::running(Options::default()), host::Slave::running());
     three.step(0.0, 1e-3);
     two.steps(0.0, 1e-3, 1);
     for name in ["slider.x", "slider.v", "joint.C.force.x", "accuracy.position"] {

@@ -1,6 +1,5 @@
 //! Model exchange of FMI 3.0: what it tells is what that of FMI 2.0 tells, to the bit.
 
-use crate::host;
 use crate::importer::{Handle, Options, Slave, vr};
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;

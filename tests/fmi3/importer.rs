@@ -1,7 +1,7 @@
 //! A small importer of FMI 3.0: one instance with its log and its callback, every call a method.
 #![allow(dead_code, reason = "each test binary needs a part of it")]
 
-pub use crate::host::vr;
+pub use host::vr;
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;
 use slidercrank::fmi::v3::abi::types::*;
@@ -146,7 +146,7 @@ impl Slave {
 
     /// An instance whose importer integrates.
     pub fn exchanging() -> Self {
-        let (environment, token) = (Box::<Environment>::default(), crate::host::guid());
+        let (environment, token) = (Box::<Environment>::default(), host::guid());
         // SAFETY: strings and callback are valid; the environment lives as long as the instance.
         let instance = unsafe {
             let environment = (&raw const *environment).cast_mut().cast();
@@ -157,7 +157,7 @@ impl Slave {
     }
 
     pub fn new(options: Options) -> Self {
-        Self::try_new(options, &crate::host::guid()).unwrap_or_else(|lines| panic!("{lines:?}"))
+        Self::try_new(options, &host::guid()).unwrap_or_else(|lines| panic!("{lines:?}"))
     }
 
     /// With a worn slider pin, in initialization mode at time 0.

@@ -2,10 +2,6 @@
 #![allow(unsafe_code, reason = "the tests call the C functions")]
 #![allow(clippy::panic, reason = "a test that cannot go on")]
 
-#[macro_use]
-#[path = "../host/mod.rs"]
-mod host;
-
 mod derivatives;
 mod events;
 mod exchange;

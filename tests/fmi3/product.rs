@@ -335,7 +335,7 @@ fn nothing_is_possible_within_a_step_but_reading_and_setting() {
 fn what_cannot_be_instantiated_is_null() {
     // SAFETY: strings that end in zero, and no callbacks.
     unsafe {
-        let token = crate::host::guid();
+        let token = host::guid();
         let (name, token) = (c"x".as_ptr(), token.as_ptr());
         let scheduled =
             fmi3InstantiateScheduledExecution(name, token, null(), 0, 1, null_mut(), None, None, None, None);

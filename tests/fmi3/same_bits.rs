@@ -1,6 +1,5 @@
 //! The same trajectory to the bit: in FMI 2.0, in FMI 3.0, with event mode, with intermediate updates.
 
-use crate::host;
 use crate::importer::{Options, Slave};
 
 /// [s] 0.03 crank turns a step.

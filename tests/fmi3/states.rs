@@ -32,7 +32,7 @@ fn a_run_goes_on_from_a_pending_event_in_another_instance() {
 
 #[test]
 fn states_of_another_version_of_fmi_are_refused() {
-    let two = crate::host::Slave::running();
+    let two = host::Slave::running();
     let three = Slave::running(Options { logging: true, ..Options::default() });
     assert_eq!(three.deserialize(&two.bytes_of(two.save())), Err(Status::Error));
     assert!(three.line().text.contains("format version"));

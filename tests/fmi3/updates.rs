@@ -138,7 +138,7 @@ fn without_early_return_a_request_is_not_heard() {
 
 #[test]
 fn a_callback_and_its_variables_go_together() {
-    let guid = crate::host::guid();
+    let guid = host::guid();
     let refused = |options: Options| {
         let lines = Slave::try_new(options, &guid).err().expect("refused");
         assert!(lines.len() == 1 && lines[0].status == Status::Error as i32, "{lines:?}");
@@ -168,7 +168,7 @@ fn a_step_has_the_same_bound_on_its_work_with_updates_as_without() {
 /// What no importer can bring about: a fault of the library while the callback runs.
 #[test]
 fn an_instance_that_is_given_up_within_a_step_is_neither_freed_there_nor_goes_on() {
-    let token = crate::host::guid();
+    let token = host::guid();
     let steps = StepRequest { has_callback: true, ..StepRequest::default() };
     let (name, token, interface) = (Some(c"x"), Some(token.as_c_str()), Interface::CoSimulation);
     let request = Request { interface, name, token, logging_on: false, steps };

@@ -10,6 +10,7 @@ pub type C = fmi2Component;
 pub type S = fmi2FMUstate;
 
 /// The list, for the macro `$of` to make something of.
+#[macro_export]
 macro_rules! functions {
     ($of:ident) => {
         $of! {

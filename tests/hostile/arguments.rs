@@ -4,11 +4,11 @@ pub mod handles;
 pub mod numbers;
 pub mod references;
 
-use crate::host::exchange::STATES;
 use crate::importers_memory::{ImportersMemory, odd};
 use crate::invoke::{NULL, Word};
 use crate::stage::Stage;
 use handles::Handles;
+use host::exchange::STATES;
 use numbers::{NOT_FINITE, communication, experiment, time};
 use references::References;
 use slidercrank::fmi::v2::Status;

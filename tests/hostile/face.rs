@@ -1,7 +1,7 @@
 //! An instance as hosts of each version of FMI and of each kind of interface see it, as far as the campaigns need it.
 
-use crate::host::log::Line;
-use crate::host::vr;
+use host::log::Line;
+use host::vr;
 use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::slave::variables::{Access, VARIABLES, Variable};
 use slidercrank::fmi::slave::{Interface, ValueType};

@@ -1,8 +1,8 @@
 //! Every combination of what `fmi2Instantiate` can be given.
 
-use crate::host::api::Api;
-use crate::host::guid;
-use crate::host::log::Log;
+use host::api::Api;
+use host::guid;
+use host::log::Log;
 use slidercrank::fmi::v2::abi::types::fmi2CallbackFunctions;
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};

@@ -1,9 +1,9 @@
 //! Numbers that are legal and beyond all measure: carried or told, soon, and never handed out as NaN or infinity.
 
 use crate::face::Face;
-use crate::host::{Slave, vr};
 use crate::scenes::{MECHANISMS, Mechanism, hosted};
 use crate::{three, two};
+use host::{Slave, vr};
 use slidercrank::fmi::v2::Status;
 
 /// [s]

@@ -1,6 +1,6 @@
 //! Any function of the standard with any arguments: the words of a call, made into its types.
 
-use crate::host::api::Api;
+use host::api::Api;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::lifecycle::Call;
 use std::ffi::c_void;
@@ -118,4 +118,4 @@ macro_rules! invoke {
     };
 }
 
-functions!(invoke);
+host::functions!(invoke);

@@ -13,9 +13,6 @@
 #![allow(unsafe_code, reason = "the tests call the C functions")]
 #![allow(clippy::panic, reason = "a test that cannot go on")]
 
-#[macro_use]
-#[path = "../host/mod.rs"]
-mod host;
 #[path = "../fmi3/importer.rs"]
 mod importer;
 #[macro_use]

@@ -3,10 +3,10 @@
 
 use crate::arguments::{Argument, Fault, Value};
 use crate::brief;
-use crate::host::{Slave, log::Line};
 use crate::importers_memory::ImportersMemory;
 use crate::invoke::Word;
 use crate::stage::{STATES, Stage};
+use host::{Slave, log::Line};
 use slidercrank::fmi::v2::Status;
 
 /// An instance of either version in some state, and memory for the arguments of calls.

@@ -2,8 +2,8 @@
 
 use crate::brief;
 use crate::face::{Face, Handle};
-use crate::host::vr;
 use crate::scenes::{MECHANISMS, hosted};
+use host::vr;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use slidercrank::fmi::v2::Status;

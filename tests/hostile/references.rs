@@ -1,7 +1,7 @@
 //! Every function that takes value references, in every state, with every variable there is.
 
-use crate::host::{Slave, vr};
 use crate::stage::{STATES, Stage};
+use host::{Slave, vr};
 use slidercrank::fmi::slave::variables::{Access, VARIABLES, Variable};
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::lifecycle::Call::{self, *};

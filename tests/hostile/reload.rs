@@ -1,8 +1,8 @@
 //! A library that comes and goes, with instances in between and without regard to them.
 
 use crate::brief;
-use crate::host::api::Api;
-use crate::host::{Slave, library};
+use host::api::Api;
+use host::{Slave, library};
 use libloading::Library;
 use slidercrank::fmi::v2::Status;
 

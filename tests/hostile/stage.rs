@@ -1,11 +1,11 @@
 //! Instances of FMI 2.0 in every state of the lifecycle.
 
 use crate::arguments::{Argument, arguments};
-use crate::host::Slave;
-use crate::host::log::Line;
 use crate::importers_memory::ImportersMemory;
 use crate::invoke::{Word, invoke};
 use crate::product::Staged;
+use host::Slave;
+use host::log::Line;
 use slidercrank::fmi::slave::Interface;
 use slidercrank::fmi::slave::saved_states::Saved;
 use slidercrank::fmi::v2::Status;

@@ -2,8 +2,8 @@
 
 use crate::exchanged::{self, Exchanged, status};
 use crate::face::{Answer, Face, Handle, Pieces};
-use crate::host::Slave;
-use crate::host::log::Line;
+use host::Slave;
+use host::log::Line;
 use slidercrank::fmi::slave::{Interface, ValueType};
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::fmu_state::FmuState;

@@ -9,7 +9,7 @@ use slidercrank::model_description::{load, tables, terminals, xml, xml_v3};
 use slidercrank::scene::{Scene, slot};
 use std::{env, fs};
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/");
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../modelDescription/");
 
 fn description() -> String {
     let declaration = load().expect("a declaration");

@@ -16,7 +16,7 @@ use slidercrank::scene::{PARAMETERS, Scene, slot};
 use std::collections::BTreeMap;
 use std::{env, fs};
 
-const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/modelDescription.xml");
+const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../modelDescription/modelDescription.xml");
 const ROWS: &str = include_str!("../../modelDescription/variables.toml");
 
 fn made() -> String {

@@ -8,7 +8,7 @@ use std::path::Path;
 const SHIPPED: [&str; 7] = ["wornpin", "ideal", "guideplay", "press", "allplay", "flexrod", "seed"];
 
 fn shipped(name: &str) -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("fmu-harness/scenes/{name}.toml"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../fmu-harness/scenes/{name}.toml"));
     let text = std::fs::read_to_string(&path).expect("a shipped scene");
     read::read(&text, name).expect("a legal scene").scene
 }

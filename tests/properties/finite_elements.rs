@@ -216,7 +216,7 @@ fn a_table_of_finite_elements_moves_as_the_built_in_beam() {
 #[test]
 fn the_shipped_example_is_what_the_elements_export() {
     let text = write_table(&Mesh::of(&mechanism()).table());
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-harness/scenes/modes/steel-beam.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-harness/scenes/modes/steel-beam.toml");
     if std::env::var_os("WRITE_EXAMPLE").is_some() {
         std::fs::create_dir_all(file.parent().expect("a directory")).expect("a place to write");
         std::fs::write(&file, &text).expect("the example is written");

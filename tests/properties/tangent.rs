@@ -15,7 +15,7 @@ const AGREEMENT: f64 = 1e-6;
 const OUTPUT_AGREEMENT: f64 = 1e-4;
 
 fn shipped(name: &str) -> Scene {
-    let path = format!("{}/fmu-harness/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../fmu-harness/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).expect("a shipped scene");
     let mut scene = read(&text, &path).expect("a sound scene").scene;
     scene.solver.tolerance = 1e-11;

@@ -213,7 +213,7 @@ fn points_rise_and_the_turn_closes() {
 
 #[test]
 fn every_shipped_scene_is_legal() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fmu-harness/scenes");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../fmu-harness/scenes");
     let (mut names, mut problems): (Vec<String>, Vec<String>) = (vec![], vec![]);
     let entries = |folder: &str| std::fs::read_dir(folder).expect("a folder of scenes");
     for entry in entries(folder).chain(entries(&format!("{folder}/effects"))) {

@@ -167,7 +167,7 @@ fn a_file_is_sought_beside_the_scene() {
 
 #[test]
 fn every_shipped_table_is_legal() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/fmu-harness/scenes/modes");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../fmu-harness/scenes/modes");
     let files = fs::read_dir(folder).expect("the folder of tables").map(|entry| entry.expect("an entry").path());
     let read = files.map(|file| {
         let name = file.file_name().expect("a name").to_string_lossy().into_owned();

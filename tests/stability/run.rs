@@ -45,7 +45,7 @@ pub fn not_finite(outputs: &Outputs) -> Option<(&'static str, f64)> {
 
 /// Where scene files of this kind are.
 pub fn folder(kind: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/stability").join(kind)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("stability").join(kind)
 }
 
 /// The scene file of a case.
@@ -55,7 +55,7 @@ pub fn case(name: &str) -> SceneFile {
 
 /// The file of a scene that is shipped.
 pub fn shipped(name: &str) -> SceneFile {
-    file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-harness/scenes"), name)
+    file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu-harness/scenes"), name)
 }
 
 fn file(folder: &Path, name: &str) -> SceneFile {

@@ -2,10 +2,10 @@
 
 use super::numbers::NOT_FINITE;
 use super::{Argument, array, bad, count, good};
-use crate::host::vr;
 use crate::importers_memory::ImportersMemory;
 use crate::invoke::NULL;
 use crate::stage::Stage;
+use host::vr;
 use slidercrank::fmi::slave::variables::VARIABLES;
 use slidercrank::fmi::v2::lifecycle::Call::{self, *};
 use slidercrank::fmi::v2::lifecycle::{State, Touch};

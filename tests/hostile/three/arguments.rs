@@ -371,4 +371,4 @@ fn sensitivity(call: Call, stage: &Stage) -> Vec<Argument> {
     ]
 }
 
-use crate::host::vr;
+use host::vr;

@@ -1,7 +1,7 @@
 //! Every combination of what the functions that make an instance can be given.
 
-use crate::host::{guid, vr};
 use crate::importer::Handle;
+use host::{guid, vr};
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;
 use slidercrank::fmi::v3::abi::types::*;

@@ -12,8 +12,8 @@ pub mod stage;
 
 use crate::exchanged::{self, Exchanged, status};
 use crate::face::{Answer, Face, Handle, Pieces};
-use crate::host::log::Line;
 use crate::importer::{self, Callback, Options, Slave, vr};
+use host::log::Line;
 use slidercrank::fmi::slave::{Interface, ValueType};
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;

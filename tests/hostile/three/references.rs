@@ -3,9 +3,9 @@
 use super::invoke::invoke;
 use super::stage::{STATES, Stage, Use};
 use crate::exchanged::counts;
-use crate::host::vr;
 use crate::invoke::Word;
 use crate::product::Staged;
+use host::vr;
 use slidercrank::fmi::slave::ValueType;
 use slidercrank::fmi::slave::variables::{Access, STATES as STATE_VARIABLES, VARIABLES, Variable};
 use slidercrank::fmi::v3::Status;

@@ -1,7 +1,7 @@
 //! A library that comes and goes, through the functions of FMI 3.0.
 
 use crate::brief;
-use crate::host::{guid, library, vr};
+use host::{guid, library, vr};
 use libloading::Library;
 use slidercrank::fmi::v3::Status;
 use slidercrank::fmi::v3::abi::functions::bodies::*;

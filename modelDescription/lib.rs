@@ -1,5 +1,5 @@
-//! The declaration of the FMU's face and what is made from it. Both build.rs and the library
-//! compile this directory: the one for the tables, the other for the package's XML and page.
+//! The declaration of the FMU's face and what is made from it: the library's `build.rs` makes its tables, the command
+//! `package` the XML and the page of an FMU.
 
 pub mod arrays;
 pub mod clocks;

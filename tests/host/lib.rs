@@ -1,7 +1,10 @@
 //! A small importer: one slave with its log, every call a method.
-#![allow(dead_code, reason = "each test binary needs a part of it")]
+#![allow(missing_docs, reason = "methods bear the names of the standard's functions")]
+#![allow(unsafe_code, reason = "the tests call the C functions")]
+#![allow(clippy::panic, reason = "a test that cannot go on")]
+#![allow(clippy::not_unsafe_ptr_arg_deref, reason = "the tests hand over handles as a host does")]
+#![allow(clippy::new_without_default, reason = "a slave of the linked library")]
 
-#[macro_use]
 pub mod api;
 pub mod exchange;
 pub mod log;
