@@ -88,7 +88,7 @@ fn the_other_commands_have_a_number_in_every_row() {
     let commands = [
         vec!["effects", "--quick"],
         vec!["laws", "--turns", "0.1"],
-        vec!["realtime", "--steps", "100", "--budget", "20"],
+        vec!["realtime", "--steps", "100", "--budget", "5"],
         vec!["precision", "--quick", "--scene", "wornpin", "--window", "2 ms", "--span", "4 ms"],
         vec!["report", "--unmeasured", "--transient", "2", "--turns", "6"],
         vec!["campaign", "--kind", "machines", "--scenes", "8", "--turns", "5"],
