@@ -20,6 +20,8 @@ const STEPS: usize = 20;
 const SCENE: &str = "SLIDERCRANK_TEST_SCENE";
 /// And whether another method is to integrate it than its own.
 const METHOD: &str = "SLIDERCRANK_TEST_METHOD";
+/// And whether its rod is to have as many modes as a rod may have.
+const ALL_MODES: &str = "SLIDERCRANK_TEST_ALL_MODES";
 /// Folder of tables of modes, which the rod of the scene `flexrod` takes in turn.
 const MODES: &str = "modes";
 
@@ -116,6 +118,9 @@ fn live_in_a_small_stack(path: &Path) {
         // With many modes its steps take long, and what they need of the stack shows in the first ones.
         file.run.step /= 10.0;
     }
+    if std::env::var_os(ALL_MODES).is_some() {
+        (file.scene.rod.flexible.bending_modes, file.scene.rod.flexible.axial_modes) = (8, 8);
+    }
     let table = file.scene.rod.flexible.table.is_some().then(|| {
         let settings = Settings::of(file.scene.clone());
         let state =
@@ -139,12 +144,17 @@ fn every_shipped_scene_lives_in_a_thread_of_little_stack() {
     let scenes = shipped();
     assert!(scenes.len() > 20, "{scenes:?}");
     let mut failures = vec![];
-    for (scene, method) in scenes.iter().flat_map(|scene| [(scene, None), (scene, Some("radau13"))]) {
+    let flexrod = folder().join("flexrod.toml");
+    let of_scenes = scenes.iter().flat_map(|scene| [(scene, None, false), (scene, Some("radau13"), false)]);
+    for (scene, method, all_modes) in of_scenes.chain([(&flexrod, Some("radau13"), true)]) {
         let mut command = Command::new(std::env::current_exe().expect("a path"));
         command.args(["--exact", "small_stack::every_shipped_scene_lives_in_a_thread_of_little_stack", "--nocapture"]);
         command.env(SCENE, scene);
         if let Some(method) = method {
             command.env(METHOD, method);
+        }
+        if all_modes {
+            command.env(ALL_MODES, "");
         }
         let output = command.output().expect("another process");
         let told = String::from_utf8_lossy(&output.stdout);
