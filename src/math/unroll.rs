@@ -37,14 +37,8 @@ pub(crate) use unroll;
 /// As [`unroll!`] with at most four iterations: for loops in loops over the modes of a rod, of whose bodies the compiler reads
 /// as many copies as are written out.
 macro_rules! unroll_four {
-    ($unrolled:expr, $i:ident < $end:expr => $work:block) => {
-        unroll_four!($unrolled, $i in 0..$end, $end => $work)
-    };
     ($unrolled:expr, $i:ident < $end:expr, $max:expr => $work:block) => {
-        unroll_four!($unrolled, $i in 0..$end, $max => $work)
-    };
-    ($unrolled:expr, $i:ident in $range:expr, $max:expr => $work:block) => {
-        crate::math::unroll!(@ $unrolled, $i in $range, $max, $work, 4: 0 1 2 3)
+        crate::math::unroll!(@ $unrolled, $i in 0..$end, $max, $work, 4: 0 1 2 3)
     };
 }
 pub(crate) use unroll_four;

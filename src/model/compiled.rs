@@ -224,7 +224,7 @@ impl Mechanism {
     pub fn rates_of_one(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
             None => self.rates(&self.structure, conditions, t, y, rates),
-            Some(rod) => self.flexible_rates_of_one(rod, conditions, t, y, rates),
+            Some(rod) => self.drop_flexible_motion::<f64>(rod, conditions, t, y, rates),
         }
     }
 
@@ -246,7 +246,7 @@ impl Mechanism {
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
             None => self.drop_rigid_evaluation(conditions, t, y, rates),
-            Some(rod) => self.flexible_tangent_rates(rod, conditions, t, y, rates),
+            Some(rod) => self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates),
         }
     }
 
@@ -396,31 +396,15 @@ impl Mechanism {
 
     /// Writes the rates and discards the motion.
     #[inline(never)]
-    fn flexible_rates_of_one(&self, rod: &FlexibleRod, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
-        self.flexible_motion::<f64>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
-    }
-
-    /// Writes the rates. The motion, which is discarded, has no place on the stack beside the inertia: both are long.
-    #[inline(never)]
-    fn flexible_tangent_rates(
+    fn drop_flexible_motion<R: Scalar>(
         &self,
         rod: &FlexibleRod,
         conditions: &Conditions,
-        t: Tangent,
-        y: &[Tangent],
-        rates: &mut [Tangent],
+        t: R,
+        y: &[R],
+        rates: &mut [R],
     ) {
-        let inertia = &mut Inertia::default();
-        self.flexible_rates::<Tangent, RuntimeCounts, ALL_MODES, ALL_FUNCTIONS>(
-            &self.structure,
-            rod,
-            conditions,
-            t,
-            y,
-            rates,
-            inertia,
-            None,
-        );
+        self.flexible_motion::<R>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
     }
 
     #[inline(never)]

@@ -1,7 +1,7 @@
 //! Parts of the equations of motion with stack frames of their own.
 //!
 //! The compiler reserves memory for all arrays of a function at once, even for those that are never in use at the same
-//! time. With derivatives, the equations of a rod of eight modes need 37 kB in one function, and 25 kB in parts.
+//! time. With derivatives, the equations of a flexible rod need 42 kB in parts.
 
 /// `part!(R, C, value)` is `value`, a part of the equations for the numbers `R` and the counts `C` of a rod. It is
 /// computed in a function of its own, whose arrays leave the stack when it returns. Only arrays of `f64` are short, and

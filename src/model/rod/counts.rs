@@ -123,10 +123,12 @@ impl RodCapacity {
 
     /// The capacity of arrays for `functions` functions.
     pub const fn of_functions(functions: usize) -> Self {
-        match functions {
-            12 => Self::Few,
-            40 => Self::Many,
-            _ => Self::All,
+        if functions == Self::Few.size()[1] {
+            Self::Few
+        } else if functions == Self::Many.size()[1] {
+            Self::Many
+        } else {
+            Self::All
         }
     }
 
