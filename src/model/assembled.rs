@@ -1,7 +1,7 @@
 //! The model of a scene: its mechanism, with the interfaces of the integrator and the simulation.
 
 use super::bristles::bristled_contacts;
-use super::compiled::{Compiled, ROWS_WITH_MODES};
+use super::compiled::Compiled;
 use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
@@ -9,7 +9,7 @@ use super::jacobian::differentiate;
 use super::joint::rectangle::CORNERS;
 use super::mechanism::{FlexibleRod, Mechanism};
 use super::mechanism_model::MechanismModel;
-use super::rod::{Modes, RodCapacity};
+use super::rod::{Modes, ROWS_WITH_MODES, RodCapacity};
 use super::scalar::Tangent;
 use super::scales::Scale;
 use super::start::StartPose;

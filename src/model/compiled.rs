@@ -13,7 +13,9 @@
 //! pass through memory in other portions than they are read in.
 
 use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
-use super::rod::{ALL_FUNCTIONS, ALL_MODES, Chord, CompiledCounts, FixedCounts, Inertia, RodCapacity, RuntimeCounts};
+use super::rod::{
+    ALL_FUNCTIONS, ALL_MODES, Chord, CompiledCounts, FixedCounts, Inertia, ROWS_WITH_MODES, RodCapacity, RuntimeCounts,
+};
 use super::scalar::{Scalar, Tangent};
 use super::stages::run_stages;
 use super::state::{Conditions, Evaluation, Pose};
@@ -21,10 +23,6 @@ use super::structure::{Structure, Topology};
 use crate::integrator::system::one_by_one;
 use crate::integrator::{EventFunctions, Tableau};
 use crate::math::F64x8;
-
-/// Whether eight states with a flexible rod are computed together: where registers hold four numbers. In registers of two, that
-/// code is longer than a processor's cache of instructions, and eight states take 1.2 times as long as one after the other.
-pub const ROWS_WITH_MODES: bool = cfg!(target_feature = "avx2");
 
 /// Writes the rates of a state.
 type Rates = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64]);

@@ -88,6 +88,10 @@ pub const ALL_MODES: usize = 16;
 /// Functions along x of any rod.
 pub const ALL_FUNCTIONS: usize = 48;
 
+/// Whether eight states with a flexible rod are computed together: where registers hold four numbers. In registers of two, that
+/// code is longer than a processor's cache of instructions, and eight states take 1.2 times as long as one after the other.
+pub const ROWS_WITH_MODES: bool = cfg!(target_feature = "avx2");
+
 /// Array sizes for a rod: maximum numbers of modes and of functions along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RodCapacity {
@@ -130,6 +134,11 @@ impl RodCapacity {
         } else {
             Self::All
         }
+    }
+
+    /// Whether any code reads tables of this size: those for many modes are for eight states at a time.
+    pub const fn is_read(self) -> bool {
+        ROWS_WITH_MODES || !matches!(self, Self::Many)
     }
 
     /// Whether arrays of the capacity `other` hold what arrays of this one do.

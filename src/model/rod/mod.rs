@@ -47,7 +47,9 @@ mod shape;
 mod sums;
 mod tables;
 
-pub use counts::{ALL_FUNCTIONS, ALL_MODES, CompiledCounts, Counts, FixedCounts, RodCapacity, RuntimeCounts};
+pub use counts::{
+    ALL_FUNCTIONS, ALL_MODES, CompiledCounts, Counts, FixedCounts, ROWS_WITH_MODES, RodCapacity, RuntimeCounts,
+};
 pub use elastic::Elastic;
 pub use flexible::Rod;
 pub use inertia::Inertia;

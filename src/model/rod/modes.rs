@@ -72,7 +72,8 @@ impl Modes {
             slope: [padded(&rod.slope[0], ALL_MODES), padded(&rod.slope[1], ALL_MODES)],
             stiffness: of_modes(&|mass, omega| mass * omega * omega),
             damping: of_modes(&|mass, omega| 2.0 * rod.damping_ratio * mass * omega),
-            tables: RodCapacity::EACH.map(|size| room.is_within(size).then(|| Tables::new(rod, size))),
+            tables: RodCapacity::EACH
+                .map(|size| (room.is_within(size) && size.is_read()).then(|| Tables::new(rod, size))),
             moment: padded(&rod.moment, ALL_MODES),
             modal_mass: padded(&rod.modal_mass, ALL_MODES),
         }
