@@ -86,30 +86,31 @@ pub struct TangentPrice {
 }
 
 impl TangentPrice {
-    /// Measures the cost of the tangent along one state, along four and along all, over the first `span` [s].
+    /// Measures the cost of the tangent along one state, along four and along all, over the first `span` [s]; the fastest
+    /// of `runs` runs counts.
     ///
     /// # Errors
     /// If the scene cannot run.
-    pub fn of(file: &SceneFile, span: f64) -> Result<Vec<Self>> {
+    pub fn of(file: &SceneFile, span: f64, runs: usize) -> Result<Vec<Self>> {
         let inputs = inputs_at_start(file);
         let states = Simulation::start(&file.scene, inputs)?.phase_scales().states.len();
         let mut plain = || -> Result<()> { Ok(Simulation::start(&file.scene, inputs)?.advance_to(span)?) };
-        let alone = least(&mut plain)?;
+        let alone = least(runs, &mut plain)?;
         let mut counts = vec![1, 4.min(states), states];
         counts.dedup();
         let price = |directions: usize| {
             let seeds: Vec<Seed> = (0..directions).map(Seed::State).collect();
-            let time = least(&mut || Ok(Variation::start(&file.scene, inputs, &seeds)?.advance_to(span)?))?;
+            let time = least(runs, &mut || Ok(Variation::start(&file.scene, inputs, &seeds)?.advance_to(span)?))?;
             Ok(Self { scene: file.name.clone(), directions, ratio: time / alone })
         };
         counts.into_iter().map(price).collect()
     }
 }
 
-/// [s] CPU time of the fastest of some runs.
-fn least(work: &mut impl FnMut() -> Result<()>) -> Result<f64> {
+/// [s] CPU time of the fastest of `runs` runs of `work`.
+fn least(runs: usize, work: &mut impl FnMut() -> Result<()>) -> Result<f64> {
     let mut failure = None;
-    let time = fastest(MEASUREMENTS, || failure = work().err());
+    let time = fastest(runs, || failure = work().err());
     failure.map_or(Ok(time), Err)
 }
 

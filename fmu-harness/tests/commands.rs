@@ -7,7 +7,7 @@ use fmu_harness::scenes::{Scenario, contests, directory, names};
 use rayon::prelude::*;
 use slidercrank::fmi::slave::variables::VARIABLES;
 use slidercrank::scene::parameter::{Kind, PARAMETERS};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
 
 /// The one shipped scene whose crank stands: it has no turns.
@@ -44,6 +44,14 @@ fn all_end_well(commands: &[Vec<&str>]) {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// The one FMU file in a directory.
+fn only_package(directory: &Path) -> PathBuf {
+    let files = std::fs::read_dir(directory).expect("a directory").map(|entry| entry.expect("an entry").path());
+    let mut packages: Vec<PathBuf> = files.filter(|file| file.extension().is_some_and(|end| end == "fmu")).collect();
+    assert_eq!(packages.len(), 1, "{packages:?}");
+    packages.remove(0)
+}
+
 fn shipped() -> Vec<String> {
     [names(&directory()), contests()].concat()
 }
@@ -69,16 +77,6 @@ fn dynamics_comes_to_a_verdict_on_every_scene() {
     let follow = ["--follow-orbit", "--transient", "40", "--turns", "6", "--tangent-turns", "0", "--value-turns", "6"];
     commands.push([&["dynamics"], &follow[..], &range[..]].concat());
     all_end_well(&commands);
-}
-
-#[test]
-fn run_comes_to_the_end_of_every_scene() {
-    let scenes = shipped();
-    let one = |scene: &'_ String| if scene == STANDING { vec![] } else { vec!["--turns", "0.5"] };
-    let commands: Vec<Vec<&str>> =
-        scenes.iter().map(|scene| [vec!["run", "--scene", scene.as_str()], one(scene)].concat()).collect();
-    // One after the other: each packages the library that it runs.
-    commands.iter().for_each(|command| all_end_well(std::slice::from_ref(command)));
 }
 
 #[test]
@@ -146,12 +144,12 @@ fn a_row_without_numbers_is_told_under_the_table_and_fails_the_command() {
 }
 
 #[test]
-fn inspect_tells_every_variable_of_every_scene_as_it_is_packaged() {
-    let folder = tempfile::tempdir().expect("a temporary directory");
+fn run_comes_to_the_end_of_every_scene_and_inspect_tells_every_variable_of_its_package() {
     for scene in shipped() {
-        let packaged = folder.path().join("scene.fmu");
-        let found = wrong(&["package", "--scene", &scene], &packaged);
-        assert_eq!(found, None);
+        let folder = tempfile::tempdir().expect("a temporary directory");
+        let turns: &[&str] = if scene == STANDING { &[] } else { &["--turns", "0.5"] };
+        assert_eq!(wrong(&[&["run", "--scene", &scene], turns].concat(), folder.path()), None);
+        let packaged = only_package(folder.path());
         let (status, text) = said(program().arg("inspect").arg(&packaged));
         assert!(status.success() && text.contains("model: SliderCrank"), "{scene}: {status}\n{text}");
         let table: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
