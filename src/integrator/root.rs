@@ -6,7 +6,7 @@ const ITERATIONS: usize = 120;
 /// The point in [a, b] at which `f` falls through zero, to `resolution`. `f` must be ≥ 0 at `a` and ≤ 0 at `b`. Returns
 /// the end of the last bracket that lies behind the fall. Inverse quadratic interpolation with bisection: T. R.
 /// Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149.
-pub fn falling(a: f64, b: f64, fa: f64, fb: f64, resolution: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub fn falling(a: f64, b: f64, fa: f64, fb: f64, resolution: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     // The newest point, the other end of the bracket and the point before.
     let (mut new, mut f_new) = (b, fb);
     let (mut other, mut f_other) = (a, fa);

@@ -5,8 +5,7 @@
 //! Legendre's rule between the zeros of the sliding velocities, where |v_t| has its kinks. An interval takes those
 //! maxima that lie in it, and the forces at its ends. None of this enters the integrator: the motion keeps its bits.
 
-use crate::integrator::{Integrator, Reader, Snapshot, StepPoint};
-use crate::math;
+use crate::integrator::{Integrator, Reader, Snapshot, StepPoint, root};
 use crate::model::contact::Rubbing;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
@@ -14,20 +13,41 @@ use crate::model::signals::Outputs;
 use crate::model::state::{CONTACTS, Conditions};
 use crate::model::touches::{JOINTS, Touches};
 use crate::scene::Scene;
-use std::f64::consts::PI;
 
 /// Points at which a step is sampled: Chebyshev's extrema, which include both ends.
 const SAMPLES: usize = 9;
-/// Points at which the polynomial through the samples is searched for maxima.
+/// [share of the step] Their places: sin²(kπ/16).
+const PLACES: [f64; SAMPLES] = [
+    0.0,
+    0.038_060_233_744_356_63,
+    0.146_446_609_406_726_24,
+    0.308_658_283_817_455_1,
+    0.5,
+    0.691_341_716_182_544_9,
+    0.853_553_390_593_273_8,
+    0.961_939_766_255_643_4,
+    1.0,
+];
+/// Parts of the step at whose ends the polynomial through the samples is searched for maxima.
 const SEARCHED: usize = 48;
+/// Weights of the samples in the polynomial at each of these ends.
+const SEARCH: [[f64; SAMPLES]; SEARCHED + 1] = {
+    let mut weights = [[0.0; SAMPLES]; SEARCHED + 1];
+    let mut i = 0;
+    while i <= SEARCHED {
+        weights[i] = weights_at(i as f64 / SEARCHED as f64);
+        i += 1;
+    }
+    weights
+};
 /// [share of the step] Distances over which the top of a maximum is refined.
 const NEAR: [f64; 3] = [1e-2, 2e-3, 2e-4];
 /// Most maxima of one joint in a step.
 const MAX_MAXIMA: usize = 4;
 /// Most zeros of sliding velocities in a step.
 const MAX_KINKS: usize = 16;
-/// Bisections of a bracket; each gains a bit.
-const BISECTIONS: usize = 45;
+/// Share of a bracket within which a zero of a sliding velocity is found: an integral's error is of second order in it.
+const RESOLUTION: f64 = 1e-9;
 /// Gauss and Legendre's rule with six points on [−1, 1]: points and weights of one half.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
@@ -212,7 +232,7 @@ impl IntervalAudit {
         if end <= start {
             return found;
         }
-        let time = |sample: usize| if sample == SAMPLES - 1 { end } else { start + (end - start) * place(sample) };
+        let time = |sample: usize| if sample == SAMPLES - 1 { end } else { start + (end - start) * PLACES[sample] };
         let (mut forces, mut sliding) = ([[0.0; SAMPLES]; JOINTS], [[0.0; SAMPLES]; CONTACTS]);
         for sample in 0..SAMPLES {
             // At the end the step is seen before the events there.
@@ -235,7 +255,7 @@ impl IntervalAudit {
                     let [before, after] = [sliding[contact][sample - 1], sliding[contact][sample]];
                     if before * after < 0.0 && count < MAX_KINKS {
                         let bracket = [time(sample - 1), time(sample)];
-                        found.kinks[count] = zero(bracket, before, |t| run.sliding(contact, t));
+                        found.kinks[count] = zero(bracket, [before, after], |t| run.sliding(contact, t));
                         count += 1;
                     }
                 }
@@ -280,23 +300,14 @@ fn maxima(
     mut of: impl FnMut(f64) -> f64,
 ) -> [(f64, f64); MAX_MAXIMA] {
     let mut found = NOTHING.maxima[0];
-    let polynomial = |s: f64| interpolated(samples, s);
-    let place = |i: usize| i as f64 / SEARCHED as f64;
-    let tops = (1..SEARCHED).filter(|&i| {
-        let [before, here, after] = [i - 1, i, i + 1].map(|i| polynomial(place(i)));
-        before < here && here >= after
-    });
+    let polynomial =
+        SEARCH.map(|weights| weights.iter().zip(samples).fold(0.0, |sum, (weight, sample)| sum + weight * sample));
+    let tops = (1..SEARCHED).filter(|&i| polynomial[i - 1] < polynomial[i] && polynomial[i] >= polynomial[i + 1]);
     for (i, found) in tops.zip(&mut found) {
-        // Golden section; the value there is of second order in the place.
-        let (mut low, mut high) = (place(i - 1), place(i + 1));
-        let golden = 0.5 * (5.0f64.sqrt() - 1.0);
-        for _ in 0..BISECTIONS {
-            let [left, right] = [high - golden * (high - low), low + golden * (high - low)];
-            if polynomial(left) > polynomial(right) { high = right } else { low = left }
-        }
+        let [before, here, after] = [i - 1, i, i + 1].map(|i| polynomial[i]);
+        let mut top = (i as f64 + 0.5 * (after - before) / (2.0 * here - before - after)) / SEARCHED as f64;
         // From there on the tops of parabolas through the function itself.
         let time = |s: f64| start + (end - start) * s;
-        let mut top = 0.5 * (low + high);
         let mut best = (time(top), of(time(top)));
         for step in NEAR {
             let [before, after] = [of(time(top - step)), of(time(top + step))];
@@ -312,44 +323,60 @@ fn maxima(
     found
 }
 
-/// The polynomial through samples at Chebyshev's extrema of [0, 1], at `s` (barycentric formula, J.-P. Berrut, L. N.
-/// Trefethen, SIAM Review 46, 2004, eq. 5.4).
-fn interpolated(samples: &[f64; SAMPLES], s: f64) -> f64 {
-    let (mut above, mut below) = (0.0, 0.0);
-    for (k, sample) in samples.iter().enumerate() {
-        let distance = s - place(k);
+/// Weights of samples at Chebyshev's extrema of [0, 1] in the polynomial through them, at `s` (barycentric formula, J.-P.
+/// Berrut, L. N. Trefethen, SIAM Review 46, 2004, eq. 5.4).
+const fn weights_at(s: f64) -> [f64; SAMPLES] {
+    let (mut weights, mut sum) = ([0.0; SAMPLES], 0.0);
+    let mut k = 0;
+    while k < SAMPLES {
+        let distance = s - PLACES[k];
         if distance == 0.0 {
-            return *sample;
+            let mut one = [0.0; SAMPLES];
+            one[k] = 1.0;
+            return one;
         }
         let ends = if k == 0 || k == SAMPLES - 1 { 0.5 } else { 1.0 };
-        let weight = if k % 2 == 0 { ends } else { -ends } / distance;
-        above += weight * sample;
-        below += weight;
+        weights[k] = if k % 2 == 0 { ends } else { -ends } / distance;
+        sum += weights[k];
+        k += 1;
     }
-    above / below
+    k = 0;
+    while k < SAMPLES {
+        weights[k] /= sum;
+        k += 1;
+    }
+    weights
 }
 
-/// Chebyshev's extremum number `k` on [0, 1].
-fn place(k: usize) -> f64 {
-    let (sin, _) = math::sin_cos(0.5 * PI * k as f64 / (SAMPLES - 1) as f64);
-    sin * sin
-}
-
-/// The zero of a function in a bracket, whose value at the start of the bracket is `before`.
-fn zero([mut low, mut high]: [f64; 2], before: f64, mut of: impl FnMut(f64) -> f64) -> f64 {
-    for _ in 0..BISECTIONS {
-        let middle = 0.5 * (low + high);
-        if of(middle) * before > 0.0 { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
+/// The zero of a function in a bracket, with the values `before` and `after` at its ends.
+fn zero([low, high]: [f64; 2], [before, after]: [f64; 2], mut of: impl FnMut(f64) -> f64) -> f64 {
+    let sign = before.signum();
+    root::falling(low, high, sign * before, sign * after, RESOLUTION * (high - low), |t| sign * of(t))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     fn samples(of: impl Fn(f64) -> f64) -> [f64; SAMPLES] {
-        std::array::from_fn(|k| of(2.0 + 0.5 * place(k)))
+        PLACES.map(|place| of(2.0 + 0.5 * place))
+    }
+
+    #[test]
+    fn a_polynomial_of_degree_eight_is_searched_exactly() {
+        for (k, place) in PLACES.iter().enumerate() {
+            let wanted = (k as f64 * PI / 16.0).sin().powi(2);
+            assert!((place - wanted).abs() < 1e-15, "{place} is not {wanted}");
+        }
+        for power in 0..SAMPLES as i32 {
+            let samples = PLACES.map(|place| place.powi(power));
+            for (i, weights) in SEARCH.iter().enumerate() {
+                let found: f64 = weights.iter().zip(samples).map(|(weight, sample)| weight * sample).sum();
+                let wanted = (i as f64 / SEARCHED as f64).powi(power);
+                assert!((found - wanted).abs() < 1e-14, "{found} is not {wanted}: power {power}, point {i}");
+            }
+        }
     }
 
     #[test]
@@ -382,8 +409,8 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_is_found_to_a_rounding() {
-        let found = zero([0.0, 2.0], -2.0, |x| x * x - 2.0);
-        assert!((found - 2.0f64.sqrt()).abs() < 1e-13, "{found}");
+    fn a_zero_is_found_to_its_resolution() {
+        let found = zero([0.0, 2.0], [-2.0, 2.0], |x| x * x - 2.0);
+        assert!((found - 2.0f64.sqrt()).abs() <= 2.0 * RESOLUTION, "{found}");
     }
 }
