@@ -26,7 +26,7 @@ fn the_functions_of_the_standard_and_of_estimation_are_exported_and_nothing_else
     let output = Command::new("nm").args(["-D", "--defined-only"]).arg(library()).output().expect("nm");
     let text = String::from_utf8(output.stdout).expect("text");
     let mut exported: Vec<_> = text.lines().filter_map(|line| line.split(' ').nth(2)).collect();
-    let mut expected = [Api::NAMES, estimation::NAMES, v3::abi::functions::NAMES].concat();
+    let mut expected = [Api::NAMES, estimation::NAMES, v3::abi::functions::NAMES, v3::abi::estimation::NAMES].concat();
     exported.sort_unstable();
     expected.sort_unstable();
     assert_eq!(exported, expected);

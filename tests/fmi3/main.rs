@@ -3,6 +3,7 @@
 #![allow(clippy::panic, reason = "a test that cannot go on")]
 
 mod derivatives;
+mod estimation;
 mod events;
 mod exchange;
 mod importer;

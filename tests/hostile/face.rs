@@ -1,5 +1,6 @@
 //! An instance as hosts of each version of FMI and of each kind of interface see it, as far as the campaigns need it.
 
+use crate::estimators::Estimated;
 use host::log::Line;
 use host::vr;
 use slidercrank::fmi::slave::saved_states::Saved;
@@ -77,6 +78,9 @@ pub trait Face: Sized + Send {
     }
     /// Calls of several kinds that are refused between steps.
     fn blunders(&self, point: f64) -> Vec<Status>;
+
+    /// The instance and the functions for estimators.
+    fn estimated(&self) -> Estimated;
 
     fn save_into(&self, state: &mut Handle) -> Status;
     fn restore(&self, state: Handle) -> Status;

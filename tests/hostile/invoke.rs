@@ -101,6 +101,7 @@ macro_rules! function {
 
 function! {
     () (A) (A B) (A B D) (A B D E) (A B D E F) (A B D E F G) (A B D E F G H) (A B D E F G H I) (A B D E F G H I J)
+    (A B D E F G H I J K L M N O)
 }
 
 macro_rules! invoke {

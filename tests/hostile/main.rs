@@ -21,6 +21,7 @@ mod face;
 mod arguments;
 mod bytes;
 mod concurrency;
+mod estimators;
 mod exchange_of_all;
 mod exchanged;
 mod extremes;

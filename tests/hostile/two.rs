@@ -1,5 +1,6 @@
 //! FMI 2.0 as the campaigns see it.
 
+use crate::estimators::{Estimated, estimated};
 use crate::exchanged::{self, Exchanged, status};
 use crate::face::{Answer, Face, Handle, Pieces};
 use host::Slave;
@@ -144,6 +145,10 @@ macro_rules! from_slave {
 
         fn sensitivity(&self, unknown: u32, knowns: &[u32], seeds: &[f64]) -> Answer {
             sensitivity(self, unknown, knowns, seeds)
+        }
+
+        fn estimated(&self) -> Estimated {
+            estimated!(self.c, v2: slidercrank_phase_names slidercrank_step_jacobian slidercrank_set_phase)
         }
 
         fn save_into(&self, state: &mut Handle) -> Status {

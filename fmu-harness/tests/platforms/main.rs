@@ -23,6 +23,7 @@ use object::{Endianness, NameOrOrdinal, Object};
 use scene::{Packaged, STEPS};
 use slidercrank::fmi::v2::abi::estimation;
 use slidercrank::fmi::v2::abi::functions::NAMES;
+use slidercrank::fmi::v3;
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::net::TcpListener;
@@ -351,7 +352,8 @@ fn the_library_for_macos_is_whole() {
     let Some(stock) = stock(Platform::Darwin64) else { return };
     let bytes = library(stock, Platform::Darwin64, &Scenario::find("wornpin").expect("a shipped scene"));
     let file = MachOFatFile32::parse(&*bytes).expect("a universal file");
-    let wanted: BTreeSet<String> = NAMES.iter().chain(estimation::NAMES).map(|name| format!("_{name}")).collect();
+    let wanted = [NAMES, estimation::NAMES, v3::abi::functions::NAMES, v3::abi::estimation::NAMES].concat();
+    let wanted: BTreeSet<String> = wanted.into_iter().map(|name| format!("_{name}")).collect();
     assert_eq!(file.arches().len(), 2);
     for arch in file.arches() {
         let slice = arch.data(&*bytes).expect("a library");

@@ -13,6 +13,7 @@ pub mod component;
 pub(super) mod declare;
 pub mod dispatch_x86_64_v3;
 pub mod engine;
+pub mod estimation;
 pub mod panic_guard;
 
 pub use argument_error::ArgumentError;

@@ -10,6 +10,7 @@ mod references;
 mod reload;
 pub mod stage;
 
+use crate::estimators::{Estimated, estimated};
 use crate::exchanged::{self, Exchanged, status};
 use crate::face::{Answer, Face, Handle, Pieces};
 use crate::importer::{self, Callback, Options, Slave, vr};
@@ -180,6 +181,10 @@ macro_rules! from_slave {
 
         fn time(&self) -> Answer {
             self.try_get_reference(time_reference())
+        }
+
+        fn estimated(&self) -> Estimated {
+            estimated!(self.0.0, v3: slidercrank_fmi3_phase_names slidercrank_fmi3_step_jacobian slidercrank_fmi3_set_phase)
         }
 
         fn save_into(&self, state: &mut Handle) -> Status {

@@ -27,13 +27,27 @@ pub type Body<'a> = &'a mut dyn FnMut(&mut Instance) -> Result<Status, Error>;
 pub unsafe fn call<S: Into<Status>>(
     instance: fmi3Instance,
     call: Call,
+    body: impl FnMut(&mut Instance) -> Result<S, Error>,
+) -> Status {
+    // SAFETY: passed on.
+    unsafe { call_as(instance, call.name(), call, body) }
+}
+
+/// Runs one call of the function `name`, which is allowed where `call` is.
+///
+/// # Safety
+/// As [`lend`].
+pub unsafe fn call_as<S: Into<Status>>(
+    instance: fmi3Instance,
+    name: &'static str,
+    call: Call,
     mut body: impl FnMut(&mut Instance) -> Result<S, Error>,
 ) -> Status {
     // SAFETY: the caller vouches for the pointer.
     match unsafe { lend::<Hosted>(instance) } {
         // A NULL or busy instance has no log that could be written to.
         None => Status::Error,
-        Some(mut lent) => answer(&mut lent, call, &mut |instance| {
+        Some(mut lent) => answer(&mut lent, name, &mut |instance| {
             instance.admit(call)?;
             body(instance).map(Into::into)
         }),
@@ -41,7 +55,7 @@ pub unsafe fn call<S: Into<Status>>(
 }
 
 /// Runs the body, logs its error, and returns a status. All functions share its code.
-pub fn answer(lent: &mut Lent<'_, Hosted>, call: Call, body: Body<'_>) -> Status {
+pub fn answer(lent: &mut Lent<'_, Hosted>, name: &'static str, body: Body<'_>) -> Status {
     let instance = &mut lent.instance().instance;
     let outcome = guarded(|| body(instance)).unwrap_or_else(|fault| {
         instance.give_up();
@@ -49,7 +63,7 @@ pub fn answer(lent: &mut Lent<'_, Hosted>, call: Call, body: Body<'_>) -> Status
     });
     outcome.unwrap_or_else(|error| {
         guarded(|| {
-            instance.say(error.severity(), call, &error);
+            instance.say(error.severity(), name, &error);
             Status::from(&error)
         })
         .unwrap_or(Status::Fatal)

@@ -70,7 +70,7 @@ pub unsafe fn do_step(instance: fmi3Instance, point: f64, size: f64, answers: &A
         let return_at = callback.and_then(|callback| callback.call(&update));
         // SAFETY: as above.
         let mut lent = unsafe { lend_again(instance) };
-        status = answer(&mut lent, Call::DoStep, &mut |instance| {
+        status = answer(&mut lent, Call::DoStep.name(), &mut |instance| {
             instance.end_update(return_at);
             // SAFETY: as above.
             unsafe { go_on(instance, answers, &mut stage) }.map(Into::into)

@@ -3,6 +3,7 @@
 
 pub mod call;
 pub mod do_step;
+pub mod estimation;
 pub mod functions;
 pub mod host_logger;
 pub mod host_update;
