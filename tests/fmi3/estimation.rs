@@ -74,9 +74,9 @@ fn names(instance: *mut c_void) -> String {
     let mut size = 0;
     // SAFETY: live instance, one place.
     assert_eq!(unsafe { slidercrank_fmi3_phase_names(instance, null_mut(), &raw mut size) }, Status::Ok);
-    let mut bytes = vec![1; size];
+    let mut bytes = vec![1_u8; size];
     // SAFETY: live instance, a buffer of the length said.
-    assert_eq!(unsafe { slidercrank_fmi3_phase_names(instance, bytes.as_mut_ptr(), &raw mut size) }, Status::Ok);
+    assert_eq!(unsafe { slidercrank_fmi3_phase_names(instance, bytes.as_mut_ptr().cast(), &raw mut size) }, Status::Ok);
     assert_eq!(bytes.pop(), Some(0));
     String::from_utf8(bytes).expect("text")
 }
@@ -150,6 +150,13 @@ fn they_are_refused_where_steps_are() {
     assert_refused(slave.0, || told(&slave), "initialization mode");
     assert_eq!(slave.exit(), Status::Ok);
     assert_refused(slave.0, || told(&slave), "event mode");
+    slave.handle_event();
+    let mut point = 0.0;
+    while !slave.step(point, STEP).event {
+        point += STEP;
+    }
+    slave.lines();
+    assert_refused(slave.0, || told(&slave), "event");
     let model = Slave::exchanging();
     assert_refused(model.0, || told(&model), "co-simulation");
     // SAFETY: NULL is refused.

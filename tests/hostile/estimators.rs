@@ -47,6 +47,9 @@ const UNTOUCHED: f64 = -7.0;
 /// Bytes that have room for all names.
 const NAMES: usize = 4096;
 
+/// More entries than any array may have: the library must not look at one of them.
+const TOO_MANY: usize = (1 << 24) + 1;
+
 /// What the pointers of the calls point to.
 struct Memory {
     references: [[u32; 2]; 2],
@@ -96,7 +99,7 @@ fn bad(word: Word) -> Vec<Word> {
     match word {
         Word::Pointer(pointer) => vec![NULL, Word::Pointer(pointer.wrapping_byte_add(1))],
         Word::Size(size) => {
-            [0, size.wrapping_sub(1), size + (1 << 24), usize::MAX / 8, usize::MAX].map(Word::Size).into()
+            [0, size.wrapping_sub(1), size + TOO_MANY, usize::MAX / 8, usize::MAX].map(Word::Size).into()
         }
         Word::Real(_) => [f64::NAN, f64::INFINITY, -f64::INFINITY, -STEP, 0.0, 1e-300].map(Word::Real).into(),
         other => vec![other],

@@ -1,4 +1,4 @@
-//! What the functions for estimators do, beside those of the standards: one body for every version of FMI.
+//! The functions for estimators, beside those of the standards: one list and one body for every version of FMI.
 //! `fmu-harness/docs/guide.md` has their C prototypes.
 //!
 //! # Safety
@@ -9,6 +9,50 @@ use super::borrow::{AnyBits, place, slice, slice_mut};
 use crate::fmi::slave::access::check_count;
 use crate::fmi::slave::estimation::{PHASE, Step};
 use crate::fmi::slave::{Error, Slave};
+
+/// Declares the functions of one version under these names. Where the macro stands, `call_as` and `Call` are those of the
+/// version, whose step must be allowed.
+macro_rules! estimators {
+    ($phase_names:ident $step_jacobian:ident $set_phase:ident) => {
+        $crate::fmi::abi::declare::functions! {
+            /// Writes the names of the numbers of a phase, each with a line feed at its end and a zero byte behind the
+            /// last, and the size that they need. With NULL for `names` only the size is written.
+            $phase_names(c: *mut c_void, names: *mut c_char, size: *mut usize) -> Status {
+                call_as(c, stringify!($phase_names), Call::DoStep, |instance| {
+                    estimation::phase_names(instance.slave(), names.cast(), size)
+                })
+            }
+            /// Makes a step on a copy of the instance: the phase before and after it, the outputs after it, and their
+            /// derivatives by the phase before and by parameters and inputs. With NULL for `phase` only the number of the
+            /// phase's numbers is written; with NULL for `nextPhaseByPhase` there are no derivatives.
+            $step_jacobian(
+                c: *mut c_void, step: f64, parameters: *const u32, n_parameters: usize, outputs: *const u32,
+                n_outputs: usize, n_phase: *mut usize, phase: *mut f64, next_phase: *mut f64, next_outputs: *mut f64,
+                next_phase_by_phase: *mut f64, next_phase_by_parameters: *mut f64, next_outputs_by_phase: *mut f64,
+                next_outputs_by_parameters: *mut f64,
+            ) -> Status {
+                let arrays = estimation::StepArrays {
+                    parameters, n_parameters, outputs, n_outputs, n_phase, phase, next_phase, next_outputs,
+                    next_phase_by_phase, next_phase_by_parameters, next_outputs_by_phase, next_outputs_by_parameters,
+                };
+                call_as(c, stringify!($step_jacobian), Call::DoStep, |instance| {
+                    estimation::step_jacobian(instance.slave(), step, &arrays)
+                })
+            }
+            /// Continues from this phase at the communication point, and with these values of real parameters.
+            $set_phase(
+                c: *mut c_void, phase: *const f64, n_phase: usize, parameters: *const u32, n_parameters: usize,
+                values: *const f64,
+            ) -> Status {
+                call_as(c, stringify!($set_phase), Call::DoStep, |instance| {
+                    estimation::set_phase(instance.slave(), [(phase, n_phase), (values, n_parameters)], parameters)
+                })
+            }
+        }
+    };
+}
+
+pub(crate) use estimators;
 
 /// The arrays of `step_jacobian`. Those of the phase have as many entries as a phase has numbers; matrices stand row by row.
 pub struct StepArrays {
