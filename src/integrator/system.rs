@@ -209,6 +209,11 @@ pub trait Linearizable: Ode {
     fn jacobian(&self, discrete: &Self::Discrete, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         by_differences(self, discrete, t, y, jacobian);
     }
+
+    /// Whether the rates take so little time that an implicit step spends most of its own on the Jacobian and linear algebra.
+    fn rates_are_cheap(&self) -> bool {
+        true
+    }
 }
 
 /// A system that computes the rates at several instants together. The default implementation computes one after the

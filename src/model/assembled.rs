@@ -31,6 +31,7 @@ pub struct Model {
     pub mechanism: Mechanism,
     compiled: Compiled,
     suits_blocks: bool,
+    rates_are_cheap: bool,
     scales: Vec<f64>,
     longest_step: f64,
     event_scale: f64,
@@ -62,8 +63,11 @@ impl Model {
         for (scale, (_, deflection)) in scales[2 * p..].iter_mut().zip(bristled_contacts(scene)) {
             *scale = deflection;
         }
+        let compiled = Compiled::of(&mechanism);
         Self {
-            compiled: Compiled::of(&mechanism),
+            compiled,
+            // The compiled loops have no room for the first-order states of bristles.
+            rates_are_cheap: compiled.is_special && states == 2 * p,
             suits_blocks: structure.topology.has_one_pin_clearance()
                 && states == 2 * p
                 && (mechanism.rod.is_none() || ROWS_WITH_MODES),
@@ -112,7 +116,6 @@ impl Ode for Model {
     }
 
     fn stages(&self, tableau: &Tableau, conditions: &Conditions, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
-        // The compiled loops have no room for the first-order states of bristles.
         let second_order = self.scales.len() == 2 * self.mechanism.positions();
         second_order && (self.compiled.stages)(&self.mechanism, tableau, conditions, t, y, h, k)
     }
@@ -129,6 +132,10 @@ impl SeveralInstants for Model {
 }
 
 impl Linearizable for Model {
+    fn rates_are_cheap(&self) -> bool {
+        self.rates_are_cheap
+    }
+
     fn jacobian(&self, conditions: &Conditions, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let states = self.scales.len();
         differentiate::<MAX_STATES>(states, states, t, y, jacobian, &|t, y, rates| {

@@ -200,6 +200,11 @@ impl SeveralInstants for Audited {
 }
 
 impl Linearizable for Audited {
+    /// The steps are those of the motion without audit.
+    fn rates_are_cheap(&self) -> bool {
+        self.model.rates_are_cheap()
+    }
+
     /// The rows of the audit's states are exact, too; their columns are 0.
     fn jacobian(&self, conditions: &Conditions, t: f64, y: &[f64], jacobian: &mut Jacobian) {
         let first = self.first();

@@ -36,6 +36,8 @@ type Stages = fn(&Mechanism, &Tableau, &Conditions, f64, &[f64], f64, &mut [f64]
 /// The equations of motion, compiled for one structure or for any.
 #[derive(Clone, Copy, Debug)]
 pub struct Compiled {
+    /// Whether the code is for one structure.
+    pub is_special: bool,
     /// Rates of one state.
     pub rates: Rates,
     /// Rates of eight states.
@@ -51,6 +53,7 @@ pub struct Compiled {
 macro_rules! code {
     ($structure:ident) => {
         Compiled {
+            is_special: true,
             rates: if const { $structure.closed } {
                 |mechanism, conditions, t, y, rates| mechanism.rates(&$structure, conditions, t, y, rates)
             } else {
@@ -96,6 +99,7 @@ macro_rules! flexible_code {
             }
         }
         Compiled {
+            is_special: true,
             rates: |mechanism, conditions, t, y, rates| motion(mechanism, conditions, t, y, rates, None),
             rates_of_eight: if const { suits_blocks(&$structure) && ROWS_WITH_MODES } {
                 |mechanism, conditions, t, y, rates| {
@@ -152,6 +156,7 @@ impl Compiled {
     /// The code for any structure.
     pub fn general(mechanism: &Mechanism) -> Self {
         Self {
+            is_special: false,
             rates: Mechanism::rates_of_one,
             rates_of_eight: Mechanism::rates_of_eight,
             ends: Mechanism::ends,

@@ -4,7 +4,7 @@
 use super::block::Cong8;
 use super::explicit::Explicit;
 use super::radau13::Radau13;
-use super::stiffness_switch::{StiffnessSwitch, fastest};
+use super::stiffness_switch::{StiffnessSwitch, fastest, implicit_cost};
 use super::verner7::VERNER7;
 use crate::integrator::method::{Attempt, Method, MethodKind, Properties, StepAdvice, StepWork};
 use crate::integrator::snapshot::{Reader, Snapshot};
@@ -114,10 +114,11 @@ impl<D: Copy> Method<D> for Automatic {
             MethodKind::Explicit if system.suits_blocks() => {
                 switch.after_explicit_beside_blocks(h, BOUND, || explicit.stiffness(layout, scales));
             }
-            MethodKind::Explicit => switch.after_explicit(BOUND, || explicit.stiffness(layout, scales)),
+            MethodKind::Explicit => switch.after_explicit(h, BOUND, || explicit.stiffness(layout, scales)),
             MethodKind::Implicit => {
                 let fastest = fastest(implicit.jacobian(), layout, scales, &end.rates);
-                if let Some(longest) = switch.after_implicit(h, work, BOUND, fastest, layout.positions) {
+                let cost = implicit_cost(layout.positions, system.rates_are_cheap());
+                if let Some(longest) = switch.after_implicit(h, work, cost, BOUND, fastest) {
                     advice.longest_step = longest;
                 }
             }
@@ -142,8 +143,8 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let StiffnessSwitch { kind, steps, check_interval, balance, block, reach } = self.switch;
-        snapshot.reals.extend([balance, block, reach]);
+        let StiffnessSwitch { kind, steps, check_interval, balance, block, reach, explicit } = self.switch;
+        snapshot.reals.extend([balance, block, reach, explicit]);
         snapshot.integers.extend([self.kind as u64, kind as u64]);
         snapshot.integers.extend([steps, check_interval].map(u64::from));
         Method::<D>::save(&self.block, snapshot);
@@ -151,7 +152,7 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let [balance, block, reach] = reader.reals()?;
+        let [balance, block, reach, explicit] = reader.reals()?;
         self.kind = read_kind(reader)?;
         self.switch = StiffnessSwitch {
             kind: read_kind(reader)?,
@@ -160,6 +161,7 @@ impl<D: Copy> Method<D> for Automatic {
             balance,
             block,
             reach,
+            explicit,
         };
         Method::<D>::load(&mut self.block, reader)?;
         Method::<D>::load(&mut self.implicit, reader)?;

@@ -5,9 +5,12 @@
 //! has decayed. An implicit method has no such bound, but its steps cost more. It pays only while its steps are longer by
 //! the ratio of the costs.
 //!
-//! Stiffness is suspected where an explicit step comes near its stability bound, as two stages at the same instant
-//! reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
-//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer.
+//! Stiffness is suspected where an explicit step is no longer short against the fastest motion, as two stages at the same
+//! instant reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
+//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer. Explicit
+//! steps need not be at their stability bound for a trial to pay: at tight tolerances accuracy bounds them first, and steps
+//! of a higher order are longer. What implicit steps are compared with are explicit steps as long as those before the trial,
+//! in times of the fastest motion.
 //!
 //! A block is the cheapest kind where the system suits it, and the first to be short in fast motion: its corrector converges
 //! slowly there. The implicit method, whose stages are evaluated together like those of a block, is then tried and kept while
@@ -24,21 +27,22 @@ use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 const MIN_CHECK_INTERVAL: u32 = 32;
 /// Maximum number of accepted steps between two checks, after changes that did not pay.
 const MAX_CHECK_INTERVAL: u32 = 256;
-/// A step is suspected to be stiff above this share of the stability bound. What two stages reveal is less than the bound
-/// where the fastest motion is at rest.
-const SUSPECTED_SHARE: f64 = 0.3;
+/// A step is suspected to be stiff above this share of the stability bound.
+const SUSPECTED_SHARE: f64 = 0.1;
 /// Share of the stability bound at which explicit steps begin after a series of implicit ones.
 const STABLE_SHARE: f64 = 0.6;
 /// Length of a block times the fastest rate above which the implicit method is tried.
 const SUSPECTED_REACH: f64 = 0.3;
-/// Length of usual blocks times the fastest rate. A block that began to grow before a trial is no measure of the blocks
-/// that a trial is instead of.
+/// Length of usual blocks and explicit steps times the fastest rate, at least. Steps that began to grow before a trial are no
+/// measure of those that a trial is instead of.
 const USUAL_REACH: f64 = 0.8;
-/// Cost of an evaluation of an implicit step, with its share of the linear algebra, in explicit steps and without its part
-/// for each position; as measured with three to twelve positions.
-const IMPLICIT_COST: f64 = 0.08;
-/// Cost of an evaluation of an implicit step in explicit steps for each position.
-const IMPLICIT_COST_PER_POSITION: f64 = 0.033;
+/// Cost of an evaluation of an implicit step, with its share of the linear algebra, in explicit steps: without its part for
+/// each position, and that part. As measured with three to twelve positions, where the rates are cheap.
+const IMPLICIT_COST: [f64; 2] = [0.08, 0.033];
+/// The same where the rates are not cheap.
+const IMPLICIT_COST_OF_COSTLY_RATES: [f64; 2] = [0.1, 0.01];
+/// Weight of the last explicit step in their usual length.
+const WEIGHT: f64 = 0.125;
 /// Cost of an explicit step in blocks, as measured with one clearance in a pin, rod rigid and flexible.
 const EXPLICIT_COST_IN_BLOCKS: f64 = 0.85;
 /// In a system that suits blocks, a series of explicit steps ends after this many steps, to check whether it still
@@ -72,8 +76,10 @@ pub struct StiffnessSwitch {
     pub balance: f64,
     /// [s] Length of the last block before a series of other steps; 0 if there was none.
     pub block: f64,
-    /// Length of the last block before a series of implicit steps times the fastest rate there; 0 if there was none.
+    /// Usual length of the steps before a series of implicit steps times the fastest rate there; 0 if it is not known yet.
     pub reach: f64,
+    /// [s] Usual length of the last explicit steps; 0 if there were none.
+    pub explicit: f64,
 }
 
 impl StiffnessSwitch {
@@ -85,6 +91,7 @@ impl StiffnessSwitch {
         balance: 0.0,
         block: 0.0,
         reach: 0.0,
+        explicit: 0.0,
     };
     /// Start of a motion of a system that suits blocks.
     pub const BLOCKS: Self = Self { kind: MethodKind::Block, ..Self::NON_STIFF };
@@ -95,6 +102,7 @@ impl StiffnessSwitch {
             && self.balance > OVERDRAFT
             && self.balance <= CREDIT
             && self.block.is_finite()
+            && self.explicit.is_finite()
             && self.reach >= 0.0
     }
 
@@ -104,29 +112,40 @@ impl StiffnessSwitch {
         if self.check_is_due(self.check_interval) {
             let reach = h * fastest();
             if reach > SUSPECTED_REACH {
-                *self = Self { kind: MethodKind::Implicit, block: h, reach, ..*self };
+                *self = Self { kind: MethodKind::Implicit, block: h, reach: reach.max(USUAL_REACH), ..*self };
             }
         }
     }
 
-    /// Records an accepted explicit step. `stiffness` computes its length times the fastest rate and is called only
-    /// when a check is due; `bound` is the stability bound of the method.
-    pub fn after_explicit(&mut self, bound: f64, stiffness: impl FnOnce() -> f64) {
+    /// Records an accepted explicit step of length `h` [s]. `stiffness` computes its length times the fastest rate and is called
+    /// only when a check is due; `bound` is the stability bound of the method.
+    pub fn after_explicit(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
+        self.note_explicit(h);
         if self.check_is_due(self.check_interval) && stiffness() > SUSPECTED_SHARE * bound {
-            self.kind = MethodKind::Implicit;
+            *self = Self { kind: MethodKind::Implicit, reach: 0.0, ..*self };
         }
     }
 
     /// Records an accepted explicit step of length `h` [s] in a system that suits blocks; otherwise as
     /// [`after_explicit`](Self::after_explicit).
     pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
+        self.note_explicit(h);
         self.enter(h / (EXPLICIT_COST_IN_BLOCKS * self.block));
         if self.check_is_due(EXPLICIT_SERIES) {
-            let kind = if stiffness() > SUSPECTED_SHARE * bound { MethodKind::Implicit } else { MethodKind::Block };
-            *self = Self { kind, ..Self::NON_STIFF };
+            let is_stiff = stiffness() > SUSPECTED_SHARE * bound;
+            *self = if is_stiff {
+                Self { kind: MethodKind::Implicit, explicit: self.explicit, ..Self::NON_STIFF }
+            } else {
+                Self::BLOCKS
+            };
         } else if self.balance <= OVERDRAFT {
             self.end_trial(Self::BLOCKS);
         }
+    }
+
+    /// Enters an explicit step of length `h` [s] into their usual length.
+    fn note_explicit(&mut self, h: f64) {
+        self.explicit = if self.explicit > 0.0 { self.explicit + WEIGHT * (h - self.explicit) } else { h };
     }
 
     /// Enters a step that is worth `gain` steps of another kind into the balance.
@@ -144,20 +163,18 @@ impl StiffnessSwitch {
         now
     }
 
-    /// Records an accepted implicit step of length `h` [s], which took the `work`, of a system with `positions` positions and
-    /// the fastest rate `fastest` [1/s]. Returns the upper bound of the next step [s] if that is to be explicit.
-    pub fn after_implicit(
-        &mut self,
-        h: f64,
-        work: StepWork,
-        bound: f64,
-        fastest: f64,
-        positions: usize,
-    ) -> Option<f64> {
+    /// Records an accepted implicit step of length `h` [s], which took the `work`. `cost` is that of each of its evaluations
+    /// in explicit steps, `fastest` the fastest rate [1/s]. Returns the upper bound of the next step [s] if that is to be
+    /// explicit.
+    pub fn after_implicit(&mut self, h: f64, work: StepWork, cost: f64, bound: f64, fastest: f64) -> Option<f64> {
         self.steps = self.steps.saturating_add(1);
-        let cost = work.evaluations as f64 * (IMPLICIT_COST + IMPLICIT_COST_PER_POSITION * positions as f64);
+        if self.reach == 0.0 {
+            let usual = (self.explicit * fastest).clamp(USUAL_REACH, bound);
+            self.reach = if self.explicit > 0.0 { usual } else { bound };
+        }
+        let of_other = if self.block > 0.0 { EXPLICIT_COST_IN_BLOCKS } else { 1.0 };
         // The length times the fastest rate from which on a step pays.
-        let worth = cost * if self.reach > 0.0 { EXPLICIT_COST_IN_BLOCKS * self.reach.max(USUAL_REACH) } else { bound };
+        let worth = work.evaluations as f64 * cost * of_other * self.reach;
         let gain = h * fastest / worth;
         let is_growing = self.steps < MIN_PAID_STEPS && work.next > GROWING * h;
         if gain > 1.0 || !is_growing {
@@ -166,7 +183,7 @@ impl StiffnessSwitch {
         if self.balance > OVERDRAFT && self.steps < IMPLICIT_SERIES {
             return None;
         }
-        self.end_trial(Self { block: self.block, ..Self::NON_STIFF });
+        self.end_trial(Self { block: self.block, explicit: self.explicit, ..Self::NON_STIFF });
         Some(STABLE_SHARE * bound / fastest)
     }
 
@@ -184,6 +201,12 @@ impl StiffnessSwitch {
             ..next
         };
     }
+}
+
+/// Cost in explicit steps of each evaluation of an implicit step, of a system with `positions` positions.
+pub fn implicit_cost(positions: usize, rates_are_cheap: bool) -> f64 {
+    let [alone, per_position] = if rates_are_cheap { IMPLICIT_COST } else { IMPLICIT_COST_OF_COSTLY_RATES };
+    alone + per_position * positions as f64
 }
 
 /// [1/s] Estimate of the fastest rate of the motion near a state, from its Jacobian by power iteration on a vector
@@ -260,10 +283,10 @@ mod tests {
         let mut switch = StiffnessSwitch::NON_STIFF;
         let trial = |switch: &mut StiffnessSwitch| {
             let steps = (1..2000).find(|_| {
-                switch.after_explicit(4.6, || 4.0);
+                switch.after_explicit(9e-7, 4.6, || 4.0);
                 switch.kind == MethodKind::Implicit
             });
-            let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), 4.6, 4e6, 2).is_some());
+            let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), 0.146, 4.6, 4e6).is_some());
             (steps, ends)
         };
         for check_interval in [32, 64, 128, 256, 256] {
@@ -274,16 +297,16 @@ mod tests {
         switch.kind = MethodKind::Implicit;
         let ends = (0..50).find(|step| {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
-            switch.after_implicit(h, work(h), 4.6, 4e6, 2).is_some()
+            switch.after_implicit(h, work(h), 0.146, 4.6, 4e6).is_some()
         });
-        assert_eq!((ends, switch), (Some(28), StiffnessSwitch::NON_STIFF));
+        assert_eq!((ends, switch), (Some(28), StiffnessSwitch { explicit: 9e-7, ..StiffnessSwitch::NON_STIFF }));
     }
 
     #[test]
     fn a_trial_goes_on_while_its_steps_grow_and_ends_sooner_where_attempts_fail() {
         let steps_of_trial = |work: StepWork| {
             let mut switch = StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::NON_STIFF };
-            (1..100).find(|_| switch.after_implicit(9e-6, work, 4.6, 1e6, 2).is_some())
+            (1..100).find(|_| switch.after_implicit(9e-6, work, 0.146, 4.6, 1e6).is_some())
         };
         assert_eq!(steps_of_trial(StepWork { evaluations: 15, next: 9e-6 }), Some(19));
         assert_eq!(steps_of_trial(StepWork { evaluations: 60, next: 9e-6 }), Some(3));
@@ -292,10 +315,26 @@ mod tests {
     }
 
     #[test]
+    fn implicit_steps_are_compared_with_explicit_steps_as_long_as_those_before_them() {
+        // A step of 4/ω costs 15·0.146 explicit steps: it pays if these are shorter than 1.83/ω.
+        let last = |explicit: f64| {
+            let mut switch = StiffnessSwitch::NON_STIFF;
+            (0..32).for_each(|_| switch.after_explicit(explicit, 4.6, || 1.0));
+            assert_eq!(switch.kind, MethodKind::Implicit);
+            (1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), 0.146, 4.6, 1e6).is_some())
+        };
+        assert_eq!(last(1e-6), None);
+        assert_eq!(last(2e-6), Some(24)); // 2/(1 − 1.83/2) steps
+        assert_eq!(last(4e-6), Some(4)); // 2/(1 − 1.83/4) steps
+        // Short steps are no measure.
+        assert_eq!(last(1e-9), None);
+    }
+
+    #[test]
     fn steps_far_within_stability_are_never_tried() {
         let mut switch = StiffnessSwitch::NON_STIFF;
         for _ in 0..1000 {
-            switch.after_explicit(4.6, || 1.0);
+            switch.after_explicit(1e-6, 4.6, || 0.4);
         }
         assert_eq!(switch.kind, MethodKind::Explicit);
     }
@@ -310,9 +349,9 @@ mod tests {
                 steps[switch.kind as usize] += 1;
                 match switch.kind {
                     MethodKind::Block => switch.after_block(1e-6, || 1e6),
-                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, || 1.0),
+                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, || 0.4),
                     MethodKind::Implicit => {
-                        switch.after_implicit(implicit, work(implicit), 4.6, 1e6, 2);
+                        switch.after_implicit(implicit, work(implicit), 0.146, 4.6, 1e6);
                     }
                 }
                 assert!(switch.is_sound());
@@ -331,7 +370,10 @@ mod tests {
         while switch.kind == MethodKind::Explicit {
             switch.after_explicit_beside_blocks(2e-6, 4.6, || 4.0);
         }
-        assert_eq!(switch, StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::NON_STIFF });
+        assert_eq!(
+            switch,
+            StiffnessSwitch { kind: MethodKind::Implicit, explicit: 2e-6, ..StiffnessSwitch::NON_STIFF }
+        );
     }
 
     #[test]
