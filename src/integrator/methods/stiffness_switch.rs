@@ -103,6 +103,7 @@ impl StiffnessSwitch {
             && self.balance <= CREDIT
             && self.block.is_finite()
             && self.explicit.is_finite()
+            && self.explicit >= 0.0
             && self.reach >= 0.0
     }
 
