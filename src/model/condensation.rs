@@ -12,7 +12,7 @@
 #![allow(clippy::needless_range_loop)] // several arrays are read by the number of one mode
 
 use super::dynamics::Equations;
-use super::rod::CompiledCounts;
+use super::rod::{CompiledCounts, in_registers};
 use super::structure::{CRANK, ROD, SLIDER};
 use crate::math::{Real, unroll};
 
@@ -85,7 +85,8 @@ impl<R: Real, const K: usize> ModalEquations<'_, R, K> {
         let Self { size, angles, matrix, with, right } = self;
         // Numbers that stand alone are computed in whole registers, with zeros where nothing is to be eliminated.
         let whole = const { R::PLAIN && !C::KNOWN };
-        let later = if whole { 0..K } else { k + 2..*size };
+        let every = 0..in_registers::<R, C>(*size, K);
+        let later = if whole { every.clone() } else { k + 2..*size };
         // M_ik and M_i,k+1, and their products with the block's inverse.
         let (mut one, mut two, mut p, mut q) = ([R::ZERO; K], [R::ZERO; K], [R::ZERO; K], [R::ZERO; K]);
         unroll!(C::KNOWN, i in k + 2..*size, C::MODES => {
@@ -96,7 +97,7 @@ impl<R: Real, const K: usize> ModalEquations<'_, R, K> {
             (p[i], q[i]) = (-first, -second);
         });
         unroll!(C::KNOWN, i in k + 2..*size, C::MODES => {
-            unroll!(C::KNOWN, j in if whole { 0..K } else { k + 2..i + 1 }, C::MODES => {
+            unroll!(C::KNOWN, j in if whole { every.clone() } else { k + 2..i + 1 }, C::MODES => {
                 matrix[i][j] = add_product([p[i], q[i]], [one[j], two[j]], matrix[i][j]);
             });
         });
@@ -133,7 +134,7 @@ impl<R: Real, const K: usize> ModalEquations<'_, R, K> {
     #[inline(always)]
     pub(super) fn accelerations<C: CompiledCounts>(&self, per: &[R; K], angles: [R; 3]) -> [R; K] {
         let (size, mut found) = (self.size, self.right);
-        let modes = if const { R::PLAIN && !C::KNOWN } { K } else { size };
+        let modes = in_registers::<R, C>(size, K);
         unroll!(C::KNOWN, angle < 3 => {
             if self.angles[angle] {
                 unroll!(C::KNOWN, i < modes, C::MODES => {

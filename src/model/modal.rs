@@ -40,7 +40,7 @@ use super::ideal::IdealMotion;
 use super::kinematics::{Arms, BodyRotations};
 use super::loads::Loads;
 use super::plane::{Rotation, Vec2, cross, perp};
-use super::rod::{Arrays, CompiledCounts, Inertia, Shape};
+use super::rod::{Arrays, CompiledCounts, Inertia, Shape, in_registers};
 use super::structure::{CRANK, Link, ROD, SLIDER, Structure};
 use crate::math::{Real, unroll};
 
@@ -295,9 +295,8 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
         let Self { modes, shape, eta, rate, .. } = self;
         let Inertia { first_slope: first, with_angle, modal: matrix, modal_force, .. } = &mut *self.inertia;
         let n = C::COUNTS.unwrap_or(modes.counts).modes().min(K);
-        // Numbers that stand alone are computed in whole registers: the lists are zero beyond the modes.
         let whole = const { R::PLAIN && !C::KNOWN };
-        let count = if whole { K } else { n };
+        let count = in_registers::<R, C>(n, K);
         let slope = &shape.chord_slope;
         let own = |a: usize| Vec2::new(first.x[a], first.y[a]);
         let mut momentum = Vec2::new([R::ZERO; K], [R::ZERO; K]);
@@ -336,7 +335,7 @@ impl<R: Real, const K: usize, const F: usize> BentRod<'_, R, K, F> {
             chain.move_root::<C, K>(chain.p3, &momentum, &mut with[SLIDER], count);
         }
         unroll!(C::KNOWN, a < n, K => {
-            let (row, end) = (&mut matrix[a], if whole { K } else { a + 1 });
+            let (row, end) = (&mut matrix[a], if whole { count } else { a + 1 });
             unroll!(C::KNOWN, b < end, K => {
                 row[b] = chain.inertia([slope[a], slope[b]], [first.x[a], first.x[b]], row[b]);
             });

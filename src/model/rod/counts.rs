@@ -1,5 +1,7 @@
 //! Numbers of modes of a rod, and whether they are known at compile time.
 
+use crate::math::{LANES, Real};
+
 /// Numbers of modes, in the order of the modal coordinates, and of those with foreshortening.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
@@ -65,6 +67,13 @@ pub trait CompiledCounts {
         Some(counts) => counts.functions(),
         None => usize::MAX,
     };
+}
+
+/// How many entries of a list of `modes` numbers, in an array of `most`, are computed. Numbers that stand alone are computed
+/// in whole registers unless the loop is written out: a list is zero beyond the modes.
+#[inline(always)]
+pub fn in_registers<R: Real, C: CompiledCounts>(modes: usize, most: usize) -> usize {
+    if const { R::PLAIN && !C::KNOWN } { modes.next_multiple_of(LANES).min(most) } else { modes }
 }
 
 /// `BENDING` bending modes and `AXIAL` axial modes, with geometric stiffness.

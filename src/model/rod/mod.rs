@@ -49,6 +49,7 @@ mod tables;
 
 pub use counts::{
     ALL_FUNCTIONS, ALL_MODES, CompiledCounts, Counts, FixedCounts, ROWS_WITH_MODES, RodCapacity, RuntimeCounts,
+    in_registers,
 };
 pub use elastic::Elastic;
 pub use flexible::Rod;
