@@ -104,7 +104,7 @@ impl<D: Copy> Method<D> for Automatic {
     ) -> StepAdvice {
         let Self { kind, switch, explicit, implicit, .. } = self;
         let (h, layout, scales) = (end.t - start.t, system.layout(), system.scales());
-        let mut advice = StepAdvice::NONE;
+        let (mut advice, cheap) = (StepAdvice::NONE, system.rates_are_cheap());
         match kind {
             MethodKind::Block => switch.after_block(h, || {
                 system.jacobian(&end.discrete, end.t, &end.y, implicit.jacobian());
@@ -112,12 +112,12 @@ impl<D: Copy> Method<D> for Automatic {
                 fastest(implicit.jacobian(), layout, scales, &end.rates)
             }),
             MethodKind::Explicit if system.suits_blocks() => {
-                switch.after_explicit_beside_blocks(h, BOUND, || explicit.stiffness(layout, scales));
+                switch.after_explicit_beside_blocks(h, BOUND, cheap, || explicit.stiffness(layout, scales));
             }
-            MethodKind::Explicit => switch.after_explicit(h, BOUND, || explicit.stiffness(layout, scales)),
+            MethodKind::Explicit => switch.after_explicit(h, BOUND, cheap, || explicit.stiffness(layout, scales)),
             MethodKind::Implicit => {
                 let fastest = fastest(implicit.jacobian(), layout, scales, &end.rates);
-                let cost = implicit_cost(layout.positions, system.rates_are_cheap());
+                let cost = implicit_cost(layout.positions, cheap);
                 if let Some(longest) = switch.after_implicit(h, work, cost, BOUND, fastest) {
                     advice.longest_step = longest;
                 }

@@ -9,8 +9,9 @@
 //! instant reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
 //! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer. Explicit
 //! steps need not be at their stability bound for a trial to pay: at tight tolerances accuracy bounds them first, and steps
-//! of a higher order are longer. What implicit steps are compared with are explicit steps as long as those before the trial,
-//! in times of the fastest motion.
+//! of a higher order are longer. Where the rates are not cheap, implicit steps are therefore compared with explicit ones as
+//! long as those before the trial, in times of the fastest motion. Where they are cheap, a trial costs more than it may gain:
+//! the comparison is with steps at the bound.
 //!
 //! A block is the cheapest kind where the system suits it, and the first to be short in fast motion: its corrector converges
 //! slowly there. The implicit method, whose stages are evaluated together like those of a block, is then tried and kept while
@@ -27,8 +28,11 @@ use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 const MIN_CHECK_INTERVAL: u32 = 32;
 /// Maximum number of accepted steps between two checks, after changes that did not pay.
 const MAX_CHECK_INTERVAL: u32 = 256;
-/// A step is suspected to be stiff above this share of the stability bound.
-const SUSPECTED_SHARE: f64 = 0.1;
+/// A step is suspected to be stiff above this share of the stability bound. What two stages reveal is less than the bound
+/// where the fastest motion is at rest.
+const SUSPECTED_SHARE: f64 = 0.3;
+/// The same where the rates are not cheap.
+const SUSPECTED_SHARE_OF_COSTLY_RATES: f64 = 0.1;
 /// Share of the stability bound at which explicit steps begin after a series of implicit ones.
 const STABLE_SHARE: f64 = 0.6;
 /// Length of a block times the fastest rate above which the implicit method is tried.
@@ -78,7 +82,7 @@ pub struct StiffnessSwitch {
     pub block: f64,
     /// Usual length of the steps before a series of implicit steps times the fastest rate there; 0 if it is not known yet.
     pub reach: f64,
-    /// [s] Usual length of the last explicit steps; 0 if there were none.
+    /// [s] Usual length of the last explicit steps; 0 if there were none, or where the rates are cheap.
     pub explicit: f64,
 }
 
@@ -119,21 +123,21 @@ impl StiffnessSwitch {
     }
 
     /// Records an accepted explicit step of length `h` [s]. `stiffness` computes its length times the fastest rate and is called
-    /// only when a check is due; `bound` is the stability bound of the method.
-    pub fn after_explicit(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
-        self.note_explicit(h);
-        if self.check_is_due(self.check_interval) && stiffness() > SUSPECTED_SHARE * bound {
+    /// only when a check is due; `bound` is the stability bound of the method, `cheap` whether the rates are.
+    pub fn after_explicit(&mut self, h: f64, bound: f64, cheap: bool, stiffness: impl FnOnce() -> f64) {
+        let suspected = self.note_explicit(h, cheap);
+        if self.check_is_due(self.check_interval) && stiffness() > suspected * bound {
             *self = Self { kind: MethodKind::Implicit, reach: 0.0, ..*self };
         }
     }
 
     /// Records an accepted explicit step of length `h` [s] in a system that suits blocks; otherwise as
     /// [`after_explicit`](Self::after_explicit).
-    pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, stiffness: impl FnOnce() -> f64) {
-        self.note_explicit(h);
+    pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, cheap: bool, stiffness: impl FnOnce() -> f64) {
+        let suspected = self.note_explicit(h, cheap);
         self.enter(h / (EXPLICIT_COST_IN_BLOCKS * self.block));
         if self.check_is_due(EXPLICIT_SERIES) {
-            let is_stiff = stiffness() > SUSPECTED_SHARE * bound;
+            let is_stiff = stiffness() > suspected * bound;
             *self = if is_stiff {
                 Self { kind: MethodKind::Implicit, explicit: self.explicit, ..Self::NON_STIFF }
             } else {
@@ -144,9 +148,15 @@ impl StiffnessSwitch {
         }
     }
 
-    /// Enters an explicit step of length `h` [s] into their usual length.
-    fn note_explicit(&mut self, h: f64) {
+    /// Enters an explicit step of length `h` [s] into their usual length, unless rates are cheap. Returns the share of the
+    /// stability bound above which stiffness is suspected.
+    fn note_explicit(&mut self, h: f64, cheap: bool) -> f64 {
+        if cheap {
+            self.explicit = 0.0;
+            return SUSPECTED_SHARE;
+        }
         self.explicit = if self.explicit > 0.0 { self.explicit + WEIGHT * (h - self.explicit) } else { h };
+        SUSPECTED_SHARE_OF_COSTLY_RATES
     }
 
     /// Enters a step that is worth `gain` steps of another kind into the balance.
@@ -284,7 +294,7 @@ mod tests {
         let mut switch = StiffnessSwitch::NON_STIFF;
         let trial = |switch: &mut StiffnessSwitch| {
             let steps = (1..2000).find(|_| {
-                switch.after_explicit(9e-7, 4.6, || 4.0);
+                switch.after_explicit(9e-7, 4.6, false, || 4.0);
                 switch.kind == MethodKind::Implicit
             });
             let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), 0.146, 4.6, 4e6).is_some());
@@ -320,7 +330,7 @@ mod tests {
         // A step of 4/ω costs 15·0.146 explicit steps: it pays if these are shorter than 1.83/ω.
         let last = |explicit: f64| {
             let mut switch = StiffnessSwitch::NON_STIFF;
-            (0..32).for_each(|_| switch.after_explicit(explicit, 4.6, || 1.0));
+            (0..32).for_each(|_| switch.after_explicit(explicit, 4.6, false, || 1.0));
             assert_eq!(switch.kind, MethodKind::Implicit);
             (1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), 0.146, 4.6, 1e6).is_some())
         };
@@ -329,13 +339,20 @@ mod tests {
         assert_eq!(last(4e-6), Some(4)); // 2/(1 − 1.83/4) steps
         // Short steps are no measure.
         assert_eq!(last(1e-9), None);
+        // Cheap rates: steps of 1/ω are not suspected, and those of 2/ω are taken for steps at the bound.
+        let mut switch = StiffnessSwitch::NON_STIFF;
+        (0..256).for_each(|_| switch.after_explicit(1e-6, 4.6, true, || 1.0));
+        assert_eq!(switch, StiffnessSwitch::NON_STIFF);
+        (0..32).for_each(|_| switch.after_explicit(2e-6, 4.6, true, || 2.0));
+        assert_eq!(switch.kind, MethodKind::Implicit);
+        assert_eq!((1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), 0.146, 4.6, 1e6).is_some()), Some(4));
     }
 
     #[test]
     fn steps_far_within_stability_are_never_tried() {
         let mut switch = StiffnessSwitch::NON_STIFF;
         for _ in 0..1000 {
-            switch.after_explicit(1e-6, 4.6, || 0.4);
+            switch.after_explicit(1e-6, 4.6, false, || 0.4);
         }
         assert_eq!(switch.kind, MethodKind::Explicit);
     }
@@ -350,7 +367,7 @@ mod tests {
                 steps[switch.kind as usize] += 1;
                 match switch.kind {
                     MethodKind::Block => switch.after_block(1e-6, || 1e6),
-                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, || 0.4),
+                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, false, || 0.4),
                     MethodKind::Implicit => {
                         switch.after_implicit(implicit, work(implicit), 0.146, 4.6, 1e6);
                     }
@@ -369,7 +386,7 @@ mod tests {
         assert_eq!(trial(&mut switch, 3e-6, 0.2e-6), [32, 3, 256]);
         let mut switch = StiffnessSwitch { kind: MethodKind::Explicit, block: 1e-6, ..StiffnessSwitch::BLOCKS };
         while switch.kind == MethodKind::Explicit {
-            switch.after_explicit_beside_blocks(2e-6, 4.6, || 4.0);
+            switch.after_explicit_beside_blocks(2e-6, 4.6, false, || 4.0);
         }
         assert_eq!(
             switch,
