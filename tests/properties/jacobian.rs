@@ -35,7 +35,7 @@ fn judge(name: &str, place: (usize, usize), exact: f64, difference: Derivative, 
 }
 
 /// [s] Steps end and start at discontinuities of the rates, where differences tell nothing: so far on the discontinuities are passed.
-const ONWARD: f64 = 5e-6;
+const ONWARD: f64 = 1e-5;
 
 /// Compares all columns close to the state where the next step starts.
 fn compare(name: &str, simulation: &Simulation, tally: &mut Tally) {
