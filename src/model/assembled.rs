@@ -63,13 +63,12 @@ impl Model {
         for (scale, (_, deflection)) in scales[2 * p..].iter_mut().zip(bristled_contacts(scene)) {
             *scale = deflection;
         }
-        let compiled = Compiled::of(&mechanism);
+        let (compiled, second_order) = (Compiled::of(&mechanism), states == 2 * p);
         Self {
             compiled,
-            // The compiled loops have no room for the first-order states of bristles.
-            rates_are_cheap: compiled.is_special && states == 2 * p,
+            rates_are_cheap: compiled.is_special && second_order,
             suits_blocks: structure.topology.has_one_pin_clearance()
-                && states == 2 * p
+                && second_order
                 && (mechanism.rod.is_none() || ROWS_WITH_MODES),
             scales,
             longest_step: scale.longest_step,
@@ -116,6 +115,7 @@ impl Ode for Model {
     }
 
     fn stages(&self, tableau: &Tableau, conditions: &Conditions, t: f64, y: &[f64], h: f64, k: &mut [f64]) -> bool {
+        // The compiled loops have no room for the first-order states of bristles.
         let second_order = self.scales.len() == 2 * self.mechanism.positions();
         second_order && (self.compiled.stages)(&self.mechanism, tableau, conditions, t, y, h, k)
     }

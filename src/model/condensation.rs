@@ -85,8 +85,8 @@ impl<R: Real, const K: usize> ModalEquations<'_, R, K> {
         let Self { size, angles, matrix, with, right } = self;
         // Numbers that stand alone are computed in whole registers, with zeros where nothing is to be eliminated.
         let whole = const { R::PLAIN && !C::KNOWN };
-        let every = 0..in_registers::<R, C>(*size, K);
-        let later = if whole { every.clone() } else { k + 2..*size };
+        let count = in_registers::<R, C>(*size, K);
+        let later = if whole { 0..count } else { k + 2..*size };
         // M_ik and M_i,k+1, and their products with the block's inverse.
         let (mut one, mut two, mut p, mut q) = ([R::ZERO; K], [R::ZERO; K], [R::ZERO; K], [R::ZERO; K]);
         unroll!(C::KNOWN, i in k + 2..*size, C::MODES => {
@@ -97,7 +97,7 @@ impl<R: Real, const K: usize> ModalEquations<'_, R, K> {
             (p[i], q[i]) = (-first, -second);
         });
         unroll!(C::KNOWN, i in k + 2..*size, C::MODES => {
-            unroll!(C::KNOWN, j in if whole { every.clone() } else { k + 2..i + 1 }, C::MODES => {
+            unroll!(C::KNOWN, j in if whole { 0..count } else { k + 2..i + 1 }, C::MODES => {
                 matrix[i][j] = add_product([p[i], q[i]], [one[j], two[j]], matrix[i][j]);
             });
         });

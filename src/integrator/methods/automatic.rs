@@ -4,7 +4,7 @@
 use super::block::Cong8;
 use super::explicit::Explicit;
 use super::radau13::Radau13;
-use super::stiffness_switch::{StiffnessSwitch, fastest, implicit_cost};
+use super::stiffness_switch::{StiffnessSwitch, Terms, fastest};
 use super::verner7::VERNER7;
 use crate::integrator::method::{Attempt, Method, MethodKind, Properties, StepAdvice, StepWork};
 use crate::integrator::snapshot::{Reader, Snapshot};
@@ -104,7 +104,8 @@ impl<D: Copy> Method<D> for Automatic {
     ) -> StepAdvice {
         let Self { kind, switch, explicit, implicit, .. } = self;
         let (h, layout, scales) = (end.t - start.t, system.layout(), system.scales());
-        let (mut advice, cheap) = (StepAdvice::NONE, system.rates_are_cheap());
+        let terms = &Terms::new(BOUND, layout.positions, system.rates_are_cheap());
+        let mut advice = StepAdvice::NONE;
         match kind {
             MethodKind::Block => switch.after_block(h, || {
                 system.jacobian(&end.discrete, end.t, &end.y, implicit.jacobian());
@@ -112,13 +113,12 @@ impl<D: Copy> Method<D> for Automatic {
                 fastest(implicit.jacobian(), layout, scales, &end.rates)
             }),
             MethodKind::Explicit if system.suits_blocks() => {
-                switch.after_explicit_beside_blocks(h, BOUND, cheap, || explicit.stiffness(layout, scales));
+                switch.after_explicit_beside_blocks(h, terms, || explicit.stiffness(layout, scales));
             }
-            MethodKind::Explicit => switch.after_explicit(h, BOUND, cheap, || explicit.stiffness(layout, scales)),
+            MethodKind::Explicit => switch.after_explicit(h, terms, || explicit.stiffness(layout, scales)),
             MethodKind::Implicit => {
                 let fastest = fastest(implicit.jacobian(), layout, scales, &end.rates);
-                let cost = implicit_cost(layout.positions, cheap);
-                if let Some(longest) = switch.after_implicit(h, work, cost, BOUND, fastest) {
+                if let Some(longest) = switch.after_implicit(h, work, terms, fastest) {
                     advice.longest_step = longest;
                 }
             }

@@ -28,11 +28,6 @@ use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 const MIN_CHECK_INTERVAL: u32 = 32;
 /// Maximum number of accepted steps between two checks, after changes that did not pay.
 const MAX_CHECK_INTERVAL: u32 = 256;
-/// A step is suspected to be stiff above this share of the stability bound. What two stages reveal is less than the bound
-/// where the fastest motion is at rest.
-const SUSPECTED_SHARE: f64 = 0.3;
-/// The same where the rates are not cheap.
-const SUSPECTED_SHARE_OF_COSTLY_RATES: f64 = 0.1;
 /// Share of the stability bound at which explicit steps begin after a series of implicit ones.
 const STABLE_SHARE: f64 = 0.6;
 /// Length of a block times the fastest rate above which the implicit method is tried.
@@ -40,11 +35,6 @@ const SUSPECTED_REACH: f64 = 0.3;
 /// Length of usual blocks and explicit steps times the fastest rate, at least. Steps that began to grow before a trial are no
 /// measure of those that a trial is instead of.
 const USUAL_REACH: f64 = 0.8;
-/// Cost of an evaluation of an implicit step, with its share of the linear algebra, in explicit steps: without its part for
-/// each position, and that part. As measured with three to twelve positions, where the rates are cheap.
-const IMPLICIT_COST: [f64; 2] = [0.08, 0.033];
-/// The same where the rates are not cheap.
-const IMPLICIT_COST_OF_COSTLY_RATES: [f64; 2] = [0.1, 0.01];
 /// Weight of the last explicit step in their usual length.
 const WEIGHT: f64 = 0.125;
 /// Cost of an explicit step in blocks, as measured with one clearance in a pin, rod rigid and flexible.
@@ -67,6 +57,32 @@ const MIN_PAID_STEPS: u32 = 10;
 /// The golden ratio less 1.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
+/// When implicit steps are tried in place of explicit ones, and what they are compared with.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms {
+    /// Stability bound of the explicit method: product of step and fastest rate.
+    pub bound: f64,
+    /// Product of explicit step and fastest rate above which stiffness is suspected.
+    pub suspected: f64,
+    /// The explicit steps that implicit ones are instead of have at least this product.
+    pub least_reach: f64,
+    /// Cost of an evaluation of an implicit step, with its share of the linear algebra, in explicit steps.
+    pub cost: f64,
+}
+
+impl Terms {
+    /// The terms of a system with `positions` positions. The costs are as measured with three to twelve positions.
+    pub fn new(bound: f64, positions: usize, rates_are_cheap: bool) -> Self {
+        let positions = positions as f64;
+        if rates_are_cheap {
+            // What two stages reveal is less than the bound where the fastest motion is at rest.
+            Self { bound, suspected: 0.3 * bound, least_reach: bound, cost: 0.08 + 0.033 * positions }
+        } else {
+            Self { bound, suspected: 0.1 * bound, least_reach: USUAL_REACH, cost: 0.1 + 0.01 * positions }
+        }
+    }
+}
+
 /// The kind of the next step and the evidence for a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StiffnessSwitch {
@@ -82,7 +98,7 @@ pub struct StiffnessSwitch {
     pub block: f64,
     /// Usual length of the steps before a series of implicit steps times the fastest rate there; 0 if it is not known yet.
     pub reach: f64,
-    /// [s] Usual length of the last explicit steps; 0 if there were none, or where the rates are cheap.
+    /// [s] Usual length of the last explicit steps; 0 if there were none.
     pub explicit: f64,
 }
 
@@ -123,22 +139,21 @@ impl StiffnessSwitch {
     }
 
     /// Records an accepted explicit step of length `h` [s]. `stiffness` computes its length times the fastest rate and is called
-    /// only when a check is due; `bound` is the stability bound of the method, `cheap` whether the rates are.
-    pub fn after_explicit(&mut self, h: f64, bound: f64, cheap: bool, stiffness: impl FnOnce() -> f64) {
-        let suspected = self.note_explicit(h, cheap);
-        if self.check_is_due(self.check_interval) && stiffness() > suspected * bound {
+    /// only when a check is due.
+    pub fn after_explicit(&mut self, h: f64, terms: &Terms, stiffness: impl FnOnce() -> f64) {
+        self.note_explicit(h);
+        if self.check_is_due(self.check_interval) && stiffness() > terms.suspected {
             *self = Self { kind: MethodKind::Implicit, reach: 0.0, ..*self };
         }
     }
 
     /// Records an accepted explicit step of length `h` [s] in a system that suits blocks; otherwise as
     /// [`after_explicit`](Self::after_explicit).
-    pub fn after_explicit_beside_blocks(&mut self, h: f64, bound: f64, cheap: bool, stiffness: impl FnOnce() -> f64) {
-        let suspected = self.note_explicit(h, cheap);
+    pub fn after_explicit_beside_blocks(&mut self, h: f64, terms: &Terms, stiffness: impl FnOnce() -> f64) {
+        self.note_explicit(h);
         self.enter(h / (EXPLICIT_COST_IN_BLOCKS * self.block));
         if self.check_is_due(EXPLICIT_SERIES) {
-            let is_stiff = stiffness() > suspected * bound;
-            *self = if is_stiff {
+            *self = if stiffness() > terms.suspected {
                 Self { kind: MethodKind::Implicit, explicit: self.explicit, ..Self::NON_STIFF }
             } else {
                 Self::BLOCKS
@@ -148,15 +163,9 @@ impl StiffnessSwitch {
         }
     }
 
-    /// Enters an explicit step of length `h` [s] into their usual length, unless rates are cheap. Returns the share of the
-    /// stability bound above which stiffness is suspected.
-    fn note_explicit(&mut self, h: f64, cheap: bool) -> f64 {
-        if cheap {
-            self.explicit = 0.0;
-            return SUSPECTED_SHARE;
-        }
+    /// Enters an explicit step of length `h` [s] into their usual length.
+    fn note_explicit(&mut self, h: f64) {
         self.explicit = if self.explicit > 0.0 { self.explicit + WEIGHT * (h - self.explicit) } else { h };
-        SUSPECTED_SHARE_OF_COSTLY_RATES
     }
 
     /// Enters a step that is worth `gain` steps of another kind into the balance.
@@ -174,13 +183,13 @@ impl StiffnessSwitch {
         now
     }
 
-    /// Records an accepted implicit step of length `h` [s], which took the `work`. `cost` is that of each of its evaluations
-    /// in explicit steps, `fastest` the fastest rate [1/s]. Returns the upper bound of the next step [s] if that is to be
-    /// explicit.
-    pub fn after_implicit(&mut self, h: f64, work: StepWork, cost: f64, bound: f64, fastest: f64) -> Option<f64> {
+    /// Records an accepted implicit step of length `h` [s], which took the `work`; `fastest` is the fastest rate [1/s]. Returns
+    /// the upper bound of the next step [s] if that is to be explicit.
+    pub fn after_implicit(&mut self, h: f64, work: StepWork, terms: &Terms, fastest: f64) -> Option<f64> {
+        let Terms { bound, least_reach, cost, .. } = *terms;
         self.steps = self.steps.saturating_add(1);
         if self.reach == 0.0 {
-            let usual = (self.explicit * fastest).clamp(USUAL_REACH, bound);
+            let usual = (self.explicit * fastest).clamp(least_reach, bound);
             self.reach = if self.explicit > 0.0 { usual } else { bound };
         }
         let of_other = if self.block > 0.0 { EXPLICIT_COST_IN_BLOCKS } else { 1.0 };
@@ -212,12 +221,6 @@ impl StiffnessSwitch {
             ..next
         };
     }
-}
-
-/// Cost in explicit steps of each evaluation of an implicit step, of a system with `positions` positions.
-pub fn implicit_cost(positions: usize, rates_are_cheap: bool) -> f64 {
-    let [alone, per_position] = if rates_are_cheap { IMPLICIT_COST } else { IMPLICIT_COST_OF_COSTLY_RATES };
-    alone + per_position * positions as f64
 }
 
 /// [1/s] Estimate of the fastest rate of the motion near a state, from its Jacobian by power iteration on a vector
@@ -258,6 +261,9 @@ mod tests {
 
     const EXTENT: StateLayout = StateLayout::second_order(4);
 
+    const COSTLY: Terms = Terms { bound: 4.6, suspected: 0.46, least_reach: USUAL_REACH, cost: 0.146 };
+    const CHEAP: Terms = Terms { suspected: 1.38, least_reach: 4.6, ..COSTLY };
+
     fn of(elastic: [[f64; 2]; 2], damped: [[f64; 2]; 2], scales: [f64; 4]) -> f64 {
         let mut jacobian = Jacobian::new(4);
         for i in 0..2 {
@@ -294,10 +300,10 @@ mod tests {
         let mut switch = StiffnessSwitch::NON_STIFF;
         let trial = |switch: &mut StiffnessSwitch| {
             let steps = (1..2000).find(|_| {
-                switch.after_explicit(9e-7, 4.6, false, || 4.0);
+                switch.after_explicit(9e-7, &COSTLY, || 4.0);
                 switch.kind == MethodKind::Implicit
             });
-            let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), 0.146, 4.6, 4e6).is_some());
+            let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), &COSTLY, 4e6).is_some());
             (steps, ends)
         };
         for check_interval in [32, 64, 128, 256, 256] {
@@ -308,7 +314,7 @@ mod tests {
         switch.kind = MethodKind::Implicit;
         let ends = (0..50).find(|step| {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
-            switch.after_implicit(h, work(h), 0.146, 4.6, 4e6).is_some()
+            switch.after_implicit(h, work(h), &COSTLY, 4e6).is_some()
         });
         assert_eq!((ends, switch), (Some(28), StiffnessSwitch { explicit: 9e-7, ..StiffnessSwitch::NON_STIFF }));
     }
@@ -317,7 +323,7 @@ mod tests {
     fn a_trial_goes_on_while_its_steps_grow_and_ends_sooner_where_attempts_fail() {
         let steps_of_trial = |work: StepWork| {
             let mut switch = StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::NON_STIFF };
-            (1..100).find(|_| switch.after_implicit(9e-6, work, 0.146, 4.6, 1e6).is_some())
+            (1..100).find(|_| switch.after_implicit(9e-6, work, &COSTLY, 1e6).is_some())
         };
         assert_eq!(steps_of_trial(StepWork { evaluations: 15, next: 9e-6 }), Some(19));
         assert_eq!(steps_of_trial(StepWork { evaluations: 60, next: 9e-6 }), Some(3));
@@ -330,9 +336,9 @@ mod tests {
         // A step of 4/ω costs 15·0.146 explicit steps: it pays if these are shorter than 1.83/ω.
         let last = |explicit: f64| {
             let mut switch = StiffnessSwitch::NON_STIFF;
-            (0..32).for_each(|_| switch.after_explicit(explicit, 4.6, false, || 1.0));
+            (0..32).for_each(|_| switch.after_explicit(explicit, &COSTLY, || 1.0));
             assert_eq!(switch.kind, MethodKind::Implicit);
-            (1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), 0.146, 4.6, 1e6).is_some())
+            (1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), &COSTLY, 1e6).is_some())
         };
         assert_eq!(last(1e-6), None);
         assert_eq!(last(2e-6), Some(24)); // 2/(1 − 1.83/2) steps
@@ -341,20 +347,22 @@ mod tests {
         assert_eq!(last(1e-9), None);
         // Cheap rates: steps of 1/ω are not suspected, and those of 2/ω are taken for steps at the bound.
         let mut switch = StiffnessSwitch::NON_STIFF;
-        (0..256).for_each(|_| switch.after_explicit(1e-6, 4.6, true, || 1.0));
-        assert_eq!(switch, StiffnessSwitch::NON_STIFF);
-        (0..32).for_each(|_| switch.after_explicit(2e-6, 4.6, true, || 2.0));
+        (0..256).for_each(|_| switch.after_explicit(1e-6, &CHEAP, || 1.0));
+        assert_eq!(switch, StiffnessSwitch { explicit: 1e-6, ..StiffnessSwitch::NON_STIFF });
+        (0..32).for_each(|_| switch.after_explicit(2e-6, &CHEAP, || 2.0));
         assert_eq!(switch.kind, MethodKind::Implicit);
-        assert_eq!((1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), 0.146, 4.6, 1e6).is_some()), Some(4));
+        assert_eq!((1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), &CHEAP, 1e6).is_some()), Some(4));
     }
 
     #[test]
     fn steps_far_within_stability_are_never_tried() {
-        let mut switch = StiffnessSwitch::NON_STIFF;
-        for _ in 0..1000 {
-            switch.after_explicit(1e-6, 4.6, false, || 0.4);
+        for (terms, stiffness) in [(CHEAP, 1.0), (COSTLY, 0.4)] {
+            let mut switch = StiffnessSwitch::NON_STIFF;
+            for _ in 0..1000 {
+                switch.after_explicit(1e-6, &terms, || stiffness);
+            }
+            assert_eq!(switch.kind, MethodKind::Explicit);
         }
-        assert_eq!(switch.kind, MethodKind::Explicit);
     }
 
     #[test]
@@ -367,9 +375,9 @@ mod tests {
                 steps[switch.kind as usize] += 1;
                 match switch.kind {
                     MethodKind::Block => switch.after_block(1e-6, || 1e6),
-                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, 4.6, false, || 0.4),
+                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, &CHEAP, || 1.0),
                     MethodKind::Implicit => {
-                        switch.after_implicit(implicit, work(implicit), 0.146, 4.6, 1e6);
+                        switch.after_implicit(implicit, work(implicit), &CHEAP, 1e6);
                     }
                 }
                 assert!(switch.is_sound());
@@ -386,7 +394,7 @@ mod tests {
         assert_eq!(trial(&mut switch, 3e-6, 0.2e-6), [32, 3, 256]);
         let mut switch = StiffnessSwitch { kind: MethodKind::Explicit, block: 1e-6, ..StiffnessSwitch::BLOCKS };
         while switch.kind == MethodKind::Explicit {
-            switch.after_explicit_beside_blocks(2e-6, 4.6, false, || 4.0);
+            switch.after_explicit_beside_blocks(2e-6, &COSTLY, || 4.0);
         }
         assert_eq!(
             switch,
