@@ -20,8 +20,9 @@ use crate::simulation::observation::observe;
 use crate::simulation::start::pose;
 use std::cell::OnceCell;
 
-/// Steps of a difference, in steps h, with their weights.
-const CENTRAL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+/// Steps of a difference, in steps h, with their weights. Opposite ones follow each other, so that the sum is exactly 0
+/// where nothing changes.
+const CENTRAL: [(f64, f64); 4] = [(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)];
 /// The longest step as a share of a parameter …
 const LONGEST: f64 = 1e-3;
 /// … or, if it is 0, of its range.
