@@ -1,8 +1,12 @@
 //! The variational equation in a part of an accepted step.
 //!
 //! Collocation at Gauss nodes has order 8 and is A-stable: one method serves smooth and stiff motions. The stages are
-//! found by fixed-point iteration, and by elimination where that does not contract. A part is halved until the
-//! coefficients of its Legendre polynomials, extrapolated geometrically, promise the tolerance.
+//! found by fixed-point iteration, and by elimination where that does not contract or where there are many directions. A
+//! part is halved until the coefficients of its Legendre polynomials, extrapolated geometrically, promise the tolerance.
+//!
+//! Rates of positions are velocities, so that only the other rows of the Jacobian, those of forced states, are
+//! multiplied, and only their stages are unknowns: with v at the start and the lengths L_i of the part in time at the
+//! nodes, the slopes of positions are L_i·(v + Σ_j a_ij·K_j).
 //!
 //! Contact forces begin and end like a power of the penetration with an odd half in the exponent, so that the Jacobian
 //! has a square root there. Where a step begins or ends with an event, time runs as the square of the variable of
@@ -11,9 +15,11 @@
 use super::legendre::{Legendre, NODES, SHARES, WEIGHTS};
 use super::variational::Variational;
 use crate::integrator::dense_output::{Correction, Step};
-use crate::integrator::{Discontinuities, Jacobian, MAX_STATES, root};
+use crate::integrator::linear::Factors;
+use crate::integrator::{Discontinuities, Jacobian, MAX_STATES, StateLayout, root};
 use crate::math;
-use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut};
+use nalgebra::DMatrix;
+use std::array::from_fn;
 
 /// Most halvings of a part.
 const MAX_HALVINGS: u32 = 12;
@@ -23,6 +29,8 @@ const LEAST_GAIN: f64 = 0.25;
 const MAX_STALLS: u32 = 2;
 /// Most iterations before the stages are found by elimination.
 const MAX_ITERATIONS: usize = 60;
+/// Most directions whose stages are found by iteration: it takes its time for each, a factorisation once for all.
+const MAX_ITERATED: usize = 2;
 /// Largest contraction of an iteration that goes on.
 const SLOWEST: f64 = 0.8;
 /// Error of an iteration, as a share of the tolerance.
@@ -94,9 +102,16 @@ pub struct Flow {
     legendre: Legendre,
     jacobian: Jacobian,
     correction: Correction,
-    /// J and F at the nodes, per variable of integration.
+    /// Length of a part in time at the nodes, per variable of integration.
+    lengths: [f64; NODES],
+    /// J and F at the nodes, times these lengths: the rows of the forced states.
     turning: [Vec<f64>; NODES],
     pushing: [Vec<f64>; NODES],
+    /// The matrix of the stages of forced states, which are the unknowns, one node after the other; by columns.
+    matrix: Vec<f64>,
+    factors: Factors,
+    /// The unknowns of one direction.
+    unknowns: Vec<f64>,
     /// Slopes at the nodes.
     stages: [Vec<f64>; NODES],
     /// Directions at the start of a part.
@@ -130,17 +145,21 @@ pub struct Path<'a, D> {
 }
 
 impl Flow {
-    /// Memory for a system with `states` states and `columns` directions.
-    pub fn new(states: usize, columns: usize) -> Self {
-        let zeros = || vec![0.0; states * columns];
-        let all = || std::array::from_fn(|_| zeros());
+    /// Memory for a system with the states of `layout` and for `columns` directions.
+    pub fn new(layout: StateLayout, columns: usize) -> Self {
+        let StateLayout { positions, states, .. } = layout;
+        let (forced, zeros) = (states - positions, || vec![0.0; states * columns]);
         Self {
             legendre: Legendre::new(),
             jacobian: Jacobian::by_states(states),
             correction: Correction::new(states),
-            turning: std::array::from_fn(|_| vec![0.0; states * states]),
-            pushing: all(),
-            stages: all(),
+            lengths: [0.0; NODES],
+            turning: from_fn(|_| vec![0.0; forced * states]),
+            pushing: from_fn(|_| vec![0.0; forced * columns]),
+            matrix: vec![0.0; (NODES * forced).pow(2)],
+            factors: Factors::with_capacity(NODES * forced),
+            unknowns: vec![0.0; NODES * forced],
+            stages: from_fn(|_| zeros()),
             before: zeros(),
             inner: zeros(),
             found: zeros(),
@@ -158,12 +177,13 @@ impl Flow {
         };
         self.moving = (0..tangents.ncols()).filter(|&column| moves(column)).collect();
         self.least = self.moving.iter().map(|&column| path.least[column]).collect();
-        let length = self.moving.len() * path.step.layout.states;
-        for matrix in [&mut self.before, &mut self.inner, &mut self.found] {
+        let StateLayout { positions, states, .. } = path.step.layout;
+        let length = self.moving.len() * states;
+        for matrix in [&mut self.before, &mut self.inner, &mut self.found].into_iter().chain(&mut self.stages) {
             matrix.resize(length, 0.0);
         }
-        for matrix in self.pushing.iter_mut().chain(&mut self.stages) {
-            matrix.resize(length, 0.0);
+        for matrix in &mut self.pushing {
+            matrix.resize(length - self.moving.len() * positions, 0.0);
         }
     }
 
@@ -240,8 +260,8 @@ impl Flow {
         for node in 0..NODES {
             self.evaluate(path, node, start, end, tangents);
         }
-        if !self.iterate(path) {
-            self.eliminate(n);
+        if self.moving.len() > MAX_ITERATED || !self.iterate(path) {
+            self.eliminate(path.step.layout);
         }
         self.error(path)
     }
@@ -249,16 +269,17 @@ impl Flow {
     /// J and F at one node.
     fn evaluate<D: Copy>(&mut self, path: &Path<'_, D>, node: usize, start: f64, end: f64, tangents: &DMatrix<f64>) {
         let Path { system, discrete, step, roots, parameters, .. } = *path;
-        let n = step.layout.states;
+        let StateLayout { positions: p, states: n, .. } = step.layout;
         let (share, slope) = roots.share(start + (end - start) * SHARES[node]);
         let length = (end - start) * slope * step.h;
+        self.lengths[node] = length;
         let (mut y, t) = ([0.0; MAX_STATES], step.t + share * step.h);
         let y = &mut y[..n];
         step.state(share, self.correction.coefficients(), y);
         system.system().jacobian(discrete, t, y, &mut self.jacobian);
-        for i in 0..n {
+        for i in p..n {
             for (j, slope) in self.jacobian.row(i).iter().enumerate() {
-                self.turning[node][j * n + i] = length * slope;
+                self.turning[node][j * (n - p) + i - p] = length * slope;
             }
         }
         let push = &mut self.pushing[node];
@@ -266,8 +287,8 @@ impl Flow {
         let mut slopes = [0.0; MAX_STATES];
         let slopes = &mut slopes[..n];
         let mut along = |slopes: &[f64], shares: &DMatrix<f64>, row: usize| {
-            for (place, &column) in push.chunks_exact_mut(n).zip(&self.moving) {
-                add(place, length * shares[(row, column)], slopes);
+            for (place, &column) in push.chunks_exact_mut(n - p).zip(&self.moving) {
+                add(place, length * shares[(row, column)], &slopes[p..]);
             }
         };
         for memory in 0..system.memories() {
@@ -287,11 +308,10 @@ impl Flow {
 
     /// Finds the stages by fixed-point iteration; returns whether it has converged.
     fn iterate<D: Copy>(&mut self, path: &Path<'_, D>) -> bool {
-        let n = path.step.layout.states;
-        let Self { legendre, turning, pushing, stages, before, inner, found, least, .. } = self;
-        for (stage, (turning, pushing)) in stages.iter_mut().zip(turning.iter().zip(&*pushing)) {
-            stage.copy_from_slice(pushing);
-            add_product(stage, turning, before, n);
+        let layout = path.step.layout;
+        let Self { legendre, lengths, turning, pushing, stages, before, inner, found, least, .. } = self;
+        for (node, stage) in stages.iter_mut().enumerate() {
+            write_slopes(stage, layout, lengths[node], &turning[node], &pushing[node], before);
         }
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
@@ -301,8 +321,7 @@ impl Flow {
                 for (integral, stage) in legendre.integrals[node].iter().zip(&*stages) {
                     add(inner, *integral, stage);
                 }
-                found.copy_from_slice(&pushing[node]);
-                add_product(found, &turning[node], inner, n);
+                write_slopes(found, layout, lengths[node], &turning[node], &pushing[node], inner);
                 if node == NODES - 1 {
                     // All nodes come near at the same rate.
                     add(&mut stages[node], -1.0, found);
@@ -322,28 +341,47 @@ impl Flow {
         false
     }
 
-    /// Finds the stages by elimination: K_i − J_i·Σ a_ij·K_j = J_i·v + F_i.
-    fn eliminate(&mut self, n: usize) {
-        let Self { legendre, turning, pushing, stages, before, .. } = self;
-        let columns = before.len() / n;
-        let mut matrix = DMatrix::identity(NODES * n, NODES * n);
-        let mut right = DMatrix::zeros(NODES * n, columns);
-        for i in 0..NODES {
-            let turning = DMatrixView::from_slice(&turning[i], n, n);
-            for j in 0..NODES {
-                let mut block = matrix.view_mut((i * n, j * n), (n, n));
-                block.zip_apply(&turning, |place, slope| *place -= legendre.integrals[i][j] * slope);
+    /// Finds the stages by elimination. With the columns q, v and z of J for positions, velocities and first-order states,
+    ///
+    /// K_i − J_i^(v, z)·Σ_j a_ij·K_j − J_i^q·Σ_j b_ij·K_j^v = J_i·y + J_i^q·v·Σ_j a_ij·L_j + F_i, b_ij = Σ_k a_ik·L_k·a_kj.
+    fn eliminate(&mut self, layout: StateLayout) {
+        let Self { legendre, lengths, turning, pushing, matrix, factors, unknowns, stages, before, .. } = self;
+        let StateLayout { positions: p, states: n, .. } = layout;
+        let (forced, a) = (n - p, &legendre.integrals);
+        let size = NODES * forced;
+        let twice = a.map(|row| from_fn::<f64, NODES, _>(|j| (0..NODES).map(|k| row[k] * lengths[k] * a[k][j]).sum()));
+        let sums = a.map(|row| row.iter().zip(&*lengths).map(|(share, length)| share * length).sum::<f64>());
+        for (place, column) in matrix.chunks_exact_mut(size).enumerate() {
+            let (j, state) = (place / forced, place % forced);
+            for (i, rows) in column.chunks_exact_mut(forced).enumerate() {
+                let slopes = |state: usize| &turning[i][state * forced..][..forced];
+                rows.fill(0.0);
+                add(rows, -a[i][j], slopes(p + state));
+                if state < p {
+                    add(rows, -twice[i][j], slopes(state));
+                }
             }
-            let mut rows = right.rows_mut(i * n, n);
-            rows.copy_from(&DMatrixView::from_slice(&pushing[i], n, columns));
-            rows.gemm(1.0, &turning, &DMatrixView::from_slice(before, n, columns), 1.0);
+            column[place] += 1.0;
         }
-        // A singular matrix has no solution; the part is then halved.
-        if !matrix.lu().solve_mut(&mut right) {
-            right.fill(f64::INFINITY);
-        }
-        for (i, stage) in stages.iter_mut().enumerate() {
-            DMatrixViewMut::from_slice(stage, n, columns).copy_from(&right.rows(i * n, n));
+        factors.of(size, |row, column| matrix[column * size + row]);
+        for (direction, start) in before.chunks_exact(n).enumerate() {
+            for (i, rows) in unknowns.chunks_exact_mut(forced).enumerate() {
+                rows.copy_from_slice(&pushing[i][direction * forced..][..forced]);
+                add_product(rows, &turning[i], start);
+                for (slopes, speed) in turning[i].chunks_exact(forced).zip(&start[p..2 * p]) {
+                    add(rows, sums[i] * speed, slopes);
+                }
+            }
+            factors.solve(unknowns);
+            for (i, rows) in unknowns.chunks_exact(forced).enumerate() {
+                let (moving, driven) = stages[i][direction * n..][..n].split_at_mut(p);
+                driven.copy_from_slice(rows);
+                moving.copy_from_slice(&start[p..2 * p]);
+                for (share, rows) in a[i].iter().zip(unknowns.chunks_exact(forced)) {
+                    add(moving, *share, rows);
+                }
+                moving.iter_mut().for_each(|slope| *slope *= lengths[i]);
+            }
         }
     }
 
@@ -374,12 +412,29 @@ fn add(sum: &mut [f64], share: f64, more: &[f64]) {
     sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += share * more);
 }
 
-/// Adds to `sum` the product of a square matrix of `n` rows with `directions`.
-fn add_product(sum: &mut [f64], matrix: &[f64], directions: &[f64], n: usize) {
-    for (sum, direction) in sum.chunks_exact_mut(n).zip(directions.chunks_exact(n)) {
-        for (column, share) in matrix.chunks_exact(n).zip(direction) {
-            add(sum, *share, column);
-        }
+/// Adds to `sum` the product of a matrix by columns, each as long as `sum`, with a direction.
+fn add_product(sum: &mut [f64], matrix: &[f64], direction: &[f64]) {
+    for (column, share) in matrix.chunks_exact(sum.len()).zip(direction) {
+        add(sum, *share, column);
+    }
+}
+
+/// Writes the slopes of directions at a node, where a part has this length in time, J is `turning` and F is `pushing`.
+fn write_slopes(
+    slopes: &mut [f64],
+    layout: StateLayout,
+    length: f64,
+    turning: &[f64],
+    pushing: &[f64],
+    directions: &[f64],
+) {
+    let StateLayout { positions: p, states: n, .. } = layout;
+    let columns = slopes.chunks_exact_mut(n).zip(directions.chunks_exact(n)).zip(pushing.chunks_exact(n - p));
+    for ((slopes, direction), push) in columns {
+        let (moving, forced) = slopes.split_at_mut(p);
+        moving.iter_mut().zip(&direction[p..]).for_each(|(slope, speed)| *slope = length * speed);
+        forced.copy_from_slice(push);
+        add_product(forced, turning, direction);
     }
 }
 
