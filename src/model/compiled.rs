@@ -12,7 +12,9 @@
 //! The loop over the stages of a step is compiled together with the equations, so that the results of a stage do not
 //! pass through memory in other portions than they are read in.
 
-use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism};
+use super::dynamics::Accelerations;
+use super::loads::Loads;
+use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism, evaluation};
 use super::rod::{
     ALL_FUNCTIONS, ALL_MODES, Chord, CompiledCounts, FixedCounts, Inertia, ROWS_WITH_MODES, RodCapacity, RuntimeCounts,
 };
@@ -48,8 +50,8 @@ pub struct Compiled {
     pub stages: Stages,
 }
 
-/// The code of a constant structure. A closed loop is evaluated between its few steps, too, at communication points;
-/// the others evaluate mostly stages.
+/// The code of a constant structure. A closed loop is evaluated between its few steps, too, at communication points; the
+/// others evaluate mostly stages, and those with one play, whose stages are short, the ends of steps.
 macro_rules! code {
     ($structure:ident) => {
         Compiled {
@@ -64,7 +66,7 @@ macro_rules! code {
             } else {
                 Mechanism::rates_of_eight
             },
-            ends: if const { $structure.closed } {
+            ends: if const { suits_blocks(&$structure) } {
                 |mechanism, conditions, t, y, rates, event_functions| {
                     mechanism.rates_and_event_functions(&$structure, conditions, t, y, rates, event_functions);
                 }
@@ -248,7 +250,7 @@ impl Mechanism {
     #[inline(never)]
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
-            None => self.drop_rigid_evaluation(conditions, t, y, rates),
+            None => self.drop_rigid_motion(conditions, t, y, rates),
             Some(rod) => self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates),
         }
     }
@@ -314,13 +316,26 @@ impl Mechanism {
         y: &[Tangent],
         rates: &mut [Tangent],
     ) -> Evaluation<Tangent> {
-        self.rates_and_evaluation(&self.structure, conditions, t, y, rates)
+        let (configuration, loads, accelerations) = self.rigid_tangent_motion(conditions, t, y, rates);
+        evaluation(&self.structure, configuration, loads, &accelerations)
     }
 
-    /// Writes the rates and discards the evaluation, which leaves the stack.
+    /// The motion with a rigid rod and derivatives, compiled once for evaluations and for rates alone.
     #[inline(never)]
-    fn drop_rigid_evaluation(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
-        self.rigid_tangent_evaluation(conditions, t, y, rates);
+    fn rigid_tangent_motion(
+        &self,
+        conditions: &Conditions,
+        t: Tangent,
+        y: &[Tangent],
+        rates: &mut [Tangent],
+    ) -> (Configuration<Tangent>, Loads<Tangent>, Accelerations<Tangent>) {
+        self.motion(&self.structure, conditions, t, y, rates)
+    }
+
+    /// Writes the rates and discards the motion, which leaves the stack.
+    #[inline(never)]
+    fn drop_rigid_motion(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
+        self.rigid_tangent_motion(conditions, t, y, rates);
     }
 
     /// The motion with a flexible rod whose counts are known at compile time; writes the rates. `None` if the rod is rigid.

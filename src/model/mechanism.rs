@@ -145,7 +145,7 @@ impl Mechanism {
 
     /// Writes the rates and returns the configuration, loads and accelerations.
     #[inline(always)]
-    fn motion<R: Scalar>(
+    pub(super) fn motion<R: Scalar>(
         &self,
         of: &Structure,
         conditions: &Conditions,
