@@ -6,8 +6,8 @@
 //! memory. For the structures listed here, those of the usual studies, the same source is therefore compiled again with the
 //! structure as a constant. `cargo bench --bench compiled` measures the saving in a stage of a step: about a tenth with
 //! four clearances, half with one, and half with a flexible rod. A structure with a smaller saving does not belong here.
-//! What is specialised are the stages of a step, where the time goes; code for eight states only where steps in blocks are
-//! usual.
+//! What is specialised are the stages of a step, where the time goes; code for eight states and the end of a step only where
+//! steps in blocks are usual, whose stages are short.
 //!
 //! The loop over the stages of a step is compiled together with the equations, so that the results of a stage do not
 //! pass through memory in other portions than they are read in.
@@ -51,7 +51,7 @@ pub struct Compiled {
 }
 
 /// The code of a constant structure. A closed loop is evaluated between its few steps, too, at communication points; the
-/// others evaluate mostly stages, and those with one play, whose stages are short, the ends of steps.
+/// others evaluate mostly stages.
 macro_rules! code {
     ($structure:ident) => {
         Compiled {
