@@ -107,10 +107,9 @@ pub struct Flow {
     /// J and F at the nodes, times these lengths: the rows of the forced states.
     turning: [Vec<f64>; NODES],
     pushing: [Vec<f64>; NODES],
-    /// The matrix of the stages of forced states, which are the unknowns, one node after the other; by columns.
-    matrix: Vec<f64>,
+    /// Factors of the equations for the stages of forced states, one node after the other.
     factors: Factors,
-    /// The unknowns of one direction.
+    /// These stages of one direction.
     unknowns: Vec<f64>,
     /// Slopes at the nodes.
     stages: [Vec<f64>; NODES],
@@ -156,7 +155,6 @@ impl Flow {
             lengths: [0.0; NODES],
             turning: from_fn(|_| vec![0.0; forced * states]),
             pushing: from_fn(|_| vec![0.0; forced * columns]),
-            matrix: vec![0.0; (NODES * forced).pow(2)],
             factors: Factors::with_capacity(NODES * forced),
             unknowns: vec![0.0; NODES * forced],
             stages: from_fn(|_| zeros()),
@@ -345,25 +343,17 @@ impl Flow {
     ///
     /// K_i − J_i^(v, z)·Σ_j a_ij·K_j − J_i^q·Σ_j b_ij·K_j^v = J_i·y + J_i^q·v·Σ_j a_ij·L_j + F_i, b_ij = Σ_k a_ik·L_k·a_kj.
     fn eliminate(&mut self, layout: StateLayout) {
-        let Self { legendre, lengths, turning, pushing, matrix, factors, unknowns, stages, before, .. } = self;
+        let Self { legendre, lengths, turning, pushing, factors, unknowns, stages, before, .. } = self;
         let StateLayout { positions: p, states: n, .. } = layout;
         let (forced, a) = (n - p, &legendre.integrals);
-        let size = NODES * forced;
         let twice = a.map(|row| from_fn::<f64, NODES, _>(|j| (0..NODES).map(|k| row[k] * lengths[k] * a[k][j]).sum()));
         let sums = a.map(|row| row.iter().zip(&*lengths).map(|(share, length)| share * length).sum::<f64>());
-        for (place, column) in matrix.chunks_exact_mut(size).enumerate() {
-            let (j, state) = (place / forced, place % forced);
-            for (i, rows) in column.chunks_exact_mut(forced).enumerate() {
-                let slopes = |state: usize| &turning[i][state * forced..][..forced];
-                rows.fill(0.0);
-                add(rows, -a[i][j], slopes(p + state));
-                if state < p {
-                    add(rows, -twice[i][j], slopes(state));
-                }
-            }
-            column[place] += 1.0;
-        }
-        factors.of(size, |row, column| matrix[column * size + row]);
+        factors.of(NODES * forced, |row, column| {
+            let ((i, row_at_node), (j, state)) = ((row / forced, row % forced), (column / forced, column % forced));
+            let slope = |state: usize| turning[i][state * forced + row_at_node];
+            let through_position = if state < p { twice[i][j] * slope(state) } else { 0.0 };
+            f64::from(u8::from(row == column)) - a[i][j] * slope(p + state) - through_position
+        });
         for (direction, start) in before.chunks_exact(n).enumerate() {
             for (i, rows) in unknowns.chunks_exact_mut(forced).enumerate() {
                 rows.copy_from_slice(&pushing[i][direction * forced..][..forced]);
