@@ -125,23 +125,21 @@ impl<R: Real> Equations<R> {
         if of.weighs[CRANK] {
             h1 = r1.apply(bodies.moment[CRANK]);
             q1 = h1.x.multiply_add(gravity.y, q1);
-            if of.rare_loads && of.crank != Link::After {
+            if of.crank != Link::After {
                 q1 = h1.y.multiply_add(-gravity.x, q1);
             }
         }
         if of.weighs[ROD] {
             h2 = r2.apply(bodies.moment[ROD]);
             q2 = h2.x.multiply_add(gravity.y, q2);
-            if of.rare_loads && of.rod != Link::After {
+            if of.rod != Link::After {
                 q2 = h2.y.multiply_add(-gravity.x, q2);
             }
         }
         if of.weighs[SLIDER] {
             let h3: Vec2<R> = r3.apply(bodies.moment[SLIDER]);
             q3 = h3.x.multiply_add(gravity.y, q3);
-            if of.rare_loads {
-                q3 = h3.y.multiply_add(-gravity.x, q3);
-            }
+            q3 = h3.y.multiply_add(-gravity.x, q3);
         }
         Self { m, q1, q2, q3, h1, h2 }
     }
@@ -239,10 +237,7 @@ pub fn accelerate<R: Real>(
                 along = h1.y.multiply_add(a1, along);
             }
         }
-        roots.slider.x = along * per_mass;
-        if of.rare_loads {
-            roots.slider.x = roots.slider.x + gravity.x;
-        }
+        roots.slider.x = along.multiply_add(per_mass, R::constant(gravity.x));
         Accelerations { roots, angle }
     } else if of.closed {
         Accelerations { roots, angle: m.solve_closed(of, closing, [q1, q2]) }

@@ -86,7 +86,7 @@ impl Mechanism {
         let (topology, rod) = (Topology::of(scene), Rod::new(scene));
         let (clearances, gravity) = (Clearances::new(scene), free_fall(scene));
         let load_offset = scene.slider.load_offset;
-        let rare_loads = !clearances.films.is_empty() || gravity.x != 0.0 || load_offset != 0.0;
+        let rare_loads = !clearances.films.is_empty() || load_offset != 0.0;
         let structure = Structure { rare_loads, ..Structure::with_rod(topology, rod.is_some()) };
         let bodies = bodies(scene);
         Self {

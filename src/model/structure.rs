@@ -176,8 +176,7 @@ pub struct Structure {
     pub weighs: [bool; 3],
     /// For the pairs crank–rod, rod–slider and crank–slider, whether the angles are coupled in the mass matrix.
     pub coupled: [bool; 3],
-    /// Whether there is oil, gravity along the guide or a load beside the slider's pin. The code of constant structures
-    /// has none of them.
+    /// Whether there is oil or a load beside the slider's pin. The code of constant structures has neither.
     pub rare_loads: bool,
 }
 
