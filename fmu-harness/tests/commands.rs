@@ -131,16 +131,17 @@ fn the_page_has_a_section_for_each_effect_that_the_scene_calls_for() {
 #[test]
 fn a_row_without_numbers_is_told_under_the_table_and_fails_the_command() {
     let folder = tempfile::tempdir().expect("a temporary directory");
-    // A crank that must pass where its rod stands across the guide.
+    // A driven crank must pass where its rod, as long as the crank, stands across the guide.
     let scene = folder.path().join("stuck.toml");
-    let text = std::fs::read_to_string(directory().join("press.toml")).expect("a scene");
-    std::fs::write(&scene, text.replace("length = \"500 mm\"\nmass = 60", "length = \"15 mm\"\nmass = 60"))
-        .expect("written");
+    let text = std::fs::read_to_string(directory().join("wornpin.toml")).expect("a scene");
+    let stuck = text.replace("[rod]\nlength = \"120 mm\"", "[rod]\nlength = \"50 mm\"");
+    assert_ne!(stuck, text, "the rod has another length");
+    std::fs::write(&scene, stuck).expect("written");
     let scene = scene.display().to_string();
     let arguments = ["accuracy", "--scene", &scene, "--transient", "0", "--turns", "1"];
     let found = wrong(&arguments, folder.path()).expect("some of its mechanisms cannot go round");
     assert!(found.contains("none has no numbers: none: "), "{found}");
-    assert!(found.contains("error: ") && found.contains("of the rows above"), "{found}");
+    assert!(found.contains("error: ") && found.contains("1 of the rows above has no numbers"), "{found}");
 }
 
 #[test]
@@ -199,7 +200,7 @@ mod peers {
     }
 
     /// A folder of programs that stand before those of the machine: no C interface is built, and there is no Python with
-    /// packages. Of the competitors none is left, whatever is installed.
+    /// the competitors' packages. None of them is left, whatever is installed.
     fn without_competitors(folder: &Path) -> Command {
         let write = |name: &str, refused: &str, real: &str| {
             let text = format!(
@@ -211,7 +212,7 @@ mod peers {
         };
         let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
         write("cargo", "slidercrank-equations", &format!("'{cargo}'"));
-        write("python3", "environment.py", "python3");
+        write("python3", "peers.txt", "python3");
         let path = std::env::var("PATH").expect("a path");
         let mut command = program();
         command.env("CARGO", folder.join("cargo")).env("PATH", format!("{}:{path}", folder.display()));

@@ -1,6 +1,6 @@
 //! The program, from outside.
 
-use crate::workshop::Workshop;
+use super::workshop::Workshop;
 use fmu_harness::trajectory::Trajectory;
 use std::fs;
 use std::process::{Command, Output};

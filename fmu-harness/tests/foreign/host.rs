@@ -1,6 +1,6 @@
 //! The host and the run, from inside.
 
-use crate::workshop::{Workshop, XML};
+use super::workshop::{Workshop, XML};
 use fmu_harness::host::{Fmu, Kind, PLATFORM, Setting};
 use fmu_harness::inputs::Input;
 use fmu_harness::package::archive::Part;

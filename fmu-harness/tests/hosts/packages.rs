@@ -1,11 +1,11 @@
 //! All shipped scenes as FMUs, the press with its companions as an SSP package, and a run of one scene by the harness
 //! itself, made once for all tests.
 
-use crate::mechanisms::packages;
-use crate::python;
+use super::mechanisms::packages;
+use super::python;
 use anyhow::Result;
 use fmu_harness::host::Fmu;
-use fmu_harness::package::{Package, Stock, Version, build::workspace};
+use fmu_harness::package::{Stock, Version, build::workspace};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::{Scenario, names};
 use fmu_harness::ssp::{PRESS, package as package_ssp};
@@ -29,13 +29,14 @@ pub fn directory() -> &'static Path {
     static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
     DIRECTORY.get_or_init(|| {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmus");
+        let stock = Stock::build().expect("the libraries");
         for scene in names(&workspace().join("fmu-harness").join("scenes")) {
-            if let Err(error) = package(&scene, &directory) {
+            if let Err(error) = package(&stock, &scene, &directory) {
                 eprintln!("{scene} cannot be packaged: {error:#}");
             }
         }
         for (version, folder) in MECHANISMS {
-            if let Err(error) = mechanisms(version, &directory.join(folder)) {
+            if let Err(error) = mechanisms(&stock, version, &directory.join(folder)) {
                 eprintln!("the mechanisms cannot be packaged: {error:#}");
             }
         }
@@ -44,11 +45,13 @@ pub fn directory() -> &'static Path {
             (RUN, Version::Fmi3WithoutClocks, "3-without-clocks"),
             (CORNERS, Version::Fmi3, "3"),
         ] {
-            if let Err(error) = package_for_fmi3(scene, version, &directory.join(format!("{scene}{ending}.fmu"))) {
+            if let Err(error) =
+                package_for_fmi3(&stock, scene, version, &directory.join(format!("{scene}{ending}.fmu")))
+            {
                 eprintln!("{scene} cannot be packaged for FMI 3.0: {error:#}");
             }
         }
-        if let Err(error) = couple(&directory) {
+        if let Err(error) = couple(&stock, &directory) {
             eprintln!("{PRESS} cannot be packaged with its companions: {error:#}");
         }
         if let Err(error) = record(&directory) {
@@ -58,27 +61,27 @@ pub fn directory() -> &'static Path {
     })
 }
 
-fn package(scene: &str, directory: &Path) -> Result<()> {
-    let package = Scenario::find(scene).and_then(|scenario| Package::make(&scenario));
+fn package(stock: &Stock, scene: &str, directory: &Path) -> Result<()> {
+    let package = Scenario::find(scene).and_then(|scenario| stock.package(&scenario));
     replace(&directory.join(format!("{scene}.fmu")), |file| package?.save(file))
 }
 
 /// As portable packages, which are half as large.
-fn mechanisms(version: Version, directory: &Path) -> Result<()> {
+fn mechanisms(stock: &Stock, version: Version, directory: &Path) -> Result<()> {
     fs::create_dir_all(directory)?;
-    for (name, bytes) in packages(version, &Stock::build()?.portable()) {
+    for (name, bytes) in packages(version, &stock.clone().portable()) {
         replace(&directory.join(format!("{name}.fmu")), |file| Ok(fs::write(file, bytes?)?))?;
     }
     Ok(())
 }
 
-fn package_for_fmi3(scene: &str, version: Version, file: &Path) -> Result<()> {
-    let package = Stock::build().and_then(|stock| stock.package_for(version, &Scenario::find(scene)?));
+fn package_for_fmi3(stock: &Stock, scene: &str, version: Version, file: &Path) -> Result<()> {
+    let package = Scenario::find(scene).and_then(|scenario| stock.package_for(version, &scenario));
     replace(file, |file| package?.save(file))
 }
 
-fn couple(directory: &Path) -> Result<()> {
-    let bytes = package_ssp(&Stock::build()?, python());
+fn couple(stock: &Stock, directory: &Path) -> Result<()> {
+    let bytes = package_ssp(stock, python());
     replace(&directory.join(format!("{PRESS}.ssp")), |file| Ok(fs::write(file, bytes?)?))
 }
 

@@ -1,6 +1,6 @@
 //! What `precision` tells of FMPy is what this program finds by itself.
 
-use crate::{packages, python};
+use super::{packages, python};
 use fmu_harness::host::Fmu;
 use fmu_harness::precision::hosts::{METHOD, STEPS, TOLERANCE, measure};
 use fmu_harness::precision::ladder::Rung;

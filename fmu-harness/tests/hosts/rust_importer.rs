@@ -1,7 +1,7 @@
 //! fmi-rs, an importer written in Rust: its validator, and its loops of co-simulation and model exchange.
 #![allow(clippy::arc_with_non_send_sync, reason = "fmi-rs takes its recorder as an Arc")]
 
-use crate::packages::{self, RUN, STEP, STOP};
+use super::packages::{self, RUN, STEP, STOP};
 use anyhow::{Context, Result, ensure};
 use fmi_rs::fmi3::LibraryKind;
 use fmi_rs::model_description::{fmi2, fmi3};

@@ -1,6 +1,6 @@
 //! The press with its drive as a package: its bytes, and the study of it from the plan to the drawing.
 
-use crate::{packages, python};
+use super::{packages, python};
 use fmu_harness::package::Stock;
 use fmu_harness::report::ssp as report;
 use fmu_harness::ssp::package;

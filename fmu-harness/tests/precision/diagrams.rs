@@ -1,6 +1,6 @@
 //! Measured diagrams: references, ladders, failures.
 
-use crate::{AMPLE, diagram, point, with_subject};
+use super::{AMPLE, diagram, point, with_subject};
 use fmu_harness::precision::choice::Price;
 use fmu_harness::precision::diagram::{Budget, Diagram, Verdict};
 use fmu_harness::precision::ladder::{FIXED_STEP, Rung, methods, rungs};

@@ -1,6 +1,6 @@
 //! Figure, tables, sentence and CSV tell the same of a diagram.
 
-use crate::{diagram, point};
+use super::{diagram, point};
 use fmu_harness::precision::diagram::{Diagram, Point, Verdict};
 use fmu_harness::precision::exchange::{self, ExchangePoint};
 use fmu_harness::precision::hosts::{Found, HostPoint};

@@ -1,6 +1,6 @@
 //! Communication steps one by one.
 
-use crate::open;
+use super::open;
 use fmu_harness::inputs;
 use fmu_harness::precision::ladder::Rung;
 use fmu_harness::precision::{Lengths, Subject};

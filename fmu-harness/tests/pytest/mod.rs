@@ -1,4 +1,5 @@
 //! Files of Python tests, run by pytest in an environment that `fmu_harness::python` makes under `target/`.
+#![allow(clippy::panic, reason = "a test's way to fail")]
 
 use fmu_harness::python::{Missing, environment};
 use std::ffi::OsString;
@@ -9,6 +10,8 @@ use std::sync::OnceLock;
 
 /// The Python tests of one folder.
 pub struct Suite {
+    /// The environment's interpreter, made once, or why there is none.
+    pub python: OnceLock<Result<PathBuf, String>>,
     /// The environment: a list in `fmu-harness/python/` without its ending.
     pub environment: &'static str,
     /// The folder, in `fmu-harness/tests/`.
@@ -24,11 +27,10 @@ impl Suite {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(self.folder)
     }
 
-    /// The environment's interpreter, made once for all tests of a binary.
-    pub fn python(&self) -> &'static Path {
-        static PYTHON: OnceLock<Result<PathBuf, String>> = OnceLock::new();
-        match PYTHON.get_or_init(|| environment(self.environment, Missing::Make).map_err(|error| format!("{error:#}")))
-        {
+    /// The environment's interpreter.
+    pub fn python(&self) -> &Path {
+        let make = || environment(self.environment, Missing::Make).map_err(|error| format!("{error:#}"));
+        match self.python.get_or_init(make) {
             Ok(python) => python,
             Err(why) => panic!("no Python environment for the tests: {why}"),
         }

@@ -7,19 +7,16 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
-#[macro_use]
-#[path = "../pytest/mod.rs"]
-mod pytest;
-
-use pytest::Suite;
+use crate::pytest::Suite;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-const BROWSER: Suite = Suite {
+static BROWSER: Suite = Suite {
+    python: OnceLock::new(),
     environment: "browser",
     folder: "browser",
-    source: include_str!("main.rs"),
+    source: include_str!("mod.rs"),
     variables: || vec![("SLIDERCRANK_PAGES", pages().into())],
 };
 

@@ -10,20 +10,19 @@ mod mechanisms;
 mod packages;
 mod price;
 mod rust_importer;
-#[macro_use]
-#[path = "../pytest/mod.rs"]
-mod pytest;
 mod ssp;
 
+use crate::pytest::Suite;
 use fmu_harness::python::sources;
-use pytest::Suite;
 use std::env::join_paths;
 use std::path::Path;
+use std::sync::OnceLock;
 
-const HOSTS: Suite = Suite {
+static HOSTS: Suite = Suite {
+    python: OnceLock::new(),
     environment: "hosts",
     folder: "hosts",
-    source: include_str!("main.rs"),
+    source: include_str!("mod.rs"),
     variables: || {
         let modules = join_paths([sources(), sources().join("press")]).expect("paths without a separator");
         vec![("SLIDERCRANK_FMUS", packages::directory().into()), ("PYTHONPATH", modules)]

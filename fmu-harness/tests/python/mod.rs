@@ -5,21 +5,18 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
-#[macro_use]
-#[path = "../pytest/mod.rs"]
-mod pytest;
-
+use crate::pytest::Suite;
 use fmu_harness::package::{Stock, build::workspace};
 use fmu_harness::python::sources;
 use fmu_harness::scenes::Scenario;
-use pytest::Suite;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-const PACKAGE: Suite = Suite {
+static PACKAGE: Suite = Suite {
+    python: OnceLock::new(),
     environment: "analysis",
     folder: "python",
-    source: include_str!("main.rs"),
+    source: include_str!("mod.rs"),
     variables: || {
         vec![
             ("PYTHONPATH", sources().into()),
