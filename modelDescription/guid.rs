@@ -1,15 +1,15 @@
 //! guid = digest of the declaration, then of the start values.
 
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 /// Digest of a declaration, told as the XML that it makes with no guid in it.
 pub fn digest(xml: &str) -> [u8; 32] {
-    Sha256::digest(xml.as_bytes()).into()
+    Hash::hash(xml.as_bytes())
 }
 
 /// The guid of a package: 32 hexadecimal digits in the customary groups.
 pub fn guid(declaration: &[u8; 32], starts: impl IntoIterator<Item = f64>) -> String {
-    let mut hasher = Sha256::new();
+    let mut hasher = Hash::new();
     hasher.update(declaration);
     for start in starts {
         hasher.update(start.to_le_bytes());

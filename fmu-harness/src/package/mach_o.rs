@@ -5,7 +5,7 @@
 //! Layouts: Apple's `mach-o/loader.h`, `mach-o/fat.h` and, for signatures, `kern/cs_blobs.h` of XNU.
 
 use anyhow::{Context, Result, ensure};
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 use std::ops::Range;
 
 const MAGIC_64: u32 = 0xFEED_FACF;
@@ -32,7 +32,7 @@ pub fn sign(library: &mut [u8]) -> Result<()> {
     ensure!(kind == HASH_SHA256 && length == 32, "the signature's digests are not SHA-256");
     ensure!(limit.div_ceil(page) == pages, "the signature does not cover all pages");
     let code = library.get(..limit).context("the signature covers more than the file")?;
-    let digests: Vec<u8> = code.chunks(page).flat_map(|page| Sha256::digest(page).to_vec()).collect();
+    let digests: Vec<u8> = code.chunks(page).flat_map(|page| Hash::hash(page).to_vec()).collect();
     let place = library.get_mut(directory + hashes..).and_then(|rest| rest.get_mut(..digests.len()));
     place.context("the signature is cut short")?.copy_from_slice(&digests);
     Ok(())
@@ -127,7 +127,7 @@ mod tests {
         let mut library = library();
         library[4500] = 1;
         sign(&mut library).expect("a signed library");
-        let [first, second] = [&library[..4096], &library[4096..5000]].map(|page| Sha256::digest(page).to_vec());
+        let [first, second] = [&library[..4096], &library[4096..5000]].map(|page| Hash::hash(page).to_vec());
         assert_eq!(library[library.len() - 64..], [first, second].concat());
         let short = library.len() - 1;
         assert!(sign(&mut library[..short]).is_err());

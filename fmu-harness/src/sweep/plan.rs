@@ -4,9 +4,9 @@
 use super::distribution::Law;
 use super::study::{Number, Study, parameter};
 use anyhow::{Context, Result, ensure};
+use hmac_sha256::Hash;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// A study with more runs than this counts as a mistake.
@@ -91,7 +91,7 @@ impl Plan {
 
 /// Digest of texts and numbers.
 pub fn digest<'a>(texts: impl IntoIterator<Item = &'a str>, numbers: &[f64]) -> String {
-    let mut digest = Sha256::new();
+    let mut digest = Hash::new();
     for text in texts {
         digest.update((text.len() as u64).to_le_bytes());
         digest.update(text);
