@@ -1,7 +1,7 @@
 //! The flexible rod: sections at (x + u − ½∫w'², w) in the chord's frame, with nothing dropped, and
 //! every integral along the rod a sum over quadrature points.
 
-use crate::coordinates::{Coordinates, MODES, Mass, Modal, Motion, RIGID, ROD, Vector, perp, turned};
+use crate::coordinates::{COORDINATES, Coordinates, MODES, Mass, Modal, Motion, RIGID, ROD, Vector, perp, turned};
 use crate::mechanism::{Flexible, Mechanism};
 use crate::quadrature::gauss_legendre;
 use nalgebra::SMatrix;
@@ -54,17 +54,6 @@ fn shapes(mechanism: &Mechanism, x: f64) -> Shapes {
     }
 }
 
-/// A product of few numbers, without a library's loop for many.
-fn times(square: &Square, modes: &Modal) -> Modal {
-    let mut product = Modal::zeros();
-    for j in 0..MODES {
-        for i in 0..MODES {
-            product[i] += square[(i, j)] * modes[j];
-        }
-    }
-    product
-}
-
 impl Section {
     pub fn new(mechanism: &Mechanism, x: f64, points: usize) -> Self {
         let Shapes { bend, slope, axial, .. } = shapes(mechanism, x);
@@ -87,12 +76,12 @@ impl Section {
 
     /// [m] u − ½∫w'².
     pub fn stretch(&self, modes: &Modal) -> f64 {
-        self.axial.dot(modes) - 0.5 * modes.dot(&times(&self.shortening, modes))
+        self.axial.dot(modes) - 0.5 * modes.dot(&(self.shortening * modes))
     }
 
     /// Derivatives of the place with respect to the modes: along the chord, and across it.
     pub fn derivatives(&self, modes: &Modal) -> (Modal, Modal) {
-        (self.axial - times(&self.shortening, modes), self.bend)
+        (self.axial - self.shortening * modes, self.bend)
     }
 
     /// [m/s] Rate of the place.
@@ -103,7 +92,7 @@ impl Section {
 
     /// [m/s²] Acceleration of the place when no mode accelerates.
     pub fn drift(&self, rates: &Modal) -> Vector {
-        Vector::new(-rates.dot(&times(&self.shortening, rates)), 0.0)
+        Vector::new(-rates.dot(&(self.shortening * rates)), 0.0)
     }
 }
 
@@ -151,51 +140,32 @@ impl Beam {
     pub fn add_inertia(&self, motion: &Motion, mass: &mut Mass, loads: &mut Coordinates) {
         const WIDTH: usize = 3 + MODES;
         let (modes, rates, spin) = (motion.modes(), motion.mode_rates(), motion.spin(ROD));
-        // In the chord's axes, where the sums are simple; of the symmetric matrix the lower half.
-        let mut local_mass = [[0.0; WIDTH]; WIDTH];
-        let mut local_loads = [0.0; WIDTH];
+        // In the chord's axes, where the sums are simple.
+        let mut local_mass = SMatrix::<f64, WIDTH, WIDTH>::zeros();
+        let mut local_loads = SMatrix::<f64, WIDTH, 1>::zeros();
         for (weight, section) in &self.sections {
             let place = section.place(&modes);
             let (along, across) = section.derivatives(&modes);
             let rate = Vector::new(along.dot(&rates), across.dot(&rates));
+            let mut jacobian = SMatrix::<f64, 2, WIDTH>::zeros();
+            (jacobian[(0, 0)], jacobian[(1, 1)]) = (1.0, 1.0);
+            jacobian.set_column(2, &perp(place));
+            jacobian.fixed_view_mut::<1, MODES>(0, 3).copy_from(&along.transpose());
+            jacobian.fixed_view_mut::<1, MODES>(1, 3).copy_from(&across.transpose());
             let drift = -spin * spin * place + 2.0 * spin * perp(rate) + section.drift(&rates);
-            let turn = perp(place);
-            let jacobian = [([1.0, 0.0, turn.x], along, drift.x), ([0.0, 1.0, turn.y], across, drift.y)];
-            for (rigid, bent, drift) in jacobian {
-                let row: [f64; WIDTH] = std::array::from_fn(|i| if i < 3 { rigid[i] } else { bent[i - 3] });
-                for (i, entry) in row.iter().enumerate() {
-                    local_loads[i] -= weight * entry * drift;
-                    for (sum, other) in local_mass[i].iter_mut().zip(&row[..=i]) {
-                        *sum += weight * entry * other;
-                    }
-                }
-            }
+            local_mass += jacobian.transpose() * (*weight * jacobian);
+            local_loads -= jacobian.transpose() * (*weight * drift);
         }
-        // The origin's two coordinates are along the fixed axes.
-        let axes = [Vector::x(), Vector::y()].map(|axis| turned(motion.angle(ROD), axis));
-        let coordinate = |i: usize| if i < 3 { 3 * ROD + i } else { RIGID + i - 3 };
-        let turned_back = |[along, across]: [f64; 2]| along * axes[0] + across * axes[1];
-        let corner = [0, 1].map(|j| turned_back([local_mass[j][0], local_mass[1][j]]));
-        let corner = [0, 1].map(|k| turned_back([corner[0][k], corner[1][k]]));
-        for i in 0..WIDTH {
-            let on_origin = if i < 2 { corner[i] } else { turned_back([local_mass[i][0], local_mass[i][1]]) };
-            for k in 0..2 {
-                mass[(coordinate(i), coordinate(k))] += on_origin[k];
-                if i >= 2 {
-                    mass[(coordinate(k), coordinate(i))] += on_origin[k];
-                }
-            }
-            for j in 2..=i {
-                mass[(coordinate(i), coordinate(j))] += local_mass[i][j];
-                if i != j {
-                    mass[(coordinate(j), coordinate(i))] += local_mass[i][j];
-                }
-            }
+        let mut turn = SMatrix::<f64, COORDINATES, WIDTH>::zeros();
+        for (column, axis) in [Vector::x(), Vector::y()].into_iter().enumerate() {
+            turn.fixed_view_mut::<2, 1>(3 * ROD, column).copy_from(&turned(motion.angle(ROD), axis));
         }
-        let on_origin = turned_back([local_loads[0], local_loads[1]]);
-        for (i, load) in local_loads.iter().enumerate() {
-            loads[coordinate(i)] += if i < 2 { on_origin[i] } else { *load };
+        turn[(3 * ROD + 2, 2)] = 1.0;
+        for mode in 0..MODES {
+            turn[(RIGID + mode, 3 + mode)] = 1.0;
         }
+        *mass += turn * local_mass * turn.transpose();
+        *loads += turn * local_loads;
     }
 
     /// Generalized forces of bending, stretching and modal damping.
