@@ -90,6 +90,14 @@ impl<D: Copy> Method<D> for Explicit {
     ) -> u64 {
         let Self { tableau, properties, k, weighted, shares } = self;
         let n = start.y.len();
+        if n == 0 {
+            // There is nothing to integrate; event functions remain.
+            if tableau.first_same_as_last {
+                let StepPoint { y, rates, .. } = end;
+                system.rates_and_event_functions(&start.discrete, start.t + h, y, rates, &mut attempt.events);
+            }
+            return u64::from(tableau.first_same_as_last);
+        }
         let inner = tableau.inner_stages();
         k[..n].copy_from_slice(&start.rates);
         if !system.stages(tableau, &start.discrete, start.t, &start.y, h, &mut k[..tableau.stages * n]) {
