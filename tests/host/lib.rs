@@ -15,14 +15,17 @@ use slidercrank::fmi::slave::variables::VARIABLES;
 use slidercrank::fmi::v2::Status;
 use slidercrank::fmi::v2::abi::types::*;
 use slidercrank::scene::slot;
+use std::collections::HashMap;
 use std::ffi::{CString, c_char};
 use std::path::PathBuf;
 use std::ptr::{null, null_mut};
+use std::sync::LazyLock;
 
 /// Value reference of a variable.
 pub fn vr(name: &str) -> u32 {
-    let index = VARIABLES.iter().position(|variable| variable.name == name);
-    u32::try_from(index.unwrap_or_else(|| panic!("{name}"))).expect("few variables")
+    static REFERENCES: LazyLock<HashMap<&str, u32>> =
+        LazyLock::new(|| VARIABLES.iter().map(|variable| variable.name).zip(0..).collect());
+    *REFERENCES.get(name).unwrap_or_else(|| panic!("{name}"))
 }
 
 /// The library's guid.
