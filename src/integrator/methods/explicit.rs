@@ -90,17 +90,10 @@ impl<D: Copy> Method<D> for Explicit {
     ) -> u64 {
         let Self { tableau, properties, k, weighted, shares } = self;
         let n = start.y.len();
-        if n == 0 {
-            // There is nothing to integrate; event functions remain.
-            if tableau.first_same_as_last {
-                let StepPoint { y, rates, .. } = end;
-                system.rates_and_event_functions(&start.discrete, start.t + h, y, rates, &mut attempt.events);
-            }
-            return u64::from(tableau.first_same_as_last);
-        }
         let inner = tableau.inner_stages();
         k[..n].copy_from_slice(&start.rates);
-        if !system.stages(tableau, &start.discrete, start.t, &start.y, h, &mut k[..tableau.stages * n]) {
+        // Without states there is nothing to integrate; event functions remain.
+        if n > 0 && !system.stages(tableau, &start.discrete, start.t, &start.y, h, &mut k[..tableau.stages * n]) {
             for i in 1..inner {
                 write_sums(&mut end.y, &start.y, h, &tableau.a[i][..i], k);
                 system.rates(&start.discrete, start.t + tableau.c[i] * h, &end.y, &mut k[i * n..][..n]);
@@ -119,7 +112,7 @@ impl<D: Copy> Method<D> for Explicit {
             }
             write_unseen(&mut attempt.unseen, h, &shares[..*weighted], k);
         }
-        tableau.stages as u64 - 1
+        if n > 0 { tableau.stages as u64 - 1 } else { u64::from(tableau.first_same_as_last) }
     }
 }
 
