@@ -41,8 +41,8 @@ pub use state::{SolverState, StepPoint};
 pub use statistics::Statistics;
 pub use step_control::{Settings, WorkLimit};
 pub use system::{
-    Discontinuities, EventFunction, EventFunctions, Events, Jacobian, Linearizable, MAX_EVENTS, MAX_STATES, Ode, Reset,
-    SeveralInstants, StateLayout, System, Triggered,
+    Discontinuities, EventFunction, EventFunctions, Events, Jacobian, Linearizable, MAX_DISCONTINUITIES, MAX_EVENTS,
+    MAX_STATES, Ode, Reset, SeveralInstants, StateLayout, System, Triggered,
 };
 pub use tableau::{MAX_STAGES, Tableau};
 pub use unilateral::{ContactLaw, Impulses, Relative, Unilateral};

@@ -37,7 +37,7 @@ pub struct Reset<D> {
 }
 
 /// Maximum number of functions whose zeros are derivative discontinuities.
-const MAX_DISCONTINUITIES: usize = 45;
+pub const MAX_DISCONTINUITIES: usize = 45;
 
 /// Functions whose zeros are derivative discontinuities: the slope of a rate jumps there.
 #[derive(Clone, Copy, Debug)]

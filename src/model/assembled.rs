@@ -247,9 +247,13 @@ impl MechanismModel for Model {
         clearances.rubbing(structure.play, contacts, pose, &y[2 * self.mechanism.positions()..])
     }
 
-    fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS] {
+    fn pose(&self, t: f64, y: &[f64]) -> Pose {
+        self.mechanism.pose(t, y)
+    }
+
+    fn approaches(&self, pose: &Pose) -> [(f64, f64); CONTACTS] {
         let Mechanism { clearances, structure, .. } = &self.mechanism;
-        clearances.penetrations(structure.play, &self.mechanism.pose(t, y))
+        clearances.penetrations(structure.play, pose)
     }
 
     fn tangent_approaches(&self, pose: &Pose<Tangent>) -> [(Tangent, Tangent); CONTACTS] {

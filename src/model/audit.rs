@@ -281,8 +281,12 @@ impl MechanismModel for Audited {
         self.model.rubbing(contacts, pose, &y[..self.first()])
     }
 
-    fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS] {
-        self.model.approaches(t, &y[..self.first()])
+    fn pose(&self, t: f64, y: &[f64]) -> Pose {
+        self.model.pose(t, &y[..self.first()])
+    }
+
+    fn approaches(&self, pose: &Pose) -> [(f64, f64); CONTACTS] {
+        self.model.approaches(pose)
     }
 
     fn tangent_approaches(&self, pose: &Pose<Tangent>) -> [(Tangent, Tangent); CONTACTS] {

@@ -48,10 +48,13 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
     /// Sliding and forces of the closed contacts; zero in the open ones.
     fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS];
 
-    /// Penetration [m] and approach speed [m/s] of every contact; −∞ and 0 for a joint without clearance.
-    fn approaches(&self, t: f64, y: &[f64]) -> [(f64, f64); CONTACTS];
+    /// Angles, places and velocities at the state `y`.
+    fn pose(&self, t: f64, y: &[f64]) -> Pose;
 
-    /// [`MechanismModel::approaches`] at a pose, with derivatives.
+    /// Penetration [m] and approach speed [m/s] of every contact at a pose; −∞ and 0 for a joint without clearance.
+    fn approaches(&self, pose: &Pose) -> [(f64, f64); CONTACTS];
+
+    /// [`MechanismModel::approaches`] with derivatives.
     fn tangent_approaches(&self, pose: &Pose<Tangent>) -> [(Tangent, Tangent); CONTACTS];
 
     /// The bristle states of a contact, which its opening sets to 0; empty without bristles.

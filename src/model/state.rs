@@ -13,6 +13,7 @@ use super::rod::Elastic;
 use super::structure::{CRANK, ROD, SLIDER, Structure};
 use super::touches::{JOINTS, Touches};
 use crate::math::Real;
+use std::array::from_fn;
 
 /// Number of contacts: joints A, B, C and the guide, which has its four corners, or its two faces and two unused
 /// contacts.
@@ -97,6 +98,35 @@ impl<R: Real> Pose<R> {
             pin_velocity: self.velocity.pin,
             rotation: self.rotations.rotation[SLIDER],
             speed: self.rotations.speed[SLIDER],
+        }
+    }
+}
+
+impl<R: Real> Pose<R> {
+    /// The pose each of whose numbers is `combine` of the same number in all of `poses`.
+    pub fn combined<Q: Real, const N: usize>(poses: [&Self; N], combine: impl Fn([R; N]) -> Q) -> Pose<Q> {
+        let number = |get: &dyn Fn(&Self) -> R| combine(poses.map(get));
+        let vector =
+            |get: &dyn Fn(&Self) -> Vec2<R>| Vec2::new(number(&|pose| get(pose).x), number(&|pose| get(pose).y));
+        let points = |get: &dyn Fn(&Self) -> JointVectors<R>| JointVectors {
+            crank: vector(&|pose| get(pose).crank),
+            crank_pin: vector(&|pose| get(pose).crank_pin),
+            big_end: vector(&|pose| get(pose).big_end),
+            small_end: vector(&|pose| get(pose).small_end),
+            pin: vector(&|pose| get(pose).pin),
+        };
+        Pose {
+            rotations: BodyRotations {
+                angle: from_fn(|body| number(&|pose| pose.rotations.angle[body])),
+                speed: from_fn(|body| number(&|pose| pose.rotations.speed[body])),
+                rotation: from_fn(|body| Rotation {
+                    cos: number(&|pose| pose.rotations.rotation[body].cos),
+                    sin: number(&|pose| pose.rotations.rotation[body].sin),
+                }),
+            },
+            place: points(&|pose| pose.place),
+            velocity: points(&|pose| pose.velocity),
+            section_speed: from_fn(|end| number(&|pose| pose.section_speed[end])),
         }
     }
 }

@@ -13,7 +13,7 @@
 //! integration: √t is then a polynomial.
 
 use super::legendre::{Legendre, NODES, SHARES, WEIGHTS};
-use super::variational::Variational;
+use super::variational::{Companion, Variational};
 use crate::integrator::dense_output::{Correction, Step};
 use crate::integrator::linear::Factors;
 use crate::integrator::{Discontinuities, Jacobian, MAX_STATES, StateLayout, root};
@@ -296,10 +296,18 @@ impl Flow {
             }
         }
         for parameter in 0..system.parameters() {
-            if parameters.row(parameter).iter().all(|share| *share == 0.0) {
+            let shares = self.moving.iter().map(|&column| parameters[(parameter, column)]);
+            let Some((share, before)) = shares.zip(self.before.chunks_exact(n)).find(|(share, _)| *share != 0.0) else {
                 continue;
+            };
+            let (mut direction, mut rates) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
+            let (direction, rates) = (&mut direction[..n], &mut rates[..n]);
+            direction.iter_mut().zip(before).for_each(|(slope, moved)| *slope = moved / share);
+            rates[..p].copy_from_slice(&direction[p..2 * p]);
+            for (i, rate) in rates.iter_mut().enumerate().skip(p) {
+                *rate = self.jacobian.row(i).iter().zip(&*direction).map(|(slope, moved)| slope * moved).sum();
             }
-            system.write_rates_by_parameter(parameter, discrete, t, y, slopes);
+            system.write_rates_by_parameter(parameter, discrete, t, y, &Companion { direction, rates }, slopes);
             along(slopes, parameters, parameter);
         }
     }

@@ -16,7 +16,8 @@
 //! (1995) 1671; N. Kong et al., arXiv 2306.06862, eq. 9). Where only the slope of a rate jumps, as at the corner of a
 //! friction law, f⁺ = f⁻ and nothing is remembered: the saltation matrix is the identity, and the step's end there is
 //! enough. That fails where a motion slides along such a corner, since no step can end where it is left; an error of the
-//! first order then remains, as large as the smoothing of the law.
+//! first order then remains, as large as the smoothing of the law. It fails, too, where a face lands flat: which of its ends
+//! touches first depends on the sign of the tilt, and directions along the tilt are the mean of those on both sides.
 //!
 //! Near grazing τ grows like one over the approach speed, and the first order ends: [`Grazing`].
 
@@ -28,4 +29,4 @@ mod variational;
 
 pub use saltation::Grazing;
 pub use tangents::Tangents;
-pub use variational::{Crossing, Gradient, Variational};
+pub use variational::{Companion, Crossing, Gradient, Variational};

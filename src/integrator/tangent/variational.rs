@@ -21,6 +21,15 @@ impl Gradient {
     }
 }
 
+/// How the states move with a parameter, by one of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Companion<'a> {
+    /// Their direction.
+    pub direction: &'a [f64],
+    /// Derivatives of the rates along that direction.
+    pub rates: &'a [f64],
+}
+
 /// An event as a change of the discrete state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing<D> {
@@ -68,13 +77,15 @@ pub trait Variational {
         0
     }
 
-    /// Writes the derivatives of the rates by a parameter.
+    /// Writes the derivatives of the rates by a parameter. A difference may be taken along the parameter and its
+    /// `companion` together.
     fn write_rates_by_parameter(
         &self,
         _parameter: usize,
         _discrete: &Self::Discrete,
         _t: f64,
         _y: &[f64],
+        _companion: &Companion<'_>,
         slopes: &mut [f64],
     ) {
         slopes.fill(0.0);

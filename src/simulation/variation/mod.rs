@@ -4,6 +4,7 @@
 //! The motion is that of a [`Simulation`](super::Simulation) to the bit. The equations of the tangent stand in
 //! [`tangent`](crate::integrator::tangent).
 
+mod line;
 mod neighbours;
 mod seed;
 mod varied;
@@ -25,8 +26,9 @@ use crate::model::signals::{Inputs, Outputs};
 use crate::model::state::{CONTACTS, Conditions};
 use crate::scene::parameter::Kind;
 use crate::scene::{Method, Scene};
+use line::Line;
 use nalgebra::DMatrix;
-use neighbours::{Neighbours, along, derivative};
+use neighbours::Neighbours;
 use varied::Varied;
 
 /// A simulation with the tangent of its motion.
@@ -281,10 +283,14 @@ impl Variation {
         let columns = directions.column_iter().zip(&self.seeds);
         Ok(columns
             .map(|(direction, seed)| {
-                let along_states = along(model, observer, &conditions, time, y, direction.as_slice());
-                let neighbours = self.neighbours.iter().find(|neighbours| neighbours.is_of(seed));
-                let explicit = neighbours.map(|of| derivative(of, model, observer, &conditions, time, y));
-                explicit.map_or(along_states, |explicit| along_states.combined(&explicit, |a, b| a + b))
+                let direction = direction.as_slice();
+                match self.neighbours.iter().find(|neighbours| neighbours.is_of(seed)) {
+                    Some(of) => of.output_derivative(model, observer, &conditions, time, y, direction),
+                    None => {
+                        let line = Line { model, conditions: &conditions, t: time, y, direction, levels: None };
+                        line.outputs(line.level(), observer)
+                    }
+                }
             })
             .collect())
     }

@@ -1,7 +1,7 @@
 //! A mechanism as the variational equations see it.
 
 use super::neighbours::Neighbours;
-use crate::integrator::tangent::{Crossing, Gradient, Variational};
+use crate::integrator::tangent::{Companion, Crossing, Gradient, Variational};
 use crate::integrator::{MAX_STATES, System};
 use crate::math::Real;
 use crate::model::contact::ContactState;
@@ -84,9 +84,10 @@ impl Variational for Varied<'_> {
         conditions: &Conditions,
         t: f64,
         y: &[f64],
+        companion: &Companion<'_>,
         slopes: &mut [f64],
     ) {
-        self.neighbours[parameter].write_rates(self.model, conditions, t, y, slopes);
+        self.neighbours[parameter].write_rates(self.model, conditions, t, y, companion, slopes);
     }
 
     fn crossings(&self, before: &Conditions, after: &Conditions, t: f64, y: &[f64]) -> Vec<Crossing<Conditions>> {
@@ -95,7 +96,7 @@ impl Variational for Varied<'_> {
             return vec![];
         }
         let gradients = self.gradients(before, t, y);
-        let approaches = self.model.approaches(t, y);
+        let approaches = self.model.approaches(&self.model.pose(t, y));
         let mut conditions = *before;
         changed
             .into_iter()
@@ -152,7 +153,7 @@ impl Varied<'_> {
             }
         });
         for neighbours in self.neighbours {
-            for (gradients, slopes) in all.iter_mut().zip(neighbours.approaches(t, y)) {
+            for (gradients, slopes) in all.iter_mut().zip(neighbours.approaches(self.model, t, y)) {
                 for (gradient, slope) in gradients.iter_mut().zip(slopes) {
                     gradient.by_parameter.push(slope);
                 }

@@ -1,0 +1,223 @@
+//! Differences along a line of neighbouring states, on which a parameter may change, too.
+//!
+//! A derivative is a difference of order 4, (8·(f₁ − f₋₁) − (f₂ − f₋₂))/(12·h). Contact forces are not smooth where a
+//! penetration begins and at their corners, so the step h is chosen anew at every state, such that no penetration, and no
+//! distance to a corner, changes by more than a share of itself.
+
+use super::neighbours::{Levels, Neighbour};
+use crate::integrator::{Discontinuities, MAX_DISCONTINUITIES, MAX_STATES};
+use crate::model::contact::ContactState;
+use crate::model::joint::rectangle::CORNERS as GUIDE_CORNERS;
+use crate::model::joint_set::Pin;
+use crate::model::mechanism_model::MechanismModel;
+use crate::model::outputs::Observer;
+use crate::model::signals::Outputs;
+use crate::model::state::{CONTACTS, Conditions};
+use crate::simulation::observation::observe;
+
+/// Steps of a difference, in steps h, with their weights. Opposite ones follow each other, so that the sum is exactly 0
+/// where nothing changes.
+pub const CENTRAL: [(f64, f64); 4] = [(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)];
+/// The longest step as a share of a parameter; in noticeable differences if none changes.
+pub const LONGEST: f64 = 1e-3;
+/// Number of steps, each a tenth of the one before.
+pub const LEVELS: usize = 7;
+/// The level at which changes of distances are measured: short against clearances, where lengths are centimetres.
+const MEASURED: usize = 4;
+/// Largest changes within a step: of a penetration, …
+const OF_PENETRATION: f64 = 0.01;
+/// … by the growth of an eccentricity that moves across itself, …
+const OF_BEND: f64 = 1e-5;
+/// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves; …
+const OF_CORNER: f64 = 0.2;
+const OF_APPROACH: f64 = 1e-3;
+/// [rad] … and of an angle.
+pub const TURN: f64 = 2e-3;
+
+/// The step of a level if that of the first is `first`.
+pub fn step_at(first: f64, level: usize) -> f64 {
+    first * 0.1_f64.powi(level as i32)
+}
+
+/// A line through a state of a mechanism.
+#[derive(Clone, Copy)]
+pub struct Line<'a> {
+    /// The mechanism.
+    pub model: &'a dyn MechanismModel,
+    /// Its conditions.
+    pub conditions: &'a Conditions,
+    /// [s] Time.
+    pub t: f64,
+    /// The state.
+    pub y: &'a [f64],
+    /// Slopes of the states and, below them, of the approach speeds of closed contacts. Missing ones are 0.
+    pub direction: &'a [f64],
+    /// Neighbours of the mechanism, if a parameter grows along the line.
+    pub levels: Option<&'a Levels>,
+}
+
+/// A point beside the middle of a line.
+struct Point<'a> {
+    /// Its weight in a derivative.
+    weight: f64,
+    neighbour: Option<&'a Neighbour>,
+    model: &'a dyn MechanismModel,
+    conditions: Conditions,
+    y: [f64; MAX_STATES],
+}
+
+impl<'a> Line<'a> {
+    /// Derivatives of the rates, with the step of a level.
+    pub fn write_rates(&self, level: usize, slopes: &mut [f64]) {
+        let n = self.y.len();
+        let mut rates = [0.0; MAX_STATES];
+        slopes.fill(0.0);
+        for Point { weight, model, conditions, y, .. } in self.points(level) {
+            model.rates(&conditions, self.t, &y[..n], &mut rates[..n]);
+            slopes.iter_mut().zip(&rates).for_each(|(slope, rate)| *slope += weight * rate);
+        }
+    }
+
+    /// Derivatives of the outputs, with the step of a level. `observer` is that of the mechanism.
+    pub fn outputs(&self, level: usize, observer: &Observer) -> Outputs {
+        if self.levels.is_none() && self.direction.iter().all(|slope| *slope == 0.0) {
+            // A difference would be a rounding error.
+            return Outputs::default();
+        }
+        sum(self.points(level).map(|Point { weight, neighbour, model, conditions, y }| {
+            let observer = neighbour.map_or(observer, |neighbour| &neighbour.observer);
+            (observe(model, observer, &conditions, self.t, &y[..self.y.len()]), weight)
+        }))
+    }
+
+    /// Size of the direction, in noticeable differences.
+    fn size(&self) -> f64 {
+        let scaled = self.direction.iter().zip(self.model.scales()).filter(|(_, scale)| **scale > 0.0);
+        scaled.map(|(slope, scale)| (slope / scale).abs()).fold(0.0, f64::max)
+    }
+
+    /// The longest step.
+    fn first(&self) -> f64 {
+        match (self.levels, self.size()) {
+            (Some(levels), _) => levels.longest(),
+            (None, 0.0) => LONGEST,
+            (None, size) => LONGEST / size,
+        }
+    }
+
+    /// The points of a level, at the places of [`CENTRAL`].
+    fn points(&self, level: usize) -> impl Iterator<Item = Point<'a>> {
+        let Self { model, conditions, y, direction, levels, .. } = *self;
+        let neighbours = levels.map(|levels| levels.at(level));
+        let step = neighbours.map_or_else(|| step_at(self.first(), level), |neighbours| neighbours.step);
+        CENTRAL.into_iter().enumerate().map(move |(i, (place, weight))| {
+            let neighbour = neighbours.map(|level| &level.neighbours[i]);
+            let (mut conditions, mut moved) = (*conditions, [0.0; MAX_STATES]);
+            moved[..y.len()].copy_from_slice(y);
+            moved[..y.len()].iter_mut().zip(direction).for_each(|(y, slope)| *y += place * step * slope);
+            let slopes = direction.get(y.len()..).unwrap_or_default();
+            for (contact, slope) in conditions.contacts.iter_mut().zip(slopes).filter(|(contact, _)| contact.closed) {
+                let approach = contact.approach + place * step * slope;
+                *contact = ContactState { closed: true, approach, per_approach: 1.0 / approach };
+            }
+            let model = neighbour.map_or(model, |neighbour| neighbour.model.as_ref());
+            Point { weight: weight / step, neighbour, model, conditions, y: moved }
+        })
+    }
+
+    /// The level of the longest step that suits the state; the last one if none does.
+    pub fn level(&self) -> usize {
+        self.suitable().unwrap_or(LEVELS - 1)
+    }
+
+    /// Of this line and that of the parameter at a constant state the one with the longer step that suits the state, and
+    /// the level of that step. What both say about the same state differs by the derivative along the direction.
+    pub fn or_alone(self) -> (Self, usize) {
+        let alone = Self { direction: &[], ..self };
+        let level = alone.suitable();
+        let own = if level == Some(0) { None } else { self.suitable() };
+        match own {
+            Some(own) if level.is_none_or(|level| own <= level) => (self, own),
+            _ => (alone, level.unwrap_or(LEVELS - 1)),
+        }
+    }
+
+    fn suitable(&self) -> Option<usize> {
+        let n = self.y.len();
+        let here = Distances::at(self.model, self.conditions, self.t, self.y);
+        let of = |Point { model, conditions, y, .. }: &Point<'_>| Distances::at(*model, conditions, self.t, &y[..n]);
+        let mut slopes = [0.0; DISTANCES];
+        for point in self.points(MEASURED) {
+            let there = of(&point).values;
+            slopes.iter_mut().zip(there).for_each(|(slope, value)| *slope += point.weight * value);
+        }
+        let first = self.first();
+        let by_slope = (0..LEVELS).find(|level| here.allows(&slopes, step_at(first, *level)))?;
+        // Across an eccentricity a long step changes it by much, whatever its slope is.
+        (by_slope..LEVELS).find(|level| self.points(*level).all(|point| here.is_near(&of(&point))))
+    }
+}
+
+/// The places of [`Distances`]: penetrations, then approach speeds, angles, eccentricities, and corners.
+const APPROACHES: usize = 3 + GUIDE_CORNERS;
+const ANGLES: usize = APPROACHES + CONTACTS;
+const ECCENTRICITIES: usize = ANGLES + 3;
+const CORNERS: usize = ECCENTRICITIES + 6;
+const DISTANCES: usize = CORNERS + MAX_DISCONTINUITIES;
+
+/// Distances of a state from where the rates are not smooth, and what they are smooth in.
+struct Distances {
+    values: [f64; DISTANCES],
+    /// Largest change of each within a step.
+    most: [f64; DISTANCES],
+}
+
+impl Distances {
+    fn at(model: &dyn MechanismModel, conditions: &Conditions, t: f64, y: &[f64]) -> Self {
+        let mut corners = Discontinuities::NONE;
+        model.discontinuities(conditions, t, y, &mut corners);
+        let pose = model.pose(t, y);
+        // Of a face, those of both corners: it may touch in part.
+        let depths = model.penetration(&pose);
+        let mut all = Self { values: [0.0; DISTANCES], most: [f64::INFINITY; DISTANCES] };
+        let mut write = |place: usize, value: f64, most: f64| (all.values[place], all.most[place]) = (value, most);
+        for (place, depth) in depths.into_iter().enumerate().filter(|(_, depth)| depth.is_finite()) {
+            write(place, depth, OF_PENETRATION * depth.abs());
+        }
+        for (contact, state) in conditions.contacts.iter().enumerate().filter(|(_, state)| state.closed) {
+            write(APPROACHES + contact, state.approach, OF_APPROACH * state.approach);
+        }
+        for (body, angle) in pose.rotations.angle.into_iter().enumerate() {
+            write(ANGLES + body, angle, TURN);
+        }
+        for (place, pin) in Pin::ALL.into_iter().enumerate().filter(|(place, _)| conditions.contacts[*place].closed) {
+            let eccentricity = pose.journal(pin).eccentricity;
+            // One that moves across itself by s grows by s²/(2·ε).
+            let most = (2.0 * OF_BEND * (depths[place] * eccentricity.norm()).abs()).sqrt();
+            write(ECCENTRICITIES + 2 * place, eccentricity.x, most);
+            write(ECCENTRICITIES + 2 * place + 1, eccentricity.y, most);
+        }
+        for (corner, distance) in corners.values().iter().enumerate() {
+            write(CORNERS + corner, *distance, OF_CORNER * distance.abs());
+        }
+        all
+    }
+
+    /// Whether a `step` changes none of these by too much, which have these slopes.
+    fn allows(&self, slopes: &[f64; DISTANCES], step: f64) -> bool {
+        slopes.iter().zip(&self.most).all(|(slope, most)| *slope == 0.0 || (step * slope).abs() <= *most)
+    }
+
+    /// Whether none of these differs from that of a neighbour, which is up to two steps away, by much more than it may.
+    fn is_near(&self, other: &Self) -> bool {
+        let changes = self.values.iter().zip(&other.values).zip(&self.most);
+        changes.into_iter().all(|((own, other), most)| (other - own).abs() <= 4.0 * most)
+    }
+}
+
+/// Σ weight·outputs.
+pub fn sum(terms: impl IntoIterator<Item = (Outputs, f64)>) -> Outputs {
+    terms.into_iter().fold(Outputs::default(), |sum, (outputs, weight)| {
+        sum.combined(&outputs, |sum, value| if weight == 0.0 { sum } else { sum + weight * value })
+    })
+}
