@@ -3,7 +3,7 @@
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::parameter::Parameter;
 use slidercrank::scene::read::read;
-use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, Lubrication, Method, Scene, Surface};
+use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, JointModel, Lubrication, Method, Scene, Surface};
 use slidercrank::simulation::variation::{Seed, Variation};
 use slidercrank::simulation::{Phase, Simulation};
 
@@ -141,8 +141,21 @@ fn a_flexible_rod() {
 
 #[test]
 fn four_plays() {
-    check("allplay", &shipped("allplay"), 3e-3, 5e-4, &["joint.A.clearance", "guide.offset"]);
-    check_to(1e-5, "press", &shipped("press"), 3e-3, 5e-4, &["joint.B.clearance", "gravity", "slider.mass"]);
+    check(
+        "allplay",
+        &shipped("allplay"),
+        3e-3,
+        5e-4,
+        &["joint.A.clearance", "guide.offset", "rod.length", "crank.length"],
+    );
+    check_to(
+        1e-5,
+        "press",
+        &shipped("press"),
+        3e-3,
+        5e-4,
+        &["joint.B.clearance", "gravity", "slider.mass", "rod.length", "crank.length"],
+    );
 }
 
 #[test]
@@ -151,9 +164,11 @@ fn play_in_the_guide() {
     check("guideplay", &scene, 1e-2, 4e-3, &["joint.T.clearance", "joint.T.friction.coefficient"]);
     let mut faces = scene;
     faces.joint.t.surface = Surface::Foundation;
-    // Where a face lies flat, neighbours must be near for the first order, and their differences drown in rounding: the first
-    // landing, without tilt, misses by 4e-4.
-    check_to(1e-5, "faces", &faces, 7e-3, 1e-3, &["joint.T.clearance"]);
+    // Where a face lies flat, neighbours must be near for the first order, and their differences drown in rounding. At the
+    // first landing there is no tilt.
+    for from in [2e-3, 7e-3] {
+        check_to(1e-5, "faces", &faces, from, 1e-3, &["joint.T.clearance"]);
+    }
 }
 
 #[test]
@@ -196,6 +211,22 @@ fn parameters_change_the_start_too() {
             vec![simulation.outputs().slider.x]
         });
         assert!(miss < AGREEMENT, "{}: {miss:e}", parameter.name);
+    }
+}
+
+#[test]
+fn derivatives_by_the_speed_hold_after_many_turns() {
+    let mut scene = shipped("wornpin");
+    scene.joint.c.model = JointModel::Ideal;
+    let seeds = ["crank.speed_start", "crank.angle_start"].map(|name| Seed::Parameter(parameter(name)));
+    scene.crank.angle_start = 100.0;
+    let (mut variation, end) = (Variation::start(&scene, Inputs::default(), &seeds).expect("a start"), 20.0);
+    variation.advance_to(end).expect("a motion");
+    // The slider's position depends on the angle alone.
+    let by_angle = variation.outputs().slider.v / scene.crank.speed_start;
+    let derivatives = variation.output_derivatives().expect("no grazing");
+    for (derivative, exact) in derivatives.iter().zip([by_angle * end, by_angle]) {
+        assert!((derivative.slider.x / exact - 1.0).abs() < 1e-6, "{} {exact}", derivative.slider.x);
     }
 }
 

@@ -149,7 +149,16 @@ impl Surface for Faces {
 
     fn approach<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> (R, R) {
         let [front, rear] = Self::ends(rectangle, face, pose);
-        let larger = |a: R, b: R| if a > b { a } else { b };
+        // Of a face that lands flat both are the same, and a derivative is the mean of those on both sides.
+        let larger = |a: R, b: R| {
+            if a > b {
+                a
+            } else if b > a {
+                b
+            } else {
+                (a + b) * 0.5
+            }
+        };
         (larger(front.depth, rear.depth), larger(front.rate, rear.rate))
     }
 
