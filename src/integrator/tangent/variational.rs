@@ -21,7 +21,7 @@ impl Gradient {
     }
 }
 
-/// How the states move with a parameter, by one of it.
+/// How the states move per unit of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct Companion<'a> {
     /// Their direction.
