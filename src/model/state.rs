@@ -104,8 +104,13 @@ impl<R: Real> Pose<R> {
 
 impl<R: Real> Pose<R> {
     /// The pose each of whose numbers is `combine` of the same number in all of `poses`.
-    pub fn combined<Q: Real, const N: usize>(poses: [&Self; N], combine: impl Fn([R; N]) -> Q) -> Pose<Q> {
-        let number = |get: &dyn Fn(&Self) -> R| combine(poses.map(get));
+    pub fn combined<Q: Real, const N: usize>(poses: [&Self; N], combine: &dyn Fn([R; N]) -> Q) -> Pose<Q> {
+        // One call for each number: written out, all of them would be long.
+        #[inline(never)]
+        fn of<P, R, Q, const N: usize>(poses: [&P; N], combine: &dyn Fn([R; N]) -> Q, get: &dyn Fn(&P) -> R) -> Q {
+            combine(poses.map(get))
+        }
+        let number = |get: &dyn Fn(&Self) -> R| of(poses, combine, get);
         let vector =
             |get: &dyn Fn(&Self) -> Vec2<R>| Vec2::new(number(&|pose| get(pose).x), number(&|pose| get(pose).y));
         let points = |get: &dyn Fn(&Self) -> JointVectors<R>| JointVectors {

@@ -149,16 +149,6 @@ impl Surface for Faces {
 
     fn approach<R: Real>(rectangle: &Rectangle, face: usize, pose: &SliderPose<R>) -> (R, R) {
         let [front, rear] = Self::ends(rectangle, face, pose);
-        // Of a face that lands flat both are the same, and a derivative is the mean of those on both sides.
-        let larger = |a: R, b: R| {
-            if a > b {
-                a
-            } else if b > a {
-                b
-            } else {
-                (a + b) * 0.5
-            }
-        };
         (larger(front.depth, rear.depth), larger(front.rate, rear.rate))
     }
 
@@ -182,5 +172,18 @@ impl Surface for Faces {
     fn energy<R: Real>(rectangle: &Rectangle, elastic: &Elastic, face: usize, pose: &SliderPose<R>) -> R {
         let stiffness = elastic.for_small_penetrations().stiffness;
         Self::bed(rectangle, face, pose).mean_square() * (0.5 * stiffness)
+    }
+}
+
+/// The larger of two numbers of a face's ends. Of a face that lands flat both are the same, and a derivative is the mean of
+/// those on both sides.
+#[inline(never)]
+fn larger<R: Real>(a: R, b: R) -> R {
+    if a > b {
+        a
+    } else if b > a {
+        b
+    } else {
+        (a + b) * 0.5
     }
 }

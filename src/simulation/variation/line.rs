@@ -74,7 +74,7 @@ impl<'a> Line<'a> {
         slopes.fill(0.0);
         for Point { weight, model, conditions, y, .. } in self.points(level) {
             model.rates(&conditions, self.t, &y[..n], &mut rates[..n]);
-            slopes.iter_mut().zip(&rates).for_each(|(slope, rate)| *slope += weight * rate);
+            add(slopes, weight, &rates);
         }
     }
 
@@ -106,23 +106,27 @@ impl<'a> Line<'a> {
     }
 
     /// The points of a level, at the places of [`CENTRAL`].
-    fn points(&self, level: usize) -> impl Iterator<Item = Point<'a>> {
-        let Self { model, conditions, y, direction, levels, .. } = *self;
+    fn points(self, level: usize) -> impl Iterator<Item = Point<'a>> {
+        (0..CENTRAL.len()).map(move |i| self.point(level, i))
+    }
+
+    /// One of them. Compiled once: it is long.
+    #[inline(never)]
+    fn point(&self, level: usize, i: usize) -> Point<'a> {
+        let Self { conditions, y, direction, levels, .. } = *self;
         let neighbours = levels.map(|levels| levels.at(level));
         let step = neighbours.map_or_else(|| step_at(self.first(), level), |neighbours| neighbours.step);
-        CENTRAL.into_iter().enumerate().map(move |(i, (place, weight))| {
-            let neighbour = neighbours.map(|level| &level.neighbours[i]);
-            let (mut conditions, mut moved) = (*conditions, [0.0; MAX_STATES]);
-            moved[..y.len()].copy_from_slice(y);
-            moved[..y.len()].iter_mut().zip(direction).for_each(|(y, slope)| *y += place * step * slope);
-            let slopes = direction.get(y.len()..).unwrap_or_default();
-            for (contact, slope) in conditions.contacts.iter_mut().zip(slopes).filter(|(contact, _)| contact.closed) {
-                let approach = contact.approach + place * step * slope;
-                *contact = ContactState { closed: true, approach, per_approach: 1.0 / approach };
-            }
-            let model = neighbour.map_or(model, |neighbour| neighbour.model.as_ref());
-            Point { weight: weight / step, neighbour, model, conditions, y: moved }
-        })
+        let neighbour = neighbours.map(|level| &level.neighbours[i]);
+        let ((place, weight), mut conditions, mut moved) = (CENTRAL[i], *conditions, [0.0; MAX_STATES]);
+        moved[..y.len()].copy_from_slice(y);
+        moved[..y.len()].iter_mut().zip(direction).for_each(|(y, slope)| *y += place * step * slope);
+        let slopes = direction.get(y.len()..).unwrap_or_default();
+        for (contact, slope) in conditions.contacts.iter_mut().zip(slopes).filter(|(contact, _)| contact.closed) {
+            let approach = contact.approach + place * step * slope;
+            *contact = ContactState { closed: true, approach, per_approach: 1.0 / approach };
+        }
+        let model = neighbour.map_or(self.model, |neighbour| neighbour.model.as_ref());
+        Point { weight: weight / step, neighbour, model, conditions, y: moved }
     }
 
     /// The level of the longest step that suits the state; the last one if none does.
@@ -142,14 +146,14 @@ impl<'a> Line<'a> {
         }
     }
 
+    #[inline(never)]
     fn suitable(&self) -> Option<usize> {
         let n = self.y.len();
         let here = Distances::at(self.model, self.conditions, self.t, self.y);
         let of = |Point { model, conditions, y, .. }: &Point<'_>| Distances::at(*model, conditions, self.t, &y[..n]);
         let mut slopes = [0.0; DISTANCES];
         for point in self.points(MEASURED) {
-            let there = of(&point).values;
-            slopes.iter_mut().zip(there).for_each(|(slope, value)| *slope += point.weight * value);
+            add(&mut slopes, point.weight, &of(&point).values);
         }
         let first = self.first();
         let by_slope = (0..LEVELS).find(|level| here.allows(&slopes, step_at(first, *level)))?;
@@ -173,6 +177,7 @@ struct Distances {
 }
 
 impl Distances {
+    #[inline(never)]
     fn at(model: &dyn MechanismModel, conditions: &Conditions, t: f64, y: &[f64]) -> Self {
         let mut corners = Discontinuities::NONE;
         model.discontinuities(conditions, t, y, &mut corners);
@@ -204,20 +209,32 @@ impl Distances {
     }
 
     /// Whether a `step` changes none of these by too much, which have these slopes.
+    #[inline(never)]
     fn allows(&self, slopes: &[f64; DISTANCES], step: f64) -> bool {
         slopes.iter().zip(&self.most).all(|(slope, most)| *slope == 0.0 || (step * slope).abs() <= *most)
     }
 
     /// Whether none of these differs from that of a neighbour, which is up to two steps away, by much more than it may.
+    #[inline(never)]
     fn is_near(&self, other: &Self) -> bool {
         let changes = self.values.iter().zip(&other.values).zip(&self.most);
         changes.into_iter().all(|((own, other), most)| (other - own).abs() <= 4.0 * most)
     }
 }
 
+/// Adds `share`·`more` to `sum`.
+#[inline(never)]
+pub fn add(sum: &mut [f64], share: f64, more: &[f64]) {
+    sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += share * more);
+}
+
 /// Σ weight·outputs.
 pub fn sum(terms: impl IntoIterator<Item = (Outputs, f64)>) -> Outputs {
-    terms.into_iter().fold(Outputs::default(), |sum, (outputs, weight)| {
-        sum.combined(&outputs, |sum, value| if weight == 0.0 { sum } else { sum + weight * value })
-    })
+    terms.into_iter().fold(Outputs::default(), |sum, (outputs, weight)| plus(&sum, &outputs, weight))
+}
+
+/// sum + weight·outputs.
+#[inline(never)]
+pub fn plus(sum: &Outputs, outputs: &Outputs, weight: f64) -> Outputs {
+    sum.combined(outputs, |sum, value| if weight == 0.0 { sum } else { sum + weight * value })
 }

@@ -6,7 +6,7 @@
 //! in their sum. Two measures keep derivatives exact there: rates and outputs are differentiated along the parameter and the
 //! states together, and penetrations by their chain rule through the pose, which is smooth in every length.
 
-use super::line::{CENTRAL, LEVELS, LONGEST, Line, TURN, step_at, sum};
+use super::line::{CENTRAL, LEVELS, LONGEST, Line, TURN, add, plus, step_at, sum};
 use super::seed::Seed;
 use crate::integrator::MAX_STATES;
 use crate::integrator::tangent::Companion;
@@ -117,7 +117,7 @@ impl Neighbours {
                 let mut rates = [0.0; MAX_STATES];
                 for (conditions, share) in under(conditions, t, seed) {
                     model.rates(&conditions, t, y, &mut rates[..n]);
-                    slopes.iter_mut().zip(&rates).for_each(|(slope, rate)| *slope += share * rate);
+                    add(slopes, share, &rates);
                 }
             }
             Of::Parameter(levels) => {
@@ -125,7 +125,7 @@ impl Neighbours {
                 let (line, level) = together.or_alone();
                 line.write_rates(level, slopes);
                 if !line.direction.is_empty() {
-                    slopes.iter_mut().zip(companion.rates).for_each(|(slope, rate)| *slope -= rate);
+                    add(slopes, -1.0, companion.rates);
                 }
             }
         }
@@ -143,7 +143,7 @@ impl Neighbours {
         direction: &[f64],
     ) -> Outputs {
         let states = Line { model, conditions, t, y, direction, levels: None };
-        let and = |explicit: Outputs| states.outputs(states.level(), observer).combined(&explicit, |a, b| a + b);
+        let and = |explicit: Outputs| plus(&states.outputs(states.level(), observer), &explicit, 1.0);
         match &self.0 {
             Of::Input(seed) => and(sum(under(conditions, t, seed)
                 .map(|(conditions, share)| (observe(model, observer, &conditions, t, y), share)))),
@@ -160,11 +160,8 @@ impl Neighbours {
         let Of::Parameter(levels) = &self.0 else { return [[0.0; 2]; CONTACTS] };
         let here = model.pose(t, y);
         let (level, poses) = levels.poses(&here, t, y);
-        let difference = |values: [f64; CENTRAL.len()]| {
-            values.iter().zip(CENTRAL).map(|(value, (_, weight))| weight * value).sum::<f64>()
-        };
         let [a, b, c, d] = &poses;
-        let moving = Pose::combined([&here, a, b, c, d], |[value, others @ ..]| {
+        let moving = Pose::combined([&here, a, b, c, d], &|[value, others @ ..]| {
             let mut slope = [0.0; DIRECTIONS];
             slope[0] = difference(others) / level.step;
             Tangent { value, slope }
@@ -184,8 +181,17 @@ impl Neighbours {
 }
 
 impl Neighbour {
-    fn new(scene: &Scene) -> Result<Self, SimulationError> {
-        let model = assemble::model(scene);
+    /// The neighbour of a scene's mechanism with another value of the parameter, by `change`.
+    #[inline(never)]
+    fn at(scene: &Scene, parameter: &Parameter, change: f64) -> Result<Self, SimulationError> {
+        let (value, mut changed) = (parameter.value(scene), scene.clone());
+        let refused = |reason: String| {
+            let name = parameter.name;
+            SimulationError::Scene(format!("{name} = {value} has no neighbours to differentiate by: {reason}"))
+        };
+        parameter.write(&mut changed, value + change).map_err(|error| refused(error.to_string()))?;
+        changed.check().map_err(|error| refused(error.to_string()))?;
+        let (scene, model) = (&changed, assemble::model(&changed));
         let mut states = vec![0.0; model.layout().states];
         model.write_start(&pose(scene)?, &mut states);
         let approach = model.start_contacts(0.0, &states).map(|contact| contact.approach);
@@ -228,20 +234,15 @@ impl Levels {
 
 impl Level {
     fn new(scene: &Scene, parameter: &'static Parameter, step: f64) -> Result<Self, SimulationError> {
-        let value = parameter.value(scene);
-        let neighbour = |place: f64| {
-            let mut changed = scene.clone();
-            let refused = |reason: String| {
-                let name = parameter.name;
-                SimulationError::Scene(format!("{name} = {value} has no neighbours to differentiate by: {reason}"))
-            };
-            parameter.write(&mut changed, value + place * step).map_err(|error| refused(error.to_string()))?;
-            changed.check().map_err(|error| refused(error.to_string()))?;
-            Neighbour::new(&changed)
-        };
-        let [a, b, c, d] = CENTRAL.map(|(place, _)| neighbour(place));
+        let [a, b, c, d] = CENTRAL.map(|(place, _)| Neighbour::at(scene, parameter, place * step));
         Ok(Self { step, neighbours: [a?, b?, c?, d?] })
     }
+}
+
+/// Σ weight·value over the places of [`CENTRAL`].
+#[inline(never)]
+fn difference(values: [f64; CENTRAL.len()]) -> f64 {
+    values.iter().zip(CENTRAL).map(|(value, (_, weight))| weight * value).sum()
 }
 
 /// The longest step of a parameter.
