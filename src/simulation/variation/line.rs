@@ -4,7 +4,7 @@
 //! penetration begins and at their corners, so the step h is chosen anew at every state, such that no penetration, and no
 //! distance to a corner, changes by more than a share of itself.
 
-use super::neighbours::{Levels, Neighbour};
+use super::levels::{CENTRAL, LEVELS, LONGEST, Levels, Neighbour, TURN, step_at};
 use crate::integrator::{Discontinuities, MAX_DISCONTINUITIES, MAX_STATES};
 use crate::model::contact::ContactState;
 use crate::model::joint::rectangle::CORNERS as GUIDE_CORNERS;
@@ -15,30 +15,15 @@ use crate::model::signals::Outputs;
 use crate::model::state::{CONTACTS, Conditions};
 use crate::simulation::observation::observe;
 
-/// Steps of a difference, in steps h, with their weights. Opposite ones follow each other, so that the sum is exactly 0
-/// where nothing changes.
-pub const CENTRAL: [(f64, f64); 4] = [(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)];
-/// The longest step as a share of a parameter; in noticeable differences if none changes.
-pub const LONGEST: f64 = 1e-3;
-/// Number of steps, each a tenth of the one before.
-pub const LEVELS: usize = 7;
 /// The level at which changes of distances are measured: short against clearances, where lengths are centimetres.
 const MEASURED: usize = 4;
 /// Largest changes within a step: of a penetration, …
 const OF_PENETRATION: f64 = 0.01;
 /// … by the growth of an eccentricity that moves across itself, …
 const OF_BEND: f64 = 1e-5;
-/// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves; …
+/// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves.
 const OF_CORNER: f64 = 0.2;
 const OF_APPROACH: f64 = 1e-3;
-/// [rad] … and of an angle.
-pub const TURN: f64 = 2e-3;
-
-/// The step of a level if that of the first is `first`.
-pub fn step_at(first: f64, level: usize) -> f64 {
-    first * 0.1_f64.powi(level as i32)
-}
-
 /// A line through a state of a mechanism.
 #[derive(Clone, Copy)]
 pub struct Line<'a> {

@@ -4,6 +4,7 @@
 //! The motion is that of a [`Simulation`](super::Simulation) to the bit. The equations of the tangent stand in
 //! [`tangent`](crate::integrator::tangent).
 
+mod levels;
 mod line;
 mod neighbours;
 mod seed;
