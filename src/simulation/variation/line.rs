@@ -24,6 +24,7 @@ const OF_BEND: f64 = 1e-5;
 /// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves.
 const OF_CORNER: f64 = 0.2;
 const OF_APPROACH: f64 = 1e-3;
+
 /// A line through a state of a mechanism.
 #[derive(Clone, Copy)]
 pub struct Line<'a> {
