@@ -24,6 +24,12 @@ pub use real::Real;
 pub(crate) use unroll::{unroll, unroll_four};
 pub use vec2::Vec2;
 
+/// Adds `share`·`more` to `sum`.
+#[inline(always)]
+pub fn add_multiple(sum: &mut [f64], share: f64, more: &[f64]) {
+    sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += share * more);
+}
+
 /// (sin x, cos x).
 #[inline(always)]
 pub fn sin_cos<R: Real>(x: R) -> (R, R) {

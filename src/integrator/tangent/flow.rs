@@ -17,7 +17,7 @@ use super::variational::{Companion, Variational};
 use crate::integrator::dense_output::{Correction, Step};
 use crate::integrator::linear::Factors;
 use crate::integrator::{Discontinuities, Jacobian, MAX_STATES, StateLayout, root};
-use crate::math;
+use crate::math::{self, add_multiple};
 use nalgebra::DMatrix;
 use std::array::from_fn;
 
@@ -215,7 +215,7 @@ impl Flow {
                 continue;
             }
             for (place, weight) in WEIGHTS.iter().enumerate() {
-                add(&mut self.before, *weight, &self.stages[place]);
+                add_multiple(&mut self.before, *weight, &self.stages[place]);
             }
             let n = step.layout.states;
             for (&column, states) in self.moving.iter().zip(self.before.chunks_exact(n)) {
@@ -286,7 +286,7 @@ impl Flow {
         let slopes = &mut slopes[..n];
         let mut along = |slopes: &[f64], shares: &DMatrix<f64>, row: usize| {
             for (place, &column) in push.chunks_exact_mut(n - p).zip(&self.moving) {
-                add(place, length * shares[(row, column)], &slopes[p..]);
+                add_multiple(place, length * shares[(row, column)], &slopes[p..]);
             }
         };
         for memory in 0..system.memories() {
@@ -300,14 +300,10 @@ impl Flow {
             let Some((share, before)) = shares.zip(self.before.chunks_exact(n)).find(|(share, _)| *share != 0.0) else {
                 continue;
             };
-            let (mut direction, mut rates) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
-            let (direction, rates) = (&mut direction[..n], &mut rates[..n]);
+            let mut direction = [0.0; MAX_STATES];
             direction.iter_mut().zip(before).for_each(|(slope, moved)| *slope = moved / share);
-            rates[..p].copy_from_slice(&direction[p..2 * p]);
-            for (i, rate) in rates.iter_mut().enumerate().skip(p) {
-                *rate = self.jacobian.row(i).iter().zip(&*direction).map(|(slope, moved)| slope * moved).sum();
-            }
-            system.write_rates_by_parameter(parameter, discrete, t, y, &Companion { direction, rates }, slopes);
+            let companion = Companion { direction: &direction[..n], jacobian: &self.jacobian };
+            system.write_rates_by_parameter(parameter, discrete, t, y, &companion, slopes);
             along(slopes, parameters, parameter);
         }
     }
@@ -325,12 +321,12 @@ impl Flow {
             for node in 0..NODES {
                 inner.copy_from_slice(before);
                 for (integral, stage) in legendre.integrals[node].iter().zip(&*stages) {
-                    add(inner, *integral, stage);
+                    add_multiple(inner, *integral, stage);
                 }
                 write_slopes(found, layout, lengths[node], &turning[node], &pushing[node], inner);
                 if node == NODES - 1 {
                     // All nodes come near at the same rate.
-                    add(&mut stages[node], -1.0, found);
+                    add_multiple(&mut stages[node], -1.0, found);
                     change = size(path, least, &stages[node], before);
                 }
                 stages[node].copy_from_slice(found);
@@ -367,7 +363,7 @@ impl Flow {
                 rows.copy_from_slice(&pushing[i][direction * forced..][..forced]);
                 add_product(rows, &turning[i], start);
                 for (slopes, speed) in turning[i].chunks_exact(forced).zip(&start[p..2 * p]) {
-                    add(rows, sums[i] * speed, slopes);
+                    add_multiple(rows, sums[i] * speed, slopes);
                 }
             }
             factors.solve(unknowns);
@@ -376,7 +372,7 @@ impl Flow {
                 driven.copy_from_slice(rows);
                 moving.copy_from_slice(&start[p..2 * p]);
                 for (share, rows) in a[i].iter().zip(unknowns.chunks_exact(forced)) {
-                    add(moving, *share, rows);
+                    add_multiple(moving, *share, rows);
                 }
                 moving.iter_mut().for_each(|slope| *slope *= lengths[i]);
             }
@@ -390,7 +386,7 @@ impl Flow {
         let sizes = legendre.analysis.map(|row| {
             inner.fill(0.0);
             for (share, stage) in row.iter().zip(&*stages) {
-                add(inner, *share, stage);
+                add_multiple(inner, *share, stage);
             }
             size(path, least, inner, before)
         });
@@ -404,16 +400,10 @@ impl Flow {
     }
 }
 
-/// Adds `share`·`more` to `sum`.
-#[inline(always)]
-fn add(sum: &mut [f64], share: f64, more: &[f64]) {
-    sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += share * more);
-}
-
 /// Adds to `sum` the product of a matrix by columns, each as long as `sum`, with a direction.
 fn add_product(sum: &mut [f64], matrix: &[f64], direction: &[f64]) {
     for (column, share) in matrix.chunks_exact(sum.len()).zip(direction) {
-        add(sum, *share, column);
+        add_multiple(sum, *share, column);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the variational equations ask of a system.
 
-use crate::integrator::System;
+use crate::integrator::{Jacobian, System};
 use std::ops::Range;
 
 /// Derivatives of one number of a system.
@@ -26,8 +26,18 @@ impl Gradient {
 pub struct Companion<'a> {
     /// Their direction.
     pub direction: &'a [f64],
-    /// Derivatives of the rates along that direction.
-    pub rates: &'a [f64],
+    /// Derivatives of the rates by the states.
+    pub jacobian: &'a Jacobian,
+}
+
+impl Companion<'_> {
+    /// Subtracts the derivatives of the rates along the direction.
+    pub fn subtract_from(&self, slopes: &mut [f64]) {
+        for (i, slope) in slopes.iter_mut().enumerate() {
+            let row = self.jacobian.row(i).iter().zip(self.direction);
+            *slope -= row.map(|(slope, moved)| slope * moved).sum::<f64>();
+        }
+    }
 }
 
 /// An event as a change of the discrete state.

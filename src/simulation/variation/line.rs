@@ -6,6 +6,7 @@
 
 use super::levels::{CENTRAL, LEVELS, LONGEST, Levels, Neighbour, TURN, step_at};
 use crate::integrator::{Discontinuities, MAX_DISCONTINUITIES, MAX_STATES};
+use crate::math::add_multiple;
 use crate::model::contact::ContactState;
 use crate::model::joint::rectangle::CORNERS as GUIDE_CORNERS;
 use crate::model::joint_set::Pin;
@@ -60,7 +61,7 @@ impl<'a> Line<'a> {
         slopes.fill(0.0);
         for Point { weight, model, conditions, y, .. } in self.points(level) {
             model.rates(&conditions, self.t, &y[..n], &mut rates[..n]);
-            add(slopes, weight, &rates);
+            add_multiple(slopes, weight, &rates);
         }
     }
 
@@ -117,34 +118,45 @@ impl<'a> Line<'a> {
 
     /// The level of the longest step that suits the state; the last one if none does.
     pub fn level(&self) -> usize {
-        self.suitable().unwrap_or(LEVELS - 1)
+        self.suitable(&self.middle()).unwrap_or(LEVELS - 1)
     }
 
     /// Of this line and that of the parameter at a constant state the one with the longer step that suits the state, and
     /// the level of that step. What both say about the same state differs by the derivative along the direction.
     pub fn or_alone(self) -> (Self, usize) {
-        let alone = Self { direction: &[], ..self };
-        let level = alone.suitable();
-        let own = if level == Some(0) { None } else { self.suitable() };
+        let (alone, here) = (Self { direction: &[], ..self }, self.middle());
+        let level = alone.suitable(&here);
+        let own = if level == Some(0) { None } else { self.suitable(&here) };
         match own {
             Some(own) if level.is_none_or(|level| own <= level) => (self, own),
             _ => (alone, level.unwrap_or(LEVELS - 1)),
         }
     }
 
+    fn middle(&self) -> Distances {
+        Distances::at(self.model, self.conditions, self.t, self.y)
+    }
+
+    /// The distances at a point, and its weight.
     #[inline(never)]
-    fn suitable(&self) -> Option<usize> {
-        let n = self.y.len();
-        let here = Distances::at(self.model, self.conditions, self.t, self.y);
-        let of = |Point { model, conditions, y, .. }: &Point<'_>| Distances::at(*model, conditions, self.t, &y[..n]);
+    fn beside(&self, level: usize, i: usize) -> (Distances, f64) {
+        let Point { weight, model, conditions, y, .. } = self.point(level, i);
+        (Distances::at(model, &conditions, self.t, &y[..self.y.len()]), weight)
+    }
+
+    /// The level of the longest step that suits the state, which has these distances.
+    #[inline(never)]
+    fn suitable(&self, here: &Distances) -> Option<usize> {
         let mut slopes = [0.0; DISTANCES];
-        for point in self.points(MEASURED) {
-            add(&mut slopes, point.weight, &of(&point).values);
+        for i in 0..CENTRAL.len() {
+            let (there, weight) = self.beside(MEASURED, i);
+            add_multiple(&mut slopes, weight, &there.values);
         }
         let first = self.first();
         let by_slope = (0..LEVELS).find(|level| here.allows(&slopes, step_at(first, *level)))?;
         // Across an eccentricity a long step changes it by much, whatever its slope is.
-        (by_slope..LEVELS).find(|level| self.points(*level).all(|point| here.is_near(&of(&point))))
+        let keeps = |level: &usize| (0..CENTRAL.len()).all(|i| here.is_near(&self.beside(*level, i).0));
+        (by_slope..LEVELS).find(keeps)
     }
 }
 
@@ -206,12 +218,6 @@ impl Distances {
         let changes = self.values.iter().zip(&other.values).zip(&self.most);
         changes.into_iter().all(|((own, other), most)| (other - own).abs() <= 4.0 * most)
     }
-}
-
-/// Adds `share`·`more` to `sum`.
-#[inline(never)]
-pub fn add(sum: &mut [f64], share: f64, more: &[f64]) {
-    sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += share * more);
 }
 
 /// Σ weight·outputs.

@@ -7,10 +7,11 @@
 //! states together, and penetrations by their chain rule through the pose, which is smooth in every length.
 
 use super::levels::{CENTRAL, Levels, Neighbour};
-use super::line::{Line, add, plus, sum};
+use super::line::{Line, plus, sum};
 use super::seed::Seed;
 use crate::integrator::MAX_STATES;
 use crate::integrator::tangent::Companion;
+use crate::math::add_multiple;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::scalar::{DIRECTIONS, Tangent};
@@ -82,7 +83,7 @@ impl Neighbours {
                 let mut rates = [0.0; MAX_STATES];
                 for (conditions, share) in under(conditions, t, seed) {
                     model.rates(&conditions, t, y, &mut rates[..n]);
-                    add(slopes, share, &rates);
+                    add_multiple(slopes, share, &rates);
                 }
             }
             Of::Parameter(levels) => {
@@ -90,7 +91,7 @@ impl Neighbours {
                 let (line, level) = together.or_alone();
                 line.write_rates(level, slopes);
                 if !line.direction.is_empty() {
-                    add(slopes, -1.0, companion.rates);
+                    companion.subtract_from(slopes);
                 }
             }
         }
@@ -120,19 +121,19 @@ impl Neighbours {
         }
     }
 
-    /// Derivatives of the penetration and of the approach speed of every contact of `model` at constant state.
-    pub fn approaches(&self, model: &dyn MechanismModel, t: f64, y: &[f64]) -> [[f64; 2]; CONTACTS] {
+    /// Derivatives of the penetration and of the approach speed of every contact of `model` at constant state, where its
+    /// pose is `here`.
+    pub fn approaches(&self, model: &dyn MechanismModel, here: &Pose, t: f64, y: &[f64]) -> [[f64; 2]; CONTACTS] {
         let Of::Parameter(levels) = &self.0 else { return [[0.0; 2]; CONTACTS] };
-        let here = model.pose(t, y);
-        let (level, poses) = levels.poses(&here, t, y);
+        let (level, poses) = levels.poses(here, t, y);
         let [a, b, c, d] = &poses;
-        let moving = Pose::combined([&here, a, b, c, d], &|[value, others @ ..]| {
+        let moving = Pose::combined([here, a, b, c, d], &|[value, others @ ..]| {
             let mut slope = [0.0; DIRECTIONS];
             slope[0] = difference(others) / level.step;
             Tangent { value, slope }
         });
         let through_pose = model.tangent_approaches(&moving);
-        let others = level.neighbours.each_ref().map(|neighbour| neighbour.model.approaches(&here));
+        let others = level.neighbours.each_ref().map(|neighbour| neighbour.model.approaches(here));
         std::array::from_fn(|contact| {
             let ((depth, rate), others) = (through_pose[contact], others.map(|all| all[contact]));
             if !depth.value.is_finite() {

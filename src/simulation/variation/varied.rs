@@ -8,7 +8,7 @@ use crate::model::contact::ContactState;
 use crate::model::jacobian::in_directions;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::scalar::Tangent;
-use crate::model::state::{CONTACTS, Conditions};
+use crate::model::state::{CONTACTS, Conditions, Pose};
 
 /// A mechanism and its neighbours along the parameters.
 pub struct Varied<'a> {
@@ -95,8 +95,8 @@ impl Variational for Varied<'_> {
         if changed.is_empty() {
             return vec![];
         }
-        let gradients = self.gradients(before, t, y);
-        let approaches = self.model.approaches(&self.model.pose(t, y));
+        let pose = self.model.pose(t, y);
+        let (gradients, approaches) = (self.gradients(before, &pose, t, y), self.model.approaches(&pose));
         let mut conditions = *before;
         changed
             .into_iter()
@@ -133,8 +133,8 @@ fn changed<'a>(before: &'a Conditions, after: &'a Conditions) -> impl Iterator<I
 }
 
 impl Varied<'_> {
-    /// Derivatives of the penetration and of the approach speed of every contact.
-    fn gradients(&self, conditions: &Conditions, t: f64, y: &[f64]) -> [[Gradient; 2]; CONTACTS] {
+    /// Derivatives of the penetration and of the approach speed of every contact, where the pose is `here`.
+    fn gradients(&self, conditions: &Conditions, here: &Pose, t: f64, y: &[f64]) -> [[Gradient; 2]; CONTACTS] {
         let n = y.len();
         let empty = || Gradient { by_state: vec![0.0; n], by_time: 0.0, by_parameter: vec![] };
         let mut all: [[Gradient; 2]; CONTACTS] = std::array::from_fn(|_| [empty(), empty()]);
@@ -153,7 +153,7 @@ impl Varied<'_> {
             }
         });
         for neighbours in self.neighbours {
-            for (gradients, slopes) in all.iter_mut().zip(neighbours.approaches(self.model, t, y)) {
+            for (gradients, slopes) in all.iter_mut().zip(neighbours.approaches(self.model, here, t, y)) {
                 for (gradient, slope) in gradients.iter_mut().zip(slopes) {
                     gradient.by_parameter.push(slope);
                 }
