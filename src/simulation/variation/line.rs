@@ -9,18 +9,18 @@ use crate::integrator::{Discontinuities, MAX_DISCONTINUITIES, MAX_STATES};
 use crate::math::add_multiple;
 use crate::model::contact::ContactState;
 use crate::model::joint::rectangle::CORNERS as GUIDE_CORNERS;
-use crate::model::joint_set::Pin;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::signals::Outputs;
 use crate::model::state::{CONTACTS, Conditions};
 use crate::simulation::observation::observe;
+use std::array::from_fn;
 
 /// The level at which changes of distances are measured: short against clearances, where lengths are centimetres.
 const MEASURED: usize = 4;
 /// Largest changes within a step: of a penetration, …
 const OF_PENETRATION: f64 = 0.01;
-/// … by the growth of an eccentricity that moves across itself, …
+/// … of its second order, since a force that the first hardly changes depends on it, …
 const OF_BEND: f64 = 1e-5;
 /// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves.
 const OF_CORNER: f64 = 0.2;
@@ -118,19 +118,21 @@ impl<'a> Line<'a> {
 
     /// The level of the longest step that suits the state; the last one if none does.
     pub fn level(&self) -> usize {
-        self.suitable(&self.middle()).unwrap_or(LEVELS - 1)
+        self.fit(&self.middle()).level()
     }
 
     /// Of this line and that of the parameter at a constant state the one with the longer step that suits the state, and
     /// the level of that step. What both say about the same state differs by the derivative along the direction.
     pub fn or_alone(self) -> (Self, usize) {
         let (alone, here) = (Self { direction: &[], ..self }, self.middle());
-        let level = alone.suitable(&here);
-        let own = if level == Some(0) { None } else { self.suitable(&here) };
-        match own {
-            Some(own) if level.is_none_or(|level| own <= level) => (self, own),
-            _ => (alone, level.unwrap_or(LEVELS - 1)),
+        let constant = alone.fit(&here);
+        if constant.suitable == Some(0) {
+            return (alone, 0);
         }
+        let moving = self.fit(&here);
+        // Near a corner none suits, and the one errs less that crosses the corner more slowly.
+        let order = moving.level().cmp(&constant.level()).then(constant.longest.total_cmp(&moving.longest));
+        if order.is_le() { (self, moving.level()) } else { (alone, constant.level()) }
     }
 
     fn middle(&self) -> Distances {
@@ -144,27 +146,43 @@ impl<'a> Line<'a> {
         (Distances::at(model, &conditions, self.t, &y[..self.y.len()]), weight)
     }
 
-    /// The level of the longest step that suits the state, which has these distances.
+    /// How well the steps suit the state, which has these distances.
     #[inline(never)]
-    fn suitable(&self, here: &Distances) -> Option<usize> {
+    fn fit(&self, here: &Distances) -> Fit {
         let mut slopes = [0.0; DISTANCES];
         for i in 0..CENTRAL.len() {
             let (there, weight) = self.beside(MEASURED, i);
             add_multiple(&mut slopes, weight, &there.values);
         }
-        let first = self.first();
-        let by_slope = (0..LEVELS).find(|level| here.allows(&slopes, step_at(first, *level)))?;
+        let (longest, first) = (here.longest(&slopes), self.first());
         // Across an eccentricity a long step changes it by much, whatever its slope is.
-        let keeps = |level: &usize| (0..CENTRAL.len()).all(|i| here.is_near(&self.beside(*level, i).0));
-        (by_slope..LEVELS).find(keeps)
+        let keeps = |level: &usize| {
+            let there: [Distances; CENTRAL.len()] = from_fn(|i| self.beside(*level, i).0);
+            there.iter().all(|there| here.is_near(there)) && here.is_straight([&there[0], &there[1]])
+        };
+        let by_slope = (0..LEVELS).find(|level| step_at(first, *level) <= longest);
+        Fit { longest, suitable: by_slope.and_then(|level| (level..LEVELS).find(keeps)) }
     }
 }
 
-/// The places of [`Distances`]: penetrations, then approach speeds, angles, eccentricities, and corners.
+/// How well the steps of a line suit a state.
+struct Fit {
+    /// The longest step by the slopes of the distances.
+    longest: f64,
+    /// The level of the longest step that suits the state.
+    suitable: Option<usize>,
+}
+
+impl Fit {
+    fn level(&self) -> usize {
+        self.suitable.unwrap_or(LEVELS - 1)
+    }
+}
+
+/// The places of [`Distances`]: penetrations, then approach speeds, angles, and corners.
 const APPROACHES: usize = 3 + GUIDE_CORNERS;
 const ANGLES: usize = APPROACHES + CONTACTS;
-const ECCENTRICITIES: usize = ANGLES + 3;
-const CORNERS: usize = ECCENTRICITIES + 6;
+const CORNERS: usize = ANGLES + 3;
 const DISTANCES: usize = CORNERS + MAX_DISCONTINUITIES;
 
 /// Distances of a state from where the rates are not smooth, and what they are smooth in.
@@ -193,23 +211,27 @@ impl Distances {
         for (body, angle) in pose.rotations.angle.into_iter().enumerate() {
             write(ANGLES + body, angle, TURN);
         }
-        for (place, pin) in Pin::ALL.into_iter().enumerate().filter(|(place, _)| conditions.contacts[*place].closed) {
-            let eccentricity = pose.journal(pin).eccentricity;
-            // One that moves across itself by s grows by s²/(2·ε).
-            let most = (2.0 * OF_BEND * (depths[place] * eccentricity.norm()).abs()).sqrt();
-            write(ECCENTRICITIES + 2 * place, eccentricity.x, most);
-            write(ECCENTRICITIES + 2 * place + 1, eccentricity.y, most);
-        }
         for (corner, distance) in corners.values().iter().enumerate() {
             write(CORNERS + corner, *distance, OF_CORNER * distance.abs());
         }
         all
     }
 
-    /// Whether a `step` changes none of these by too much, which have these slopes.
+    /// The longest step that changes none of these by too much, which have these slopes; 0 if one of them is not a number.
     #[inline(never)]
-    fn allows(&self, slopes: &[f64; DISTANCES], step: f64) -> bool {
-        slopes.iter().zip(&self.most).all(|(slope, most)| *slope == 0.0 || (step * slope).abs() <= *most)
+    fn longest(&self, slopes: &[f64; DISTANCES]) -> f64 {
+        let moving = slopes.iter().zip(&self.most).filter(|(slope, _)| **slope != 0.0);
+        let steps = moving.map(|(slope, most)| most / slope.abs());
+        steps.map(|step| if step.is_nan() { 0.0 } else { step }).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether the penetrations change by little of the second order from one neighbour to the opposite one.
+    #[inline(never)]
+    fn is_straight(&self, [before, after]: [&Self; 2]) -> bool {
+        (0..APPROACHES).all(|i| {
+            let own = self.values[i];
+            (before.values[i] + after.values[i] - 2.0 * own).abs() <= 2.0 * OF_BEND * own.abs()
+        })
     }
 
     /// Whether none of these differs from that of a neighbour, which is up to two steps away, by much more than it may.
