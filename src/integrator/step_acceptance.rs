@@ -22,6 +22,9 @@ const MAX_FAILURES: usize = 8;
 /// that corrector rounds that start far from the solution diverge, however short the step is. An attempt with constant
 /// accelerations improves as it becomes shorter.
 const MAX_PREDICTING_ERROR: f64 = 1e4;
+/// In an attempt with a larger error Newton's method has not converged. A discontinuity on the way to where it stopped is
+/// none of the motion's: steps cut there were a thirtieth as long as they could be, and each next step failed in the same way.
+const MAX_SEARCHED_ERROR: f64 = 1e25;
 /// [roundings of time] A step is not cut at a derivative discontinuity if it would be shorter than this.
 const MIN_CUT: f64 = 1e3;
 
@@ -149,7 +152,7 @@ fn fitted<D: Copy>(
             stepper.method.forget();
         }
         let state = &stepper.state;
-        let searches = error.is_finite() && cuts < MAX_CUTS && !creeping;
+        let searches = error < MAX_SEARCHED_ERROR && cuts < MAX_CUTS && !creeping;
         let share = if searches {
             discontinuity::first(system, state.start(), &stepper.events, h, &state.attempt().y)
         } else {

@@ -7,7 +7,9 @@
 //!
 //! Stiffness is suspected where an explicit step is no longer short against the fastest motion, as two stages at the same
 //! instant reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
-//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer. Explicit
+//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer, unless
+//! explicit steps are near their stability bound: an implicit step is longer there, and events have often changed the motion
+//! since the last trial. Explicit
 //! steps need not be at their stability bound for a trial to pay: at tight tolerances accuracy bounds them first, and steps
 //! of a higher order are longer. Where the rates are not cheap, implicit steps are therefore compared with explicit ones as
 //! long as those before the trial, in times of the fastest motion. Where they are cheap, a trial costs more than it may gain:
@@ -28,6 +30,10 @@ use crate::integrator::system::{Jacobian, MAX_STATES, StateLayout};
 const MIN_CHECK_INTERVAL: u32 = 32;
 /// Maximum number of accepted steps between two checks, after changes that did not pay.
 const MAX_CHECK_INTERVAL: u32 = 256;
+/// Number of explicit steps between two looks for steps near the stability bound.
+const EARLY_CHECK_INTERVAL: u32 = 16;
+/// Share of the stability bound from which on a step is near it: two stages reveal less than the fastest rate.
+const NEAR_BOUND: f64 = 0.4;
 /// Share of the stability bound at which explicit steps begin after a series of implicit ones.
 const STABLE_SHARE: f64 = 0.6;
 /// Length of a block times the fastest rate above which the implicit method is tried.
@@ -142,8 +148,8 @@ impl StiffnessSwitch {
     /// only when a check is due.
     pub fn after_explicit(&mut self, h: f64, terms: &Terms, stiffness: impl FnOnce() -> f64) {
         self.note_explicit(h);
-        if self.check_is_due(self.check_interval) && stiffness() > terms.suspected {
-            *self = Self { kind: MethodKind::Implicit, reach: 0.0, ..*self };
+        if self.suspicion(self.check_interval, terms, stiffness) == Some(true) {
+            *self = Self { kind: MethodKind::Implicit, steps: 0, reach: 0.0, ..*self };
         }
     }
 
@@ -152,15 +158,24 @@ impl StiffnessSwitch {
     pub fn after_explicit_beside_blocks(&mut self, h: f64, terms: &Terms, stiffness: impl FnOnce() -> f64) {
         self.note_explicit(h);
         self.enter(h / (EXPLICIT_COST_IN_BLOCKS * self.block));
-        if self.check_is_due(EXPLICIT_SERIES) {
-            *self = if stiffness() > terms.suspected {
-                Self { kind: MethodKind::Implicit, explicit: self.explicit, ..Self::NON_STIFF }
-            } else {
-                Self::BLOCKS
-            };
-        } else if self.balance <= OVERDRAFT {
-            self.end_trial(Self::BLOCKS);
+        match self.suspicion(EXPLICIT_SERIES, terms, stiffness) {
+            Some(true) => {
+                *self = Self { kind: MethodKind::Implicit, explicit: self.explicit, ..Self::NON_STIFF };
+            }
+            Some(false) => *self = Self::BLOCKS,
+            None if self.balance <= OVERDRAFT => self.end_trial(Self::BLOCKS),
+            None => {}
         }
+    }
+
+    /// Counts an explicit step. Whether stiffness is suspected, if a check is due; between two checks, `Some(true)` if the step
+    /// is near the stability bound, and else `None`.
+    fn suspicion(&mut self, check_interval: u32, terms: &Terms, stiffness: impl FnOnce() -> f64) -> Option<bool> {
+        if self.check_is_due(check_interval) {
+            return Some(stiffness() > terms.suspected);
+        }
+        let is_near = self.steps.is_multiple_of(EARLY_CHECK_INTERVAL) && stiffness() > NEAR_BOUND * terms.bound;
+        is_near.then_some(true)
     }
 
     /// Enters an explicit step of length `h` [s] into their usual length.
@@ -300,7 +315,7 @@ mod tests {
         let mut switch = StiffnessSwitch::NON_STIFF;
         let trial = |switch: &mut StiffnessSwitch| {
             let steps = (1..2000).find(|_| {
-                switch.after_explicit(9e-7, &COSTLY, || 4.0);
+                switch.after_explicit(9e-7, &COSTLY, || 1.0);
                 switch.kind == MethodKind::Implicit
             });
             let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), &COSTLY, 4e6).is_some());
@@ -349,9 +364,20 @@ mod tests {
         let mut switch = StiffnessSwitch::NON_STIFF;
         (0..256).for_each(|_| switch.after_explicit(1e-6, &CHEAP, || 1.0));
         assert_eq!(switch, StiffnessSwitch { explicit: 1e-6, ..StiffnessSwitch::NON_STIFF });
-        (0..32).for_each(|_| switch.after_explicit(2e-6, &CHEAP, || 2.0));
+        (0..32).for_each(|_| switch.after_explicit(2e-6, &CHEAP, || 1.5));
         assert_eq!(switch.kind, MethodKind::Implicit);
         assert_eq!((1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), &CHEAP, 1e6).is_some()), Some(4));
+    }
+
+    #[test]
+    fn steps_near_the_stability_bound_do_not_wait_for_the_next_check() {
+        for check_interval in [32, 256] {
+            let mut switch = StiffnessSwitch { check_interval, ..StiffnessSwitch::NON_STIFF };
+            (0..15).for_each(|_| switch.after_explicit(1e-6, &CHEAP, || 2.0));
+            assert_eq!(switch.kind, MethodKind::Explicit);
+            switch.after_explicit(1e-6, &CHEAP, || 2.0);
+            assert_eq!((switch.kind, switch.steps), (MethodKind::Implicit, 0));
+        }
     }
 
     #[test]
