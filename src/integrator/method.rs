@@ -38,6 +38,8 @@ pub struct Properties {
 
 /// Share of the tolerance that one step may use where the errors of many steps accumulate.
 pub const ERROR_SHARE: f64 = 0.4;
+/// [scales] Error of each state in an attempt in which Newton's method has not converged. No budget makes it tolerable.
+pub const NOT_CONVERGED: f64 = 1e30;
 
 /// How a method computes a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

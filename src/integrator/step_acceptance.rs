@@ -2,6 +2,7 @@
 
 use super::derivative_discontinuity as discontinuity;
 use super::error::IntegrationError;
+use super::method::NOT_CONVERGED;
 use super::state::{CREEPING_CUTS, LEAST_ERROR, first_invalid};
 use super::step_control as control;
 use super::stepper::Stepper;
@@ -22,9 +23,6 @@ const MAX_FAILURES: usize = 8;
 /// that corrector rounds that start far from the solution diverge, however short the step is. An attempt with constant
 /// accelerations improves as it becomes shorter.
 const MAX_PREDICTING_ERROR: f64 = 1e4;
-/// In an attempt with a larger error Newton's method has not converged. A discontinuity on the way to where it stopped is
-/// none of the motion's: steps cut there were a thirtieth as long as they could be, and each next step failed in the same way.
-const MAX_SEARCHED_ERROR: f64 = 1e25;
 /// [roundings of time] A step is not cut at a derivative discontinuity if it would be shorter than this.
 const MIN_CUT: f64 = 1e3;
 
@@ -152,7 +150,9 @@ fn fitted<D: Copy>(
             stepper.method.forget();
         }
         let state = &stepper.state;
-        let searches = error < MAX_SEARCHED_ERROR && cuts < MAX_CUTS && !creeping;
+        // A discontinuity on the way to where Newton's method has stopped is none of the motion's: the next step would
+        // fail as this one did.
+        let searches = error < NOT_CONVERGED && cuts < MAX_CUTS && !creeping;
         let share = if searches {
             discontinuity::first(system, state.start(), &stepper.events, h, &state.attempt().y)
         } else {

@@ -8,12 +8,11 @@
 //! Stiffness is suspected where an explicit step is no longer short against the fastest motion, as two stages at the same
 //! instant reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
 //! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer, unless
-//! explicit steps are near their stability bound: an implicit step is longer there, and events have often changed the motion
-//! since the last trial. Explicit
-//! steps need not be at their stability bound for a trial to pay: at tight tolerances accuracy bounds them first, and steps
-//! of a higher order are longer. Where the rates are not cheap, implicit steps are therefore compared with explicit ones as
-//! long as those before the trial, in times of the fastest motion. Where they are cheap, a trial costs more than it may gain:
-//! the comparison is with steps at the bound.
+//! explicit steps are near their stability bound: an implicit step is longer there, and events have often changed the
+//! motion since the last trial. Explicit steps need not be at their stability bound for a trial to pay: at tight tolerances
+//! accuracy bounds them first, and steps of a higher order are longer. Where the rates are not cheap, implicit steps are
+//! therefore compared with explicit ones as long as those before the trial, in times of the fastest motion. Where they are
+//! cheap, a trial costs more than it may gain: the comparison is with steps at the bound.
 //!
 //! A block is the cheapest kind where the system suits it, and the first to be short in fast motion: its corrector converges
 //! slowly there. The implicit method, whose stages are evaluated together like those of a block, is then tried and kept while
@@ -145,7 +144,7 @@ impl StiffnessSwitch {
     }
 
     /// Records an accepted explicit step of length `h` [s]. `stiffness` computes its length times the fastest rate and is called
-    /// only when a check is due.
+    /// only at a check, and at the early ones between two checks.
     pub fn after_explicit(&mut self, h: f64, terms: &Terms, stiffness: impl FnOnce() -> f64) {
         self.note_explicit(h);
         if self.suspicion(self.check_interval, terms, stiffness) == Some(true) {

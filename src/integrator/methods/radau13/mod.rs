@@ -34,7 +34,7 @@
 mod tables;
 
 use crate::integrator::linear::FourFactors;
-use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
+use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, NOT_CONVERGED, Properties};
 use crate::integrator::second_order;
 use crate::integrator::snapshot::{Reader, Snapshot};
 use crate::integrator::state::{StepPoint, is_valid};
@@ -58,8 +58,6 @@ const FIRST_RATIO: f64 = 0.1;
 const MAX_RATIO: f64 = 0.9;
 /// A ratio of two corrections that a step should have. The ratio is about proportional to the step.
 const GOOD_RATIO: f64 = 0.15;
-/// [scales] Error of a step in which Newton's method has not converged. No budget makes it tolerable.
-const NOT_CONVERGED: f64 = 1e30;
 /// A step longer than this many times the last one is not predicted from it.
 const MAX_LENGTH_RATIO: f64 = 6.0;
 /// The stage at which the equations are linearised.
