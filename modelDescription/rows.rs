@@ -146,9 +146,10 @@ pub fn read(text: &str) -> Result<Declaration, RowError> {
 /// Every row for each of its letters, typed; what it depends on is still open.
 fn drafts(text: &str, raw: &Raw) -> Result<Vec<Draft>, RowError> {
     let mut drafts = vec![];
+    let ends: Vec<usize> = text.match_indices('\n').map(|(place, _)| place).collect();
     for (index, group) in raw.group.iter().enumerate() {
         for spanned in &group.rows {
-            let line = line_of(text, spanned.span().start);
+            let line = 1 + ends.partition_point(|end| *end < spanned.span().start);
             for row in spanned.get_ref().expanded() {
                 let typed = typed(&row, index, raw).map_err(|fault| RowError { line, fault })?;
                 drafts.push((line, typed, row));

@@ -3,6 +3,7 @@
 //! `peers` has none of those that it compares with, as they come from elsewhere and take minutes; the study of `ssp`,
 //! which takes minutes too, is run with a short plan by the tests of the hosts.
 
+use crate::program::program;
 use fmu_harness::scenes::{Scenario, contests, directory, names};
 use rayon::prelude::*;
 use slidercrank::fmi::slave::variables::VARIABLES;
@@ -18,10 +19,6 @@ const PRESCRIBED: &str = "ideal";
 const SHORT: [&str; 6] = ["--transient", "1", "--turns", "6", "--tangent-turns", "1"];
 /// Under each table stands a sentence for every row without numbers.
 const GAP: &str = "has no numbers";
-
-fn program() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_fmu-harness"))
-}
 
 /// How a command ends, and all that it says.
 fn said(command: &mut Command) -> (ExitStatus, String) {
@@ -83,10 +80,10 @@ fn dynamics_comes_to_a_verdict_on_every_scene() {
 fn the_other_commands_have_a_number_in_every_row() {
     let study = directory().with_file_name("studies").join("speed-and-clearance.toml").display().to_string();
     let wear = ["--transient", "1", "--turns", "3", "--tolerance", "0.1"];
-    let commands = [
+    let realtime = ["wornpin", "allplay", "flexrod", STANDING];
+    let mut commands = vec![
         vec!["effects", "--quick"],
         vec!["laws", "--turns", "0.1"],
-        vec!["realtime", "--steps", "100", "--budget", "5"],
         vec!["precision", "--quick", "--scene", "wornpin", "--window", "2 ms", "--span", "4 ms"],
         vec!["report", "--unmeasured", "--transient", "2", "--turns", "6"],
         vec!["campaign", "--kind", "machines", "--scenes", "8", "--turns", "5"],
@@ -105,6 +102,7 @@ fn the_other_commands_have_a_number_in_every_row() {
         [&["wear", "--coefficient", "B=1e-17", "--coefficient", "C=1e-17,3e-17", "--strokes", "1e6"], &wear[..]]
             .concat(),
     ];
+    commands.extend(realtime.map(|scene| vec!["realtime", "--scene", scene, "--steps", "50", "--budget", "1"]));
     commands.iter().for_each(|command| all_end_well(std::slice::from_ref(command)));
 }
 
@@ -181,7 +179,8 @@ fn ssp_packages_the_press_with_its_drive() {
 
 #[cfg(unix)]
 mod peers {
-    use super::{GAP, contests, program, said};
+    use super::{GAP, contests, said};
+    use crate::program::program;
     use fmu_harness::scenes::file;
     use rayon::prelude::*;
     use std::os::unix::fs::PermissionsExt;

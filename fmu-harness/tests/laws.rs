@@ -1,7 +1,7 @@
 //! The comparison of contact laws: it has a row for every combination, and the rows are ordered as the laws demand.
 
+use crate::program::stock;
 use fmu_harness::laws::{Case, Comparison, JointLoads, Loads};
-use fmu_harness::package::Stock;
 use fmu_harness::scenes::Scenario;
 use slidercrank::model::contact::damping::factor;
 use slidercrank::scene::{DampingLaw, Elasticity};
@@ -21,7 +21,7 @@ const RESTITUTION: f64 = 0.9;
 static WORNPIN: LazyLock<(TempDir, PathBuf)> = LazyLock::new(|| {
     let directory = tempfile::tempdir().expect("a directory");
     let file = directory.path().join("wornpin.fmu");
-    let package = Stock::build().expect("libraries").package(&wornpin(&[])).expect("a package");
+    let package = stock().package(&wornpin(&[])).expect("a package");
     package.save(&file).expect("written");
     (directory, file)
 });
@@ -93,7 +93,7 @@ fn every_elasticity_meets_every_damping_law_and_each_has_its_own_impact() {
 fn a_law_that_refuses_the_restitution_says_so_and_the_others_run() {
     let scenario = wornpin(&["joint.C.law=hertz", "joint.C.restitution=0.01"]);
     let file = tempfile::NamedTempFile::new().expect("a file");
-    let package = Stock::build().expect("libraries").package(&scenario).expect("a package");
+    let package = stock().package(&scenario).expect("a package");
     package.save(file.path()).expect("written");
     let comparison = Comparison::of(&scenario.file, Some("C"), Some(ONE_IMPACT), BUDGET).expect("a comparison");
     for (case, found) in comparison.run(file.path(), || ()) {

@@ -20,6 +20,7 @@ mod peers;
 mod picture;
 mod platforms;
 mod precision;
+mod program;
 mod python;
 mod sweep;
 mod wear;

@@ -1,6 +1,7 @@
 //! The library for newer processors: used where it can be, done without where it cannot, and the same motion.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
+use crate::program::stock;
 use fmu_harness::host::{Archive, Fmu, Kind, Setting, Variable};
 use fmu_harness::package::archive::{Part, write};
 use fmu_harness::package::{Package, Stock};
@@ -70,7 +71,7 @@ fn damaged(directory: &TempDir, package: &[u8], damage: fn(Vec<u8>) -> Vec<u8>) 
 #[test]
 fn the_processor_chooses_the_library_and_the_motion_stays_the_same() {
     let directory = TempDir::new().expect("a directory");
-    let stock = Stock::build().expect("libraries");
+    let stock = stock();
     let scenario = Scenario::find("press").expect("a shipped scene");
     let package = |stock: &Stock| -> Vec<u8> {
         let Package { bytes, .. } = stock.package(&scenario).expect("a package");

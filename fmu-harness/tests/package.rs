@@ -1,15 +1,15 @@
 //! The packaged FMU: its bytes are reproducible, its archive keeps FMI's rules, and a host can open and run it.
 
+use crate::program::{program, stock};
 use fmu_harness::host::{Archive, Description, Fmu, Log, LogLine, PLATFORM, Setting, Value};
 use fmu_harness::inspect::declared;
+use fmu_harness::package::Version;
 use fmu_harness::package::elf::{self, Glibc};
 use fmu_harness::package::references::{FOLDER, RESULTS, STIMULI};
-use fmu_harness::package::{Package, Stock, Version};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
 use slidercrank::fmi::abi::dispatch_x86_64_v3;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::{Arc, OnceLock};
 use tempfile::TempDir;
 
@@ -20,7 +20,7 @@ fn scenario() -> Scenario {
 /// Packaged once for all tests.
 fn package() -> &'static [u8] {
     static PACKAGE: OnceLock<Vec<u8>> = OnceLock::new();
-    PACKAGE.get_or_init(|| Package::make(&scenario()).expect("a package").bytes)
+    PACKAGE.get_or_init(|| stock().package(&scenario()).expect("a package").bytes)
 }
 
 fn saved() -> (TempDir, PathBuf) {
@@ -32,9 +32,9 @@ fn saved() -> (TempDir, PathBuf) {
 
 #[test]
 fn the_same_scene_gives_the_same_bytes_and_another_gives_others() {
-    assert!(Package::make(&scenario()).expect("a package").bytes == package());
+    assert!(stock().package(&scenario()).expect("a package").bytes == package());
     let ideal = Scenario::find("ideal").expect("a shipped scene");
-    assert!(Package::make(&ideal).expect("a package").bytes != package());
+    assert!(stock().package(&ideal).expect("a package").bytes != package());
 }
 
 /// Without a list of platforms.
@@ -43,8 +43,7 @@ fn the_same_scene_gives_the_same_bytes_and_another_gives_others() {
 fn the_command_package_makes_a_file_for_old_linux_where_zig_can_be_installed() {
     let directory = TempDir::new().expect("a directory");
     let file = directory.path().join("wornpin.fmu");
-    let output = Command::new(env!("CARGO_BIN_EXE_fmu-harness")).args(["package", "-o"]).arg(&file).output();
-    let output = output.expect("the program starts");
+    let output = program().args(["package", "-o"]).arg(&file).output().expect("the program starts");
     let [printed, complaint] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     assert!(output.status.success(), "{complaint}");
     if complaint.contains("zig cannot be set up") {
@@ -235,8 +234,7 @@ fn the_packaged_file_runs_and_its_start_values_are_the_scene() {
 fn the_package_of_fmi3_runs_to_the_same_bits_and_tells_the_same_variables() {
     let (directory, two) = saved();
     let three = directory.path().join("wornpin3.fmu");
-    let stock = Stock::build().expect("a library");
-    stock.package_for(Version::Fmi3, &scenario()).expect("a package").save(&three).expect("saved");
+    stock().package_for(Version::Fmi3, &scenario()).expect("a package").save(&three).expect("saved");
     let recordings = [&two, &three].map(|file| {
         let fmu = Fmu::open(file).expect("an FMU");
         let settings = ["energy.audit=true", "joint.C.friction.law=tanh"].map(|text| text.parse().expect("name=value"));
@@ -318,7 +316,7 @@ fn modes_of_a_table_beside_the_scene_travel_in_the_package() {
     let run_of = |name: &str| {
         let scenario = Scenario::find(&directory.path().join(format!("{name}.toml")).display().to_string());
         let file = directory.path().join(format!("{name}.fmu"));
-        Package::make(&scenario.expect("a legal scene")).expect("a package").save(&file).expect("saved");
+        stock().package(&scenario.expect("a legal scene")).expect("a package").save(&file).expect("saved");
         let fmu = Fmu::open(&file).expect("an FMU");
         let until = Until::Time(1e-3);
         let experiment =
@@ -354,7 +352,7 @@ fn set_values_are_start_values_of_the_description_and_of_the_library() {
     let same = ["joint.B.model=clearance", "joint.C.clearance=1e-4", "joint.C.law=hu_guo", "energy.audit=1"];
     let set = scenario().with(&settings(&typed)).expect("a legal scene");
     let file = directory.path().join("set.fmu");
-    Package::make(&set).expect("a package").save(&file).expect("saved");
+    stock().package(&set).expect("a package").save(&file).expect("saved");
     let course = |file: &Path, settings: Vec<Setting>| {
         let fmu = Fmu::open(file).expect("an FMU");
         let until = Until::Time(2e-3);
@@ -399,7 +397,7 @@ fn a_package_tells_its_date_and_the_time_of_day_changes_no_byte() {
     let directory = TempDir::new().expect("a directory");
     let package = |epoch: Option<&str>| {
         let file = directory.path().join("dated.fmu");
-        let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+        let mut command = program();
         command.args(["package", "--scene", "wornpin", "-o"]).arg(&file).env_remove("SOURCE_DATE_EPOCH");
         if let Some(epoch) = epoch {
             command.env("SOURCE_DATE_EPOCH", epoch);

@@ -1,6 +1,6 @@
 //! Studies: what is run, once, whatever kills or splits them.
 
-use fmu_harness::package::Stock;
+use crate::program::stock;
 use fmu_harness::scenes::Scenario;
 use fmu_harness::sweep::journal::path;
 use fmu_harness::sweep::{Journal, Plan, Study, Sweep};
@@ -112,7 +112,7 @@ fn killed_or_split_a_study_gives_the_same_and_runs_nothing_twice() {
     let (study, plan) = study(STUDY).expect("a plan");
     let scenario = Scenario::find("wornpin").expect("a scene");
     let fmu = directory.path().join("wornpin.fmu");
-    Stock::build().expect("a library").package(&scenario).expect("a package").save(&fmu).expect("a file");
+    stock().package(&scenario).expect("a package").save(&fmu).expect("a file");
     let budget = Duration::from_secs(60);
     let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };
     let file = path(directory.path(), "own");
@@ -153,7 +153,7 @@ fn a_run_that_fails_stops_no_other() {
     let (study, plan) = study(&text).expect("a plan");
     let scenario = Scenario::find("wornpin").expect("a scene");
     let fmu = directory.path().join("wornpin.fmu");
-    Stock::build().expect("a library").package(&scenario).expect("a package").save(&fmu).expect("a file");
+    stock().package(&scenario).expect("a package").save(&fmu).expect("a file");
     let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget: Duration::from_secs(60) };
     let journal = Journal::open(&path(directory.path(), "own"), "digest").expect("a journal");
     sweep.run(&journal, || {}).expect("a study");

@@ -1,7 +1,7 @@
 //! Wear of a journal at rest, by its closed form, through the packaged FMU; and studies that are resumed.
 
+use crate::program::stock;
 use fmu_harness::host::Fmu;
-use fmu_harness::package::Stock;
 use fmu_harness::scenes::Scenario;
 use fmu_harness::sweep::Journal;
 use fmu_harness::wear::{Plan, Study};
@@ -59,7 +59,7 @@ fn resting(claim: impl Fn(&Study, &Path)) {
     let [scene, package] = ["resting.toml", "resting.fmu"].map(|name| directory.path().join(name));
     fs::write(&scene, RESTING).expect("a file");
     let scenario = Scenario::find(&scene.display().to_string()).expect("a scene");
-    Stock::build().expect("a library").package(&scenario).expect("a package").save(&package).expect("a file");
+    stock().package(&scenario).expect("a package").save(&package).expect("a file");
     let fmu = Fmu::open(&package).expect("an FMU");
     let coefficients = "A=1e-15,3e-15".parse().expect("coefficients");
     claim(&Study::new(&scenario, &fmu, &[coefficients], PLAN).expect("a study"), directory.path());

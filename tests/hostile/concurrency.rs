@@ -1,8 +1,8 @@
 //! Many instances in many threads, and many threads in one instance.
 
-use crate::brief;
 use crate::face::Face;
 use crate::scenes::{MECHANISMS, hosted};
+use crate::{brief, tried};
 use crate::{three, two};
 use slidercrank::fmi::v2::Status;
 use std::sync::Barrier;
@@ -25,7 +25,7 @@ fn nth<F: Face>(number: usize) -> F {
 /// Marches instances side by side, with inputs set on the way; what each is in the end, bit for bit.
 fn march<F: Face>(slaves: &[(usize, F)]) -> Vec<Vec<u8>> {
     let mut point = 0.0;
-    for step in 0..if brief() { 3 } else { 30 } {
+    for step in 0..if brief() { 3 } else { tried(30) as usize } {
         for (number, slave) in slaves {
             assert_eq!(slave.set("slider.load", (number + step) as f64), Status::Ok);
             slave.steps(point, H, 1);

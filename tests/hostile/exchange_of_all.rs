@@ -1,9 +1,9 @@
 //! Model exchange of mechanisms that the linked library is not packaged with: copies of this test program, each packaged
 //! with another one.
 
-use crate::brief;
 use crate::exchanged::BRISTLES;
 use crate::scenes::{MECHANISMS, packaged};
+use crate::{COPY, brief};
 use slidercrank::scene::{Method, slot};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -28,7 +28,12 @@ fn all_mechanisms_are_exchanged_as_safely() {
         let copy = program.with_file_name(format!("hostile-{}-{place}", std::process::id()));
         fs::write(&copy, bytes).expect("a copy");
         fs::set_permissions(&copy, fs::Permissions::from_mode(0o755)).expect("a program");
-        let output = Command::new(&copy).args(FILTERS).args(["--skip", "all_mechanisms"]).output().expect("a run");
+        let output = Command::new(&copy)
+            .env(COPY, "1")
+            .args(FILTERS)
+            .args(["--skip", "all_mechanisms"])
+            .output()
+            .expect("a run");
         fs::remove_file(&copy).expect("a copy");
         let told = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{}: {told}", mechanism.name);

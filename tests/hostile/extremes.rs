@@ -1,9 +1,9 @@
 //! Parameters at the ends of their ranges, alone and together by chance: a run of numbers, or one line that says why not.
 
-use crate::brief;
 use crate::face::Face;
 use crate::forged::{H, START};
 use crate::scenes::{MECHANISMS, hosted};
+use crate::{brief, tried};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use slidercrank::fmi::slave::Interface;
@@ -93,7 +93,7 @@ fn each_parameter_at_each_end_of_its_range<F: Face>() {
 }
 
 fn many_parameters_at_the_ends_of_their_ranges<F: Face>() {
-    let cases = if brief() { 5 } else { 1_000 / F::ONE_IN as u32 };
+    let cases = if brief() { 5 } else { tried(1_000 / F::ONE_IN as u32) };
     let config = Config { cases, rng_seed: RngSeed::Fixed(0xE0D5), failure_persistence: None, ..Config::default() };
     let value =
         (0..PARAMETERS.len()).prop_flat_map(|place| (Just(place), prop::sample::select(ends(&PARAMETERS[place]))));

@@ -45,3 +45,11 @@ mod two;
 fn brief() -> bool {
     std::env::var_os("SLIDERCRANK_TEST_BRIEF").is_some()
 }
+
+/// Set for copies of this program with other mechanisms.
+const COPY: &str = "SLIDERCRANK_TEST_COPY";
+
+/// How many of so many cases are tried. Copies of this program share them.
+fn tried(cases: u32) -> u32 {
+    if std::env::var_os(COPY).is_some() { cases / 5 } else { cases }
+}

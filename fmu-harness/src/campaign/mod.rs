@@ -48,6 +48,8 @@ pub struct Campaign {
     pub seed: u64,
     /// Turns of each run.
     pub turns: f64,
+    /// Maximum number of evaluations of a trial, in the usual ones.
+    pub effort: f64,
 }
 
 /// The outcome of a scene.
@@ -240,7 +242,7 @@ impl Campaign {
         if matches!(scene.solver.method, Method::Radau13 | Method::Rodas4) {
             price *= 3.0;
         }
-        most / price
+        self.effort * most / price
     }
 
     /// The simplest scene found that fails with the same message, apart from numbers.

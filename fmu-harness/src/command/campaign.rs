@@ -90,7 +90,7 @@ impl Campaign {
         let scenes = self.scenes.unwrap_or(all.unwrap_or(DRAWN)).min(all.unwrap_or(u64::MAX));
         let bar = ProgressBar::new(scenes).with_style(style).with_message(format!("{name}, seed {}", self.seed));
         let turns = self.turns.unwrap_or_else(|| turns(kind));
-        let draws = Draws { kind, scenes, seed: self.seed, turns };
+        let draws = Draws { kind, scenes, seed: self.seed, turns, effort: 1.0 };
         let hangs = |number: u64, file: &SceneFile| {
             let name = format!("{}-{number}-hangs", self.seed);
             let kept = keep(&out, &name, "The run does not end.", file);

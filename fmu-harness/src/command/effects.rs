@@ -14,7 +14,7 @@ use std::fs;
 use std::path::PathBuf;
 
 /// Share of each scene's time that `--quick` runs.
-const QUICK: f64 = 0.1;
+const QUICK: f64 = 0.02;
 /// Runs with a tangent of which the fastest counts.
 const TANGENT_RUNS: usize = 5;
 /// Scenes whose tangent is timed, too.
@@ -30,7 +30,7 @@ const WITH_TANGENT: [&str; 4] =
 /// same run without. Writes effects.csv, effects.md, effects.svg and the packaged scenes.
 #[derive(Args)]
 pub struct Effects {
-    /// Run every scene for only a tenth of its time, and only once with each tangent
+    /// Run every scene for only a fiftieth of its time, and only once with each tangent
     #[arg(long)]
     quick: bool,
     /// Directory of the results [default: target/out]

@@ -2,7 +2,7 @@
 //! draw.
 
 use super::distribution::Law;
-use super::study::{Number, Study, parameter};
+use super::study::{Number, Study, Values, parameter};
 use anyhow::{Context, Result, ensure};
 use hmac_sha256::Hash;
 use rand::SeedableRng;
@@ -30,16 +30,18 @@ impl Plan {
         if let Some(file) = &study.table {
             blocks.push(table(&study.directory.join(file))?);
         }
+        let rows = blocks.first().map_or(1, |(_, rows)| rows.len());
+        let draws = if study.random.is_empty() { 1 } else { study.draws };
+        let mut factors = study.grid.values().map(Values::len).chain([draws]);
+        let runs = factors.try_fold(rows, |runs, factor| runs.checked_mul(factor)).filter(|runs| *runs <= MOST_RUNS);
+        let runs = runs.with_context(|| format!("the study has more than {MOST_RUNS} runs"))?;
         for (name, values) in &study.grid {
             let list = values.list(parameter(name)?)?;
             blocks.push((vec![name.clone()], list.into_iter().map(|value| vec![value]).collect()));
         }
         if !study.random.is_empty() {
-            blocks.push(draws(study)?);
+            blocks.push(random_rows(study)?);
         }
-        let runs = blocks.iter().try_fold(1, |runs: usize, (_, rows)| runs.checked_mul(rows.len()));
-        let runs = runs.filter(|runs| *runs <= MOST_RUNS);
-        let runs = runs.with_context(|| format!("the study has more than {MOST_RUNS} runs"))?;
         let names: Vec<String> = blocks.iter().flat_map(|(names, _)| names.clone()).collect();
         for (place, name) in names.iter().enumerate() {
             ensure!(!names[..place].contains(name), "`{name}` is listed twice");
@@ -124,7 +126,7 @@ fn table(file: &Path) -> Result<Block> {
 }
 
 /// Random rows. Each draw has its own stream of random numbers, so it does not depend on the number of draws.
-fn draws(study: &Study) -> Result<Block> {
+fn random_rows(study: &Study) -> Result<Block> {
     let names: Vec<String> = study.random.keys().cloned().collect();
     let row = |draw: usize| {
         let mut generator = ChaCha8Rng::seed_from_u64(study.seed);

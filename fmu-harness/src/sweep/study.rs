@@ -197,6 +197,19 @@ impl Number {
 }
 
 impl Values {
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::List(numbers) => numbers.len(),
+            Self::Range(Range { count, .. }) => *count,
+        }
+    }
+
+    /// Whether there is no value.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// All values in SI units.
     ///
     /// # Errors

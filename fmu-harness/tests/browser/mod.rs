@@ -7,9 +7,9 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
+use crate::program::program;
 use crate::pytest::Suite;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::OnceLock;
 
 static BROWSER: Suite = Suite {
@@ -25,9 +25,9 @@ fn pages() -> &'static Path {
     static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
     DIRECTORY.get_or_init(|| {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pages");
-        let brief = ["--unmeasured", "--transient", "1", "--turns", "6"];
-        for (scene, options) in [("wornpin", &[][..]), ("seed", &brief[..]), ("hold", &brief[..])] {
-            let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+        let brief = ["--transient", "1", "--turns", "6", "--unmeasured"];
+        for (scene, options) in [("wornpin", &brief[..4]), ("seed", &brief[..]), ("hold", &brief[..])] {
+            let mut command = program();
             command.args(["report", "--scene", scene]).args(options).arg("-o").arg(&directory);
             let output = command.output().expect("the program starts");
             assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -1,9 +1,9 @@
 //! Every scene of the ladder is the one before with its effect.
 
+use crate::program::stock;
 use fmu_harness::effects::{Price, inputs_at_start};
 use fmu_harness::host::{Fmu, LogLine};
 use fmu_harness::inputs;
-use fmu_harness::package::Stock;
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::{Scenario, ladder};
 use slidercrank::scene::Scene;
@@ -107,7 +107,7 @@ fn an_effect_adds_its_own_states_and_events_and_nothing_else() {
 #[test]
 fn running_the_scenes_one_by_one_reproduces_the_price_list() {
     let directory = tempfile::tempdir().expect("a directory");
-    let stock = Stock::build().expect("a library");
+    let stock = stock();
     for name in ladder() {
         let scenario = Scenario::find(&name).expect("a legal scene");
         let path = directory.path().join("scene.fmu");

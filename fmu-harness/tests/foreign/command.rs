@@ -1,12 +1,13 @@
 //! The program, from outside.
 
 use super::workshop::Workshop;
+use crate::program::program;
 use fmu_harness::trajectory::Trajectory;
 use std::fs;
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn harness(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_fmu-harness")).args(arguments).output().expect("the program starts")
+    program().args(arguments).output().expect("the program starts")
 }
 
 /// One line of complaint and a failure.

@@ -3,6 +3,7 @@
 
 use super::mechanisms::packages;
 use super::python;
+use crate::program::stock;
 use anyhow::Result;
 use fmu_harness::host::Fmu;
 use fmu_harness::package::{Stock, Version, build::workspace};
@@ -29,7 +30,7 @@ pub fn directory() -> &'static Path {
     static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
     DIRECTORY.get_or_init(|| {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmus");
-        let stock = Stock::build().expect("the libraries");
+        let stock = stock();
         for scene in names(&workspace().join("fmu-harness").join("scenes")) {
             if let Err(error) = package(&stock, &scene, &directory) {
                 eprintln!("{scene} cannot be packaged: {error:#}");

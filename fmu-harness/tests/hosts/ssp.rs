@@ -1,15 +1,14 @@
 //! The press with its drive as a package: its bytes, and the study of it from the plan to the drawing.
 
 use super::{packages, python};
-use fmu_harness::package::Stock;
+use crate::program::stock;
 use fmu_harness::report::ssp as report;
 use fmu_harness::ssp::package;
 use fmu_harness::ssp::study::{Plan, Study};
 
 #[test]
 fn the_same_package_twice_has_the_same_bytes() {
-    let stock = Stock::build().expect("the library");
-    let [one, other] = [(); 2].map(|()| package(&stock, python()).expect("a package"));
+    let [one, other] = [(); 2].map(|()| package(&stock(), python()).expect("a package"));
     assert!(one == other && one.len() > 100_000);
 }
 

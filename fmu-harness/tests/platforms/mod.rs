@@ -9,6 +9,7 @@
 mod machine;
 mod scene;
 
+use crate::program::program;
 use clap::ValueEnum;
 use fmu_harness::host::{Archive, Description};
 use fmu_harness::package::Version;
@@ -292,7 +293,7 @@ fn what_is_missing_is_told_in_one_line_and_nothing_is_written() {
     let folder = tempfile::tempdir().expect("a folder");
     for (platform, wanted) in [("win64", "apt-get install gcc-mingw"), ("linux-aarch64", "zig cannot be set up")] {
         let file = folder.path().join("scene.fmu");
-        let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+        let mut command = program();
         command.args(["package", "--platforms", platform, "-o"]).arg(&file).env("PATH", folder.path());
         let output = command.output().expect("the program starts");
         let told = String::from_utf8_lossy(&output.stderr);
@@ -320,7 +321,7 @@ fn without_zig() -> &'static WithoutZig {
             let found = std::env::split_paths(&path).map(|folder| folder.join(program)).find(|file| file.is_file());
             std::os::unix::fs::symlink(found.expect(program), folder.path().join(program)).expect("a link");
         }
-        let mut command = Command::new(env!("CARGO_BIN_EXE_fmu-harness"));
+        let mut command = program();
         command.args(["package", "--portable", "-o"]).arg(folder.path().join("scene.fmu"));
         command.env("PATH", folder.path());
         let output = command.output().expect("the program starts");

@@ -4,8 +4,8 @@ mod diagrams;
 mod report;
 mod steps;
 
+use crate::program::stock;
 use fmu_harness::host::Fmu;
-use fmu_harness::package::Package;
 use fmu_harness::precision::diagram::{Budget, Diagram, Point, Verdict};
 use fmu_harness::precision::ladder::Rung;
 use fmu_harness::precision::{Lengths, Subject};
@@ -25,7 +25,7 @@ const AMPLE: Budget = Budget {
 fn open(scenario: &Scenario) -> Fmu {
     let directory = tempfile::tempdir().expect("a directory");
     let file = directory.path().join("scene.fmu");
-    Package::make(scenario).and_then(|package| package.save(&file)).expect("a package");
+    stock().package(scenario).and_then(|package| package.save(&file)).expect("a package");
     Fmu::open(&file).expect("an FMU")
 }
 

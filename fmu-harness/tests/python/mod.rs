@@ -5,8 +5,9 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
+use crate::program::{program, stock};
 use crate::pytest::Suite;
-use fmu_harness::package::{Stock, build::workspace};
+use fmu_harness::package::build::workspace;
 use fmu_harness::python::sources;
 use fmu_harness::scenes::Scenario;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,7 @@ static PACKAGE: Suite = Suite {
             ("PYTHONPATH", sources().into()),
             ("SLIDERCRANK_FMUS", packages().into()),
             ("SLIDERCRANK_HOME", workspace().into()),
-            ("SLIDERCRANK_PROGRAM", env!("CARGO_BIN_EXE_fmu-harness").into()),
+            ("SLIDERCRANK_PROGRAM", program().get_program().into()),
             ("MPLBACKEND", "agg".into()),
         ]
     },
@@ -33,7 +34,7 @@ fn packages() -> &'static Path {
     static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
     DIRECTORY.get_or_init(|| {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python-fmus");
-        let stock = Stock::build().expect("a library");
+        let stock = stock();
         for name in ["ideal", "press", "wornpin"] {
             let scenario = Scenario::find(name).expect("a shipped scene");
             let file = directory.join(format!("{name}.fmu"));

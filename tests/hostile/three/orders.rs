@@ -4,12 +4,12 @@
 
 use super::stage::{STATES, Stage, Use, restrain, young};
 use super::{Events, Exchange, Stepping};
-use crate::brief;
 use crate::face::Face;
 use crate::importer::{Callback, Handle, Options, Slave};
 use crate::invoke::Word;
 use crate::product::{Choice, Outcome, Staged, make};
 use crate::stage::STOP;
+use crate::{brief, tried};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
@@ -169,7 +169,7 @@ fn made(usage: Use) -> Slave {
 }
 
 fn any_order(usage: Use) {
-    let cases = if brief() { 20 } else { 3_000 };
+    let cases = if brief() { 20 } else { tried(1_000) };
     let config = Config { cases, rng_seed: RngSeed::Fixed(0x0DD), failure_persistence: None, ..Config::default() };
     let (other, endings) = (made(usage), Endings::default());
     let theirs = other.save();
