@@ -86,7 +86,7 @@ fn the_other_commands_have_a_number_in_every_row() {
         vec!["laws", "--turns", "0.1"],
         vec!["precision", "--quick", "--scene", "wornpin", "--window", "2 ms", "--span", "4 ms"],
         vec!["report", "--unmeasured", "--transient", "2", "--turns", "6"],
-        vec!["campaign", "--kind", "machines", "--scenes", "8", "--turns", "5"],
+        vec!["campaign", "--kind", "machines", "--scenes", "4", "--turns", "5"],
         vec!["sweep", &study, "--plan"],
         vec![
             "sensitivity",
