@@ -143,7 +143,7 @@ fn resident() -> usize {
 fn two_thousand_lives() {
     let Some(life) = chosen() else { return };
     let cycles = if brief() { 200 } else { 2_000 };
-    (0..cycles / 10).for_each(|_| drop(life()));
+    (0..cycles).for_each(|_| drop(life()));
     let before = resident();
     (0..cycles).for_each(|_| drop(life()));
     let after = resident();
