@@ -7,7 +7,7 @@ use slidercrank::scene::{DriveMode, Elasticity, FrictionLaw, JointModel, PARAMET
 use slidercrank::simulation::Simulation;
 
 /// Evaluations of the equations of motion after which a run has shown what it can, of one step and of all.
-const ENOUGH: i32 = 50_000;
+const ENOUGH: i32 = 20_000;
 /// [s] A run is over.
 const END: f64 = 2e-3;
 
