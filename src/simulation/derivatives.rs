@@ -19,7 +19,7 @@ pub fn slopes(
     t: f64,
     y: &[f64],
     rates: &[f64],
-    observe: impl Fn(f64, &[f64]) -> Outputs,
+    observe: &dyn Fn(f64, &[f64]) -> Outputs,
 ) -> Outputs {
     let over = |half: f64| {
         let along = |time: f64| {

@@ -171,7 +171,7 @@ impl HostedMechanism {
         let rates = &mut rates[..states.len()];
         self.write_rates(rates);
         let mut slopes =
-            slopes(model.as_ref(), *time, states, rates, |t, y| observe(model.as_ref(), observer, conditions, t, y));
+            slopes(model.as_ref(), *time, states, rates, &|t, y| observe(model.as_ref(), observer, conditions, t, y));
         observer.set_known_rates(&model.evaluation(conditions, *time, states), &mut slopes);
         slopes
     }

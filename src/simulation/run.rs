@@ -195,7 +195,7 @@ impl Motion for Run {
         let (mut rates, model, observer) = ([0.0; MAX_STATES], self.model.as_ref(), &self.observer);
         let rates = &mut rates[..y.len()];
         model.rates(&conditions, t, y, rates);
-        let mut slopes = slopes(model, t, y, rates, |t, y| observe(model, observer, &conditions, t, y));
+        let mut slopes = slopes(model, t, y, rates, &|t, y| observe(model, observer, &conditions, t, y));
         observer.set_known_rates(&model.evaluation(&conditions, t, y), &mut slopes);
         slopes
     }

@@ -123,7 +123,7 @@ impl Motion for TimeStepping {
         let (mut rates, model, observer) = ([0.0; MAX_STATES], self.model.as_ref(), &self.observer);
         let rates = &mut rates[..y.len()];
         model.rates_under(&impulses, &inputs, t, y, rates);
-        let mut slopes = slopes(model, t, y, rates, |t, y| observe(model, observer, &impulses, &inputs, t, y));
+        let mut slopes = slopes(model, t, y, rates, &|t, y| observe(model, observer, &impulses, &inputs, t, y));
         observer.set_known_rates(&model.evaluation_under(&impulses, &inputs, t, y), &mut slopes);
         slopes
     }

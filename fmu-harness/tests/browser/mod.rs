@@ -25,7 +25,7 @@ fn pages() -> &'static Path {
     static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
     DIRECTORY.get_or_init(|| {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pages");
-        let brief = ["--transient", "1", "--turns", "6", "--unmeasured"];
+        let brief = ["--transient", "1", "--turns", "12", "--unmeasured"];
         for (scene, options) in [("wornpin", &brief[..4]), ("seed", &brief[..]), ("hold", &brief[..])] {
             let mut command = program();
             command.args(["report", "--scene", scene]).args(options).arg("-o").arg(&directory);

@@ -13,8 +13,8 @@ use std::cell::OnceCell;
 /// Steps of a difference, in steps h, with their weights. Opposite ones follow each other, so that the sum is exactly 0
 /// where nothing changes.
 pub const CENTRAL: [(f64, f64); 4] = [(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)];
-/// The longest step as a share of a parameter; in noticeable differences if none changes.
-pub const LONGEST: f64 = 1e-3;
+/// The longest step as a share of a parameter.
+const LONGEST: f64 = 1e-3;
 /// Number of steps, each a tenth of the one before.
 pub const LEVELS: usize = 7;
 /// [rad] Largest change of an angle within a step.

@@ -2,9 +2,10 @@
 //!
 //! A derivative is a difference of order 4, (8·(f₁ − f₋₁) − (f₂ − f₋₂))/(12·h). Contact forces are not smooth where a
 //! penetration begins and at their corners, so the step h is chosen anew at every state, such that no penetration, and no
-//! distance to a corner, changes by more than a share of itself.
+//! distance to a corner, changes by more than a share of itself. Where a corner is so near that no step suits, speeds are
+//! moved along with the parameter such that the distance to the corner stays as it is.
 
-use super::levels::{CENTRAL, LEVELS, LONGEST, Levels, Neighbour, TURN, step_at};
+use super::levels::{CENTRAL, LEVELS, Levels, Neighbour, TURN, step_at};
 use crate::integrator::{Discontinuities, MAX_DISCONTINUITIES, MAX_STATES};
 use crate::math::add_multiple;
 use crate::model::contact::ContactState;
@@ -16,6 +17,8 @@ use crate::model::state::{CONTACTS, Conditions};
 use crate::simulation::observation::observe;
 use std::array::from_fn;
 
+/// The longest step of states alone, in noticeable differences.
+const OF_STATES: f64 = 0.1;
 /// The level at which changes of distances are measured: short against clearances, where lengths are centimetres.
 const MEASURED: usize = 4;
 /// Largest changes within a step: of a penetration, …
@@ -25,6 +28,16 @@ const OF_BEND: f64 = 1e-5;
 /// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves.
 const OF_CORNER: f64 = 0.2;
 const OF_APPROACH: f64 = 1e-3;
+
+/// Most corners that a line keeps its distance from, …
+const MOST_KEPT: usize = 4;
+/// … the change of a speed that tells how the distance depends on it, in its scale, …
+const OF_SPEED: f64 = 1e-4;
+/// … and the share of a gradient that must be left where those of nearer corners are taken away.
+const LEAST_LEFT: f64 = 1e-3;
+
+/// Largest length of a direction.
+pub const DIRECTION: usize = MAX_STATES + CONTACTS;
 
 /// A line through a state of a mechanism.
 #[derive(Clone, Copy)]
@@ -61,12 +74,12 @@ impl<'a> Line<'a> {
         slopes.fill(0.0);
         for Point { weight, model, conditions, y, .. } in self.points(level) {
             model.rates(&conditions, self.t, &y[..n], &mut rates[..n]);
-            add_multiple(slopes, weight, &rates);
+            add(slopes, weight, &rates);
         }
     }
 
     /// Derivatives of the outputs, with the step of a level. `observer` is that of the mechanism.
-    pub fn outputs(&self, level: usize, observer: &Observer) -> Outputs {
+    fn outputs(&self, level: usize, observer: &Observer) -> Outputs {
         if self.levels.is_none() && self.direction.iter().all(|slope| *slope == 0.0) {
             // A difference would be a rounding error.
             return Outputs::default();
@@ -87,8 +100,8 @@ impl<'a> Line<'a> {
     fn first(&self) -> f64 {
         match (self.levels, self.size()) {
             (Some(levels), _) => levels.longest(),
-            (None, 0.0) => LONGEST,
-            (None, size) => LONGEST / size,
+            (None, 0.0) => OF_STATES,
+            (None, size) => OF_STATES / size,
         }
     }
 
@@ -116,27 +129,85 @@ impl<'a> Line<'a> {
         Point { weight: weight / step, neighbour, model, conditions, y: moved }
     }
 
-    /// The level of the longest step that suits the state; the last one if none does.
-    pub fn level(&self) -> usize {
-        self.fit(&self.middle()).level()
+    /// Of this line and that of the parameter at a constant state the one with the longer step that suits the state. What
+    /// both say about the same state differs by the derivative along the direction.
+    #[inline(never)]
+    pub fn or_alone(self) -> Fitted<'a> {
+        let alone = Self { direction: &[], ..self }.fitted();
+        if alone.fit.suitable == Some(0) { alone } else { self.fitted().or(alone) }
     }
 
-    /// Of this line and that of the parameter at a constant state the one with the longer step that suits the state, and
-    /// the level of that step. What both say about the same state differs by the derivative along the direction.
-    pub fn or_alone(self) -> (Self, usize) {
-        let (alone, here) = (Self { direction: &[], ..self }, self.middle());
-        let constant = alone.fit(&here);
-        if constant.suitable == Some(0) {
-            return (alone, 0);
+    /// With the step that suits the state.
+    #[inline(never)]
+    pub fn fitted(self) -> Fitted<'a> {
+        Fitted { line: self, fit: self.fit(&self.middle()) }
+    }
+
+    /// The direction, changed in the forced states such that the distances to the nearest corners do not change to first
+    /// order. Corners count for as long as no other distance asks for a shorter step.
+    #[cold]
+    #[inline(never)]
+    pub fn along_corners(&self) -> [f64; DIRECTION] {
+        let (here, n, mut direction) = (self.middle(), self.direction.len(), [0.0; DIRECTION]);
+        direction[..n].copy_from_slice(self.direction);
+        let mut kept: Vec<[f64; MAX_STATES]> = Vec::new();
+        while kept.len() < MOST_KEPT {
+            let line = Line { direction: &direction[..n], ..*self };
+            let slopes = line.slopes();
+            let (_, nearest) = here.longest(&slopes);
+            let Some(corner) = nearest.and_then(|place| place.checked_sub(CORNERS)) else { break };
+            let mut gradient = self.gradient(corner);
+            let whole = dot(&gradient, &gradient);
+            for other in &kept {
+                let share = dot(other, &gradient);
+                add(&mut gradient, -share, other);
+            }
+            let left = dot(&gradient, &gradient);
+            if left <= LEAST_LEFT * LEAST_LEFT * whole {
+                break;
+            }
+            let share = slopes[CORNERS + corner] / left;
+            let scaled = direction.iter_mut().zip(&gradient).zip(self.model.scales());
+            scaled.for_each(|((slope, part), scale)| *slope -= share * part * scale);
+            kept.push(gradient.map(|part| part / left.sqrt()));
         }
-        let moving = self.fit(&here);
-        // Near a corner none suits, and the one errs less that crosses the corner more slowly.
-        let order = moving.level().cmp(&constant.level()).then(constant.longest.total_cmp(&moving.longest));
-        if order.is_le() { (self, moving.level()) } else { (alone, constant.level()) }
+        direction
     }
 
+    /// Derivatives of the distance to a corner by the forced states, in their scales.
+    #[cold]
+    #[inline(never)]
+    fn gradient(&self, corner: usize) -> [f64; MAX_STATES] {
+        let (mut gradient, mut y) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
+        let y = &mut y[..self.y.len()];
+        y.copy_from_slice(self.y);
+        for (state, scale) in self.model.scales().iter().enumerate().skip(self.model.layout().positions) {
+            let [above, below] = [OF_SPEED, -OF_SPEED].map(|share| {
+                y[state] = self.y[state] + share * scale;
+                let mut corners = Discontinuities::NONE;
+                self.model.discontinuities(self.conditions, self.t, y, &mut corners);
+                corners.values()[corner]
+            });
+            y[state] = self.y[state];
+            gradient[state] = (above - below) / (2.0 * OF_SPEED);
+        }
+        gradient
+    }
+
+    #[inline(never)]
     fn middle(&self) -> Distances {
         Distances::at(self.model, self.conditions, self.t, self.y)
+    }
+
+    /// Slopes of the distances.
+    #[inline(never)]
+    fn slopes(&self) -> [f64; DISTANCES] {
+        let mut slopes = [0.0; DISTANCES];
+        for i in 0..CENTRAL.len() {
+            let (there, weight) = self.beside(MEASURED, i);
+            add(&mut slopes, weight, &there.values);
+        }
+        slopes
     }
 
     /// The distances at a point, and its weight.
@@ -149,12 +220,7 @@ impl<'a> Line<'a> {
     /// How well the steps suit the state, which has these distances.
     #[inline(never)]
     fn fit(&self, here: &Distances) -> Fit {
-        let mut slopes = [0.0; DISTANCES];
-        for i in 0..CENTRAL.len() {
-            let (there, weight) = self.beside(MEASURED, i);
-            add_multiple(&mut slopes, weight, &there.values);
-        }
-        let (longest, first) = (here.longest(&slopes), self.first());
+        let (longest, first) = (here.longest(&self.slopes()).0, self.first());
         // Across an eccentricity a long step changes it by much, whatever its slope is.
         let keeps = |level: &usize| {
             let there: [Distances; CENTRAL.len()] = from_fn(|i| self.beside(*level, i).0);
@@ -162,6 +228,37 @@ impl<'a> Line<'a> {
         };
         let by_slope = (0..LEVELS).find(|level| step_at(first, *level) <= longest);
         Fit { longest, suitable: by_slope.and_then(|level| (level..LEVELS).find(keeps)) }
+    }
+}
+
+/// A line, and how well its steps suit the state.
+pub struct Fitted<'a> {
+    /// The line.
+    pub line: Line<'a>,
+    fit: Fit,
+}
+
+impl Fitted<'_> {
+    /// Derivatives of the outputs. `observer` is that of the mechanism.
+    pub fn outputs(&self, observer: &Observer) -> Outputs {
+        self.line.outputs(self.level(), observer)
+    }
+
+    /// The level of the longest step that suits the state; the last one if none does.
+    pub fn level(&self) -> usize {
+        self.fit.level()
+    }
+
+    /// Whether a step suits the state.
+    pub fn suits(&self) -> bool {
+        self.fit.suitable.is_some()
+    }
+
+    /// This one, or the other if its step is longer. Near a corner none suits, and the one errs less that crosses the corner
+    /// more slowly.
+    pub fn or(self, other: Self) -> Self {
+        let order = self.level().cmp(&other.level()).then(other.fit.longest.total_cmp(&self.fit.longest));
+        if order.is_le() { self } else { other }
     }
 }
 
@@ -217,12 +314,20 @@ impl Distances {
         all
     }
 
-    /// The longest step that changes none of these by too much, which have these slopes; 0 if one of them is not a number.
+    /// The longest step that changes none of these by too much, which have these slopes, and the place of the one that bounds
+    /// it; 0 if one of them is not a number.
     #[inline(never)]
-    fn longest(&self, slopes: &[f64; DISTANCES]) -> f64 {
-        let moving = slopes.iter().zip(&self.most).filter(|(slope, _)| **slope != 0.0);
-        let steps = moving.map(|(slope, most)| most / slope.abs());
-        steps.map(|step| if step.is_nan() { 0.0 } else { step }).fold(f64::INFINITY, f64::min)
+    fn longest(&self, slopes: &[f64; DISTANCES]) -> (f64, Option<usize>) {
+        let mut longest = (f64::INFINITY, None);
+        for (place, (slope, most)) in slopes.iter().zip(&self.most).enumerate().filter(|(_, (slope, _))| **slope != 0.0)
+        {
+            let step = most / slope.abs();
+            let step = if step.is_nan() { 0.0 } else { step };
+            if step < longest.0 {
+                longest = (step, Some(place));
+            }
+        }
+        longest
     }
 
     /// Whether the penetrations change by little of the second order from one neighbour to the opposite one.
@@ -240,6 +345,17 @@ impl Distances {
         let changes = self.values.iter().zip(&other.values).zip(&self.most);
         changes.into_iter().all(|((own, other), most)| (other - own).abs() <= 4.0 * most)
     }
+}
+
+/// Adds a multiple of some numbers to others. Compiled once: arrays of this length are long loops written out.
+#[inline(never)]
+fn add(sum: &mut [f64], share: f64, values: &[f64]) {
+    add_multiple(sum, share, values);
+}
+
+#[inline(never)]
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
 /// Σ weight·outputs.

@@ -289,7 +289,7 @@ impl Variation {
                     Some(of) => of.output_derivative(model, observer, &conditions, time, y, direction),
                     None => {
                         let line = Line { model, conditions: &conditions, t: time, y, direction, levels: None };
-                        line.outputs(line.level(), observer)
+                        line.fitted().outputs(observer)
                     }
                 }
             })

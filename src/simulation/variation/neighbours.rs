@@ -7,7 +7,7 @@
 //! states together, and penetrations by their chain rule through the pose, which is smooth in every length.
 
 use super::levels::{CENTRAL, Levels, Neighbour};
-use super::line::{Line, plus, sum};
+use super::line::{DIRECTION, Line, plus, sum};
 use super::seed::Seed;
 use crate::integrator::MAX_STATES;
 use crate::integrator::tangent::Companion;
@@ -88,10 +88,15 @@ impl Neighbours {
             }
             Of::Parameter(levels) => {
                 let together = Line { model, conditions, t, y, direction: companion.direction, levels: Some(levels) };
-                let (line, level) = together.or_alone();
-                line.write_rates(level, slopes);
+                let (mut fitted, direction) = (together.or_alone(), &mut [0.0; DIRECTION]);
+                if !fitted.suits() {
+                    *direction = together.along_corners();
+                    fitted = Line { direction: &direction[..y.len()], ..together }.fitted().or(fitted);
+                }
+                let line = fitted.line;
+                line.write_rates(fitted.level(), slopes);
                 if !line.direction.is_empty() {
-                    companion.subtract_from(slopes);
+                    Companion { direction: line.direction, ..*companion }.subtract_from(slopes);
                 }
             }
         }
@@ -109,14 +114,26 @@ impl Neighbours {
         direction: &[f64],
     ) -> Outputs {
         let states = Line { model, conditions, t, y, direction, levels: None };
-        let and = |explicit: Outputs| plus(&states.outputs(states.level(), observer), &explicit, 1.0);
         match &self.0 {
-            Of::Input(seed) => and(sum(under(conditions, t, seed)
-                .map(|(conditions, share)| (observe(model, observer, &conditions, t, y), share)))),
+            Of::Input(seed) => {
+                let terms = under(conditions, t, seed);
+                let terms = terms.map(|(conditions, share)| (observe(model, observer, &conditions, t, y), share));
+                plus(&states.fitted().outputs(observer), &sum(terms), 1.0)
+            }
             Of::Parameter(levels) => {
-                let (line, level) = Line { levels: Some(levels), ..states }.or_alone();
-                let found = line.outputs(level, observer);
-                if line.direction.is_empty() { and(found) } else { found }
+                let together = Line { levels: Some(levels), ..states };
+                let (mut fitted, changed) = (together.or_alone(), &mut [0.0; DIRECTION]);
+                if !fitted.suits() {
+                    *changed = together.along_corners();
+                    fitted = Line { direction: &changed[..direction.len()], ..together }.fitted().or(fitted);
+                }
+                let (line, found) = (fitted.line, fitted.outputs(observer));
+                // What the line's direction lacks is a direction of the states.
+                let mut rest = [0.0; DIRECTION];
+                rest[..direction.len()].copy_from_slice(direction);
+                rest.iter_mut().zip(line.direction).for_each(|(slope, other)| *slope -= other);
+                let rest = Line { direction: &rest[..direction.len()], ..states };
+                plus(&rest.fitted().outputs(observer), &found, 1.0)
             }
         }
     }
