@@ -129,12 +129,24 @@ impl<'a> Line<'a> {
         Point { weight: weight / step, neighbour, model, conditions, y: moved }
     }
 
-    /// Of this line and that of the parameter at a constant state the one with the longer step that suits the state. What
-    /// both say about the same state differs by the derivative along the direction.
+    /// Of this line, that of the parameter at a constant state and, where no step of these suits the state, that along the
+    /// corners the one with the longest step. `changed` holds the direction of the last. What they say about the same state
+    /// differs by the derivative along the difference of their directions.
     #[inline(never)]
-    pub fn or_alone(self) -> Fitted<'a> {
-        let alone = Self { direction: &[], ..self }.fitted();
-        if alone.fit.suitable == Some(0) { alone } else { self.fitted().or(alone) }
+    pub fn best<'b>(self, changed: &'b mut [f64; DIRECTION]) -> Fitted<'b>
+    where
+        'a: 'b,
+    {
+        let alone = Line { direction: &[], ..self }.fitted();
+        if alone.fit.suitable == Some(0) {
+            return alone;
+        }
+        let better = self.fitted().or(alone);
+        if better.fit.suitable.is_some() {
+            return better;
+        }
+        *changed = self.along_corners();
+        Line { direction: &changed[..self.direction.len()], ..self }.fitted().or(better)
     }
 
     /// With the step that suits the state.
@@ -147,7 +159,7 @@ impl<'a> Line<'a> {
     /// order. Corners count for as long as no other distance asks for a shorter step.
     #[cold]
     #[inline(never)]
-    pub fn along_corners(&self) -> [f64; DIRECTION] {
+    fn along_corners(&self) -> [f64; DIRECTION] {
         let (here, n, mut direction) = (self.middle(), self.direction.len(), [0.0; DIRECTION]);
         direction[..n].copy_from_slice(self.direction);
         let mut kept: Vec<[f64; MAX_STATES]> = Vec::new();
@@ -249,14 +261,9 @@ impl Fitted<'_> {
         self.fit.level()
     }
 
-    /// Whether a step suits the state.
-    pub fn suits(&self) -> bool {
-        self.fit.suitable.is_some()
-    }
-
     /// This one, or the other if its step is longer. Near a corner none suits, and the one errs less that crosses the corner
     /// more slowly.
-    pub fn or(self, other: Self) -> Self {
+    fn or(self, other: Self) -> Self {
         let order = self.level().cmp(&other.level()).then(other.fit.longest.total_cmp(&self.fit.longest));
         if order.is_le() { self } else { other }
     }

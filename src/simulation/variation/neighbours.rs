@@ -88,11 +88,8 @@ impl Neighbours {
             }
             Of::Parameter(levels) => {
                 let together = Line { model, conditions, t, y, direction: companion.direction, levels: Some(levels) };
-                let (mut fitted, direction) = (together.or_alone(), &mut [0.0; DIRECTION]);
-                if !fitted.suits() {
-                    *direction = together.along_corners();
-                    fitted = Line { direction: &direction[..y.len()], ..together }.fitted().or(fitted);
-                }
+                let mut changed = [0.0; DIRECTION];
+                let fitted = together.best(&mut changed);
                 let line = fitted.line;
                 line.write_rates(fitted.level(), slopes);
                 if !line.direction.is_empty() {
@@ -121,12 +118,8 @@ impl Neighbours {
                 plus(&states.fitted().outputs(observer), &sum(terms), 1.0)
             }
             Of::Parameter(levels) => {
-                let together = Line { levels: Some(levels), ..states };
-                let (mut fitted, changed) = (together.or_alone(), &mut [0.0; DIRECTION]);
-                if !fitted.suits() {
-                    *changed = together.along_corners();
-                    fitted = Line { direction: &changed[..direction.len()], ..together }.fitted().or(fitted);
-                }
+                let mut changed = [0.0; DIRECTION];
+                let fitted = Line { levels: Some(levels), ..states }.best(&mut changed);
                 let (line, found) = (fitted.line, fitted.outputs(observer));
                 // What the line's direction lacks is a direction of the states.
                 let mut rest = [0.0; DIRECTION];
