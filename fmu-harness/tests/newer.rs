@@ -77,7 +77,7 @@ fn the_processor_chooses_the_library_and_the_motion_stays_the_same() {
         let Package { bytes, .. } = stock.package(&scenario).expect("a package");
         bytes
     };
-    let both = package(&stock);
+    let both = package(stock);
     let alone = package(&stock.clone().portable());
     let (found, wanted) = (outputs(&directory, &both, &[]), outputs(&directory, &alone, &[]));
     // The other library rounds otherwise, and nothing more.

@@ -7,7 +7,7 @@ use fmu_harness::package::Stock;
 use fmu_harness::package::build::prepare;
 use fmu_harness::package::platform::Platform;
 use std::process::Command;
-use std::sync::Once;
+use std::sync::{Once, OnceLock};
 
 /// Sets up the tools that build for this machine. What is missing is told by the tests that need it.
 fn tools() {
@@ -21,8 +21,11 @@ pub fn program() -> Command {
     Command::new(env!("CARGO_BIN_EXE_fmu-harness"))
 }
 
-/// The libraries for this machine.
-pub fn stock() -> Stock {
-    tools();
-    Stock::build().expect("libraries")
+/// The libraries for this machine, built once for all tests.
+pub fn stock() -> &'static Stock {
+    static STOCK: OnceLock<Stock> = OnceLock::new();
+    STOCK.get_or_init(|| {
+        tools();
+        Stock::build().expect("libraries")
+    })
 }

@@ -32,12 +32,12 @@ pub fn directory() -> &'static Path {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fmus");
         let stock = stock();
         for scene in names(&workspace().join("fmu-harness").join("scenes")) {
-            if let Err(error) = package(&stock, &scene, &directory) {
+            if let Err(error) = package(stock, &scene, &directory) {
                 eprintln!("{scene} cannot be packaged: {error:#}");
             }
         }
         for (version, folder) in MECHANISMS {
-            if let Err(error) = mechanisms(&stock, version, &directory.join(folder)) {
+            if let Err(error) = mechanisms(stock, version, &directory.join(folder)) {
                 eprintln!("the mechanisms cannot be packaged: {error:#}");
             }
         }
@@ -46,13 +46,12 @@ pub fn directory() -> &'static Path {
             (RUN, Version::Fmi3WithoutClocks, "3-without-clocks"),
             (CORNERS, Version::Fmi3, "3"),
         ] {
-            if let Err(error) =
-                package_for_fmi3(&stock, scene, version, &directory.join(format!("{scene}{ending}.fmu")))
+            if let Err(error) = package_for_fmi3(stock, scene, version, &directory.join(format!("{scene}{ending}.fmu")))
             {
                 eprintln!("{scene} cannot be packaged for FMI 3.0: {error:#}");
             }
         }
-        if let Err(error) = couple(&stock, &directory) {
+        if let Err(error) = couple(stock, &directory) {
             eprintln!("{PRESS} cannot be packaged with its companions: {error:#}");
         }
         if let Err(error) = record(&directory) {

@@ -8,7 +8,7 @@ use fmu_harness::ssp::study::{Plan, Study};
 
 #[test]
 fn the_same_package_twice_has_the_same_bytes() {
-    let [one, other] = [(); 2].map(|()| package(&stock(), python()).expect("a package"));
+    let [one, other] = [(); 2].map(|()| package(stock(), python()).expect("a package"));
     assert!(one == other && one.len() > 100_000);
 }
 
