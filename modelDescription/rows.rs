@@ -118,7 +118,7 @@ type Draft = (usize, Row, RawRow);
 /// Reads a declaration.
 pub fn read(text: &str) -> Result<Declaration, RowError> {
     let raw: Raw = toml::from_str(text).map_err(|error| RowError {
-        line: line_of(text, error.span().map_or(0, |span| span.start)),
+        line: line_of(&line_ends(text), error.span().map_or(0, |span| span.start)),
         fault: Fault::Toml(error.message().to_owned()),
     })?;
     let mut drafts = drafts(text, &raw)?;
@@ -146,10 +146,10 @@ pub fn read(text: &str) -> Result<Declaration, RowError> {
 /// Every row for each of its letters, typed; what it depends on is still open.
 fn drafts(text: &str, raw: &Raw) -> Result<Vec<Draft>, RowError> {
     let mut drafts = vec![];
-    let ends: Vec<usize> = text.match_indices('\n').map(|(place, _)| place).collect();
+    let ends = line_ends(text);
     for (index, group) in raw.group.iter().enumerate() {
         for spanned in &group.rows {
-            let line = 1 + ends.partition_point(|end| *end < spanned.span().start);
+            let line = line_of(&ends, spanned.span().start);
             for row in spanned.get_ref().expanded() {
                 let typed = typed(&row, index, raw).map_err(|fault| RowError { line, fault })?;
                 drafts.push((line, typed, row));
@@ -211,7 +211,7 @@ fn refuse_unknown_members(text: &str, terminals: &[Terminal], drafts: &[Draft]) 
     let mut members = terminals.iter().flat_map(|terminal| &terminal.members);
     match members.find(|member| drafts.iter().all(|(_, row, _)| row.name != *member.variable.get_ref())) {
         Some(member) => Err(RowError {
-            line: line_of(text, member.variable.span().start),
+            line: line_of(&line_ends(text), member.variable.span().start),
             fault: Fault::Unknown(member.variable.get_ref().clone()),
         }),
         None => Ok(()),
@@ -236,7 +236,7 @@ fn refuse_disorder(text: &str, enumerations: &[Enumeration]) -> Result<(), RowEr
     let place = |from: usize, name: &str| from + text[from..].find(&format!("name = {name:?}")).unwrap_or_default();
     for Enumeration { name, items, .. } in enumerations {
         if let Some(pair) = items.windows(2).find(|pair| pair[0].value >= pair[1].value) {
-            let line = line_of(text, place(place(0, name), &pair[1].name));
+            let line = line_of(&line_ends(text), place(place(0, name), &pair[1].name));
             return Err(RowError { line, fault: Fault::Disorder(name.clone()) });
         }
     }
@@ -249,7 +249,12 @@ fn fits(pattern: &str, name: &str) -> bool {
         && pattern.split('.').zip(name.split('.')).all(|(wanted, part)| wanted == "*" || wanted == part)
 }
 
-/// Line of a byte offset, from 1.
-fn line_of(text: &str, offset: usize) -> usize {
-    1 + text.bytes().take(offset).filter(|byte| *byte == b'\n').count()
+/// Line of a byte offset, from 1, in a text whose lines end at these places.
+fn line_of(ends: &[usize], offset: usize) -> usize {
+    1 + ends.partition_point(|end| *end < offset)
+}
+
+/// Places at which the lines of a text end.
+fn line_ends(text: &str) -> Vec<usize> {
+    text.match_indices('\n').map(|(place, _)| place).collect()
 }

@@ -68,7 +68,7 @@ struct Point<'a> {
 
 impl<'a> Line<'a> {
     /// Derivatives of the rates, with the step of a level.
-    pub fn write_rates(&self, level: usize, slopes: &mut [f64]) {
+    fn write_rates(&self, level: usize, slopes: &mut [f64]) {
         let n = self.y.len();
         let mut rates = [0.0; MAX_STATES];
         slopes.fill(0.0);
@@ -80,7 +80,7 @@ impl<'a> Line<'a> {
 
     /// Derivatives of the outputs, with the step of a level. `observer` is that of the mechanism.
     fn outputs(&self, level: usize, observer: &Observer) -> Outputs {
-        if self.levels.is_none() && self.direction.iter().all(|slope| *slope == 0.0) {
+        if self.stands() {
             // A difference would be a rounding error.
             return Outputs::default();
         }
@@ -88,6 +88,11 @@ impl<'a> Line<'a> {
             let observer = neighbour.map_or(observer, |neighbour| &neighbour.observer);
             (observe(model, observer, &conditions, self.t, &y[..self.y.len()]), weight)
         }))
+    }
+
+    /// Whether nothing changes along the line.
+    fn stands(&self) -> bool {
+        self.levels.is_none() && self.direction.iter().all(|slope| *slope == 0.0)
     }
 
     /// Size of the direction, in noticeable differences.
@@ -152,7 +157,8 @@ impl<'a> Line<'a> {
     /// With the step that suits the state.
     #[inline(never)]
     pub fn fitted(self) -> Fitted<'a> {
-        Fitted { line: self, fit: self.fit(&self.middle()) }
+        let any = Fit { longest: f64::INFINITY, suitable: Some(0) };
+        Fitted { line: self, fit: if self.stands() { any } else { self.fit(&self.middle()) } }
     }
 
     /// The direction, changed in the forced states such that the distances to the nearest corners do not change to first
@@ -251,20 +257,20 @@ pub struct Fitted<'a> {
 }
 
 impl Fitted<'_> {
-    /// Derivatives of the outputs. `observer` is that of the mechanism.
-    pub fn outputs(&self, observer: &Observer) -> Outputs {
-        self.line.outputs(self.level(), observer)
+    /// Derivatives of the rates.
+    pub fn write_rates(&self, slopes: &mut [f64]) {
+        self.line.write_rates(self.fit.level(), slopes);
     }
 
-    /// The level of the longest step that suits the state; the last one if none does.
-    pub fn level(&self) -> usize {
-        self.fit.level()
+    /// Derivatives of the outputs. `observer` is that of the mechanism.
+    pub fn outputs(&self, observer: &Observer) -> Outputs {
+        self.line.outputs(self.fit.level(), observer)
     }
 
     /// This one, or the other if its step is longer. Near a corner none suits, and the one errs less that crosses the corner
     /// more slowly.
     fn or(self, other: Self) -> Self {
-        let order = self.level().cmp(&other.level()).then(other.fit.longest.total_cmp(&self.fit.longest));
+        let order = self.fit.level().cmp(&other.fit.level()).then(other.fit.longest.total_cmp(&self.fit.longest));
         if order.is_le() { self } else { other }
     }
 }
@@ -278,6 +284,7 @@ struct Fit {
 }
 
 impl Fit {
+    /// The level of that step; the last one if none suits.
     fn level(&self) -> usize {
         self.suitable.unwrap_or(LEVELS - 1)
     }

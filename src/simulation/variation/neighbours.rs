@@ -90,11 +90,8 @@ impl Neighbours {
                 let together = Line { model, conditions, t, y, direction: companion.direction, levels: Some(levels) };
                 let mut changed = [0.0; DIRECTION];
                 let fitted = together.best(&mut changed);
-                let line = fitted.line;
-                line.write_rates(fitted.level(), slopes);
-                if !line.direction.is_empty() {
-                    Companion { direction: line.direction, ..*companion }.subtract_from(slopes);
-                }
+                fitted.write_rates(slopes);
+                Companion { direction: fitted.line.direction, ..*companion }.subtract_from(slopes);
             }
         }
     }
@@ -120,13 +117,12 @@ impl Neighbours {
             Of::Parameter(levels) => {
                 let mut changed = [0.0; DIRECTION];
                 let fitted = Line { levels: Some(levels), ..states }.best(&mut changed);
-                let (line, found) = (fitted.line, fitted.outputs(observer));
                 // What the line's direction lacks is a direction of the states.
                 let mut rest = [0.0; DIRECTION];
                 rest[..direction.len()].copy_from_slice(direction);
-                rest.iter_mut().zip(line.direction).for_each(|(slope, other)| *slope -= other);
+                rest.iter_mut().zip(fitted.line.direction).for_each(|(slope, other)| *slope -= other);
                 let rest = Line { direction: &rest[..direction.len()], ..states };
-                plus(&rest.fitted().outputs(observer), &found, 1.0)
+                plus(&rest.fitted().outputs(observer), &fitted.outputs(observer), 1.0)
             }
         }
     }
