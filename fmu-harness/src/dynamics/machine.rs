@@ -25,6 +25,8 @@ pub trait Simulated {
     fn advance_to(&mut self, time: f64) -> Result<()>;
     /// Outputs at the time reached.
     fn outputs(&mut self) -> Outputs;
+    /// First time derivatives of the real outputs at the time reached.
+    fn output_rates(&mut self) -> Outputs;
     /// Sets the inputs to those of the profiles at the time reached.
     fn apply(&mut self, inputs: &Profiles);
     /// The point of phase space at the time reached.
@@ -102,6 +104,11 @@ impl<S: Simulated> Machine<S> {
         self.simulation.outputs()
     }
 
+    /// First time derivatives of the real outputs in the current state.
+    pub fn output_rates(&mut self) -> Outputs {
+        self.simulation.output_rates()
+    }
+
     /// [rad] Angle since the start, positive in the direction of rotation.
     pub fn turned(&mut self) -> f64 {
         (self.outputs().crank.angle - self.scene.crank.angle_start).abs()
@@ -176,6 +183,10 @@ impl Simulated for Simulation {
 
     fn outputs(&mut self) -> Outputs {
         self.outputs()
+    }
+
+    fn output_rates(&mut self) -> Outputs {
+        self.output_rates()
     }
 
     fn apply(&mut self, inputs: &Profiles) {

@@ -109,6 +109,10 @@ impl Simulated for Tangent {
         self.variation.outputs()
     }
 
+    fn output_rates(&mut self) -> Outputs {
+        self.variation.output_rates()
+    }
+
     fn apply(&mut self, inputs: &Profiles) {
         let (time, angle) = (self.time(), self.outputs().crank.angle);
         let Profiles { crank_torque, slider_load } = inputs;

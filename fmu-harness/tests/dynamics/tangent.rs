@@ -150,6 +150,18 @@ fn sensitivities_are_the_differences_of_neighbouring_runs() {
 }
 
 #[test]
+fn the_largest_force_has_its_derivative_where_it_turns_beside_an_impact_and_in_a_corner() {
+    let shipped = |name: &str| Scenario::find(name).expect("a shipped scene").file;
+    // The derivative at constant time changes by its own size within 200 ns.
+    assert_differences(&shipped("flexrod"), &["joint.C.force:peak"], ["crank.length", "rod.length"], 1e-4);
+    // In a corner; the derivatives of either side are -5.8e7 and 1.6e3.
+    let wanted = ["joint.C.force.x:max", "joint.T.force.y:min"];
+    let found = assert_differences(&shipped("press"), &wanted, ["crank.length", "slider.mass"], 1e-3);
+    let slopes = found.rows[0].slopes.as_ref().expect("slopes");
+    assert!(slopes[0] > 0.0 && slopes[1] < 1e3, "{slopes:?}");
+}
+
+#[test]
 fn lengths_many_times_a_clearance_have_exact_derivatives() {
     let mut file = wornpin(20e-6);
     // What a length does to the start and what it does to the forces cancel but for 3e-4 of either.

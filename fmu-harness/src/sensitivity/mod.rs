@@ -1,16 +1,22 @@
 //! Derivatives of quantities of a run by parameters, from the tangent of the motion: exact through impacts.
 //!
 //! A quantity at a crank angle is differentiated at that angle, which neighbours pass at other times. The largest value
-//! of an output is differentiated at its instant, which is located: its own change has no influence to first order.
+//! of an output is differentiated where it is reached ([`extremum`]).
 //!
 //! Where a motion is chaotic, derivatives grow like the motion's largest exponent, and the changes for which they hold
 //! shrink alike. [`Sensitivities`] has both: the growth, and the change of each parameter that moves the mechanism by one
 //! noticeable difference.
 
+mod extremum;
+
+use crate::dynamics::machine::Simulated;
+use crate::dynamics::tangent::Tangent;
 use crate::dynamics::{Flow, Machine};
 use crate::output::Output;
 use crate::sweep::quantity::{Quantity, Reduction};
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Error, Result, anyhow, bail, ensure};
+use extremum::{Instant, Search};
+use slidercrank::model::signals::Outputs;
 use slidercrank::scene::parameter::{Kind, PARAMETERS, Parameter};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::variation::Seed;
@@ -19,9 +25,6 @@ use std::str::FromStr;
 
 /// Samples per turn in the search for the largest values.
 const SAMPLES: f64 = 2000.0;
-/// Rounds of that search, each among this many times in the neighbourhood of the largest value before.
-const ROUNDS: usize = 4;
-const TIMES: usize = 12;
 /// Samples per turn of a mean.
 const MEAN_SAMPLES: f64 = 200.0;
 /// Turns that count as rounding.
@@ -115,6 +118,18 @@ impl Wanted {
         let Quantity { of, reduce, at } = quantity;
         Ok(Self { text: name.into(), of: differentiable(of)?, at: at.map(At::Angle), reduce: *reduce })
     }
+
+    /// What outputs, their rates and their derivatives at a time [s] say about it.
+    fn reading(&self, time: f64, outputs: &Outputs, rates: &Outputs, slopes: Result<&[Outputs], &Error>) -> Reading {
+        let rate = self.of.slope(outputs, rates);
+        let slope = |slopes: &Outputs| {
+            // At the same angle, which comes later by −δθ/θ̇.
+            let late = if self.at.is_some() { slopes.crank.angle / outputs.crank.speed } else { 0.0 };
+            self.of.slope(outputs, slopes) - rate * late
+        };
+        let slopes = slopes.map(|slopes| slopes.iter().map(slope).collect()).map_err(|error| anyhow!("{error:#}"));
+        Reading { time, value: self.of.value(outputs), rate, slopes }
+    }
 }
 
 /// The real parameters that a pattern such as `joint.*.clearance` names.
@@ -175,11 +190,15 @@ pub struct Experiment<'a> {
     pub transient: f64,
 }
 
-/// A time at which quantities are taken.
-struct Sample {
+/// A quantity at one time of a run.
+struct Reading {
+    /// [s]
     time: f64,
-    /// The quantities, by their index.
-    of: Vec<usize>,
+    value: f64,
+    /// Its slope over time.
+    rate: f64,
+    /// Its derivatives by the parameters at constant time.
+    slopes: Result<Vec<f64>>,
 }
 
 impl Experiment<'_> {
@@ -190,40 +209,19 @@ impl Experiment<'_> {
     pub fn run(&self, wanted: &[Wanted], parameters: &[&'static Parameter]) -> Result<Sensitivities> {
         ensure!(self.turns > self.transient && self.transient >= 0.0, "the run must be longer than its first turns");
         let file = self.accurate();
-        let samples = samples(self, &file, wanted)?;
         let mut seeds: Vec<Seed> = parameters.iter().map(|parameter| Seed::Parameter(parameter)).collect();
         // The growth is that of neighbouring motions.
         seeds.extend(crate::dynamics::tangent::all_states(&file)?);
         let mut machine = Machine::with_tangent(&file, &seeds)?;
         let first = machine.directions()?;
         let count = parameters.len();
-        let mut taken: Vec<Vec<(f64, Result<Vec<f64>>)>> = wanted.iter().map(|_| vec![]).collect();
-        let mut last = vec![0.0; wanted.len()];
-        for Sample { time, of } in samples {
-            machine.advance(time)?;
-            let outputs = machine.outputs();
-            let slopes = machine.output_derivatives();
-            let rates = of.iter().any(|&i| wanted[i].at.is_some()).then(|| machine.variation().output_rates());
-            for i in of {
-                let slopes = match &slopes {
-                    Ok(slopes) => Ok(slopes[..count]
-                        .iter()
-                        .map(|slopes| {
-                            let slope = wanted[i].of.slope(&outputs, slopes);
-                            // At the same angle, which comes later by −δθ/θ̇.
-                            let late = rates.as_ref().filter(|_| wanted[i].at.is_some());
-                            let late = late.map_or(0.0, |rates| {
-                                wanted[i].of.slope(&outputs, rates) * slopes.crank.angle / outputs.crank.speed
-                            });
-                            slope - late
-                        })
-                        .collect()),
-                    Err(error) => Err(anyhow!("{error:#}")),
-                };
-                taken[i].push((wanted[i].of.value(&outputs), slopes));
-                last[i] = time;
-            }
-        }
+        let derivatives = |machine: &mut Machine<Tangent>| {
+            machine.output_derivatives().map(|mut slopes| {
+                slopes.truncate(count);
+                slopes
+            })
+        };
+        let readings = self.readings(&file, wanted, &mut machine, derivatives)?;
         machine.advance(machine.turn() * self.turns)?;
         let (reach, growth) = match machine.directions() {
             Ok(end) => {
@@ -234,9 +232,10 @@ impl Experiment<'_> {
             }
             Err(_) => (vec![f64::NAN; count], f64::NAN),
         };
-        let rows = wanted.iter().zip(taken).zip(last).map(|((wanted, taken), time)| {
-            let values: Vec<f64> = taken.iter().map(|(value, _)| *value).collect();
-            let slopes = taken.into_iter().map(|(_, slopes)| slopes).collect::<Result<Vec<_>>>();
+        let rows = wanted.iter().zip(readings).map(|(wanted, readings)| {
+            let time = readings.last().map_or(0.0, |reading| reading.time);
+            let values: Vec<f64> = readings.iter().map(|reading| reading.value).collect();
+            let slopes = readings.into_iter().map(|reading| reading.slopes).collect::<Result<Vec<_>>>();
             let (value, slopes) = reduced(wanted.reduce, &values, slopes, count);
             Sensitivity { wanted: wanted.clone(), value, time, slopes }
         });
@@ -252,13 +251,11 @@ impl Experiment<'_> {
     pub fn values(&self, wanted: &[Wanted]) -> Result<Vec<f64>> {
         let file = self.accurate();
         let mut machine = Machine::start(&file)?;
-        let mut taken: Vec<Vec<f64>> = wanted.iter().map(|_| vec![]).collect();
-        for Sample { time, of } in samples(self, &file, wanted)? {
-            machine.advance(time)?;
-            let outputs = machine.outputs();
-            of.into_iter().for_each(|i| taken[i].push(wanted[i].of.value(&outputs)));
-        }
-        Ok(wanted.iter().zip(taken).map(|(wanted, values)| wanted.reduce.of(&values)).collect())
+        let readings = self.readings(&file, wanted, &mut machine, |_| Ok(vec![]))?;
+        let value = |(wanted, readings): (&Wanted, Vec<Reading>)| {
+            wanted.reduce.of(&readings.iter().map(|reading| reading.value).collect::<Vec<_>>())
+        };
+        Ok(wanted.iter().zip(readings).map(value).collect())
     }
 
     fn accurate(&self) -> SceneFile {
@@ -266,51 +263,65 @@ impl Experiment<'_> {
         file.scene.solver.tolerance = file.scene.solver.tolerance.min(TOLERANCE);
         file
     }
-}
 
-/// The times at which the quantities are taken, in order.
-fn samples(of: &Experiment<'_>, file: &SceneFile, wanted: &[Wanted]) -> Result<Vec<Sample>> {
-    let mut samples: Vec<(f64, usize)> = vec![];
-    let turn = Machine::start(file)?.turn();
-    let (begin, end) = (of.transient * turn, of.turns * turn);
-    for (i, wanted) in wanted.iter().enumerate() {
+    /// Runs `machine` and reads each quantity at each of its instants, in order. `derivatives` gives those of the outputs at
+    /// the time reached.
+    fn readings<S: Simulated>(
+        &self,
+        file: &SceneFile,
+        wanted: &[Wanted],
+        machine: &mut Machine<S>,
+        derivatives: impl Fn(&mut Machine<S>) -> Result<Vec<Outputs>>,
+    ) -> Result<Vec<Vec<Reading>>> {
+        let instants = wanted.iter().map(|wanted| self.instants(file, wanted)).collect::<Result<Vec<_>>>()?;
+        let mut times: Vec<(f64, usize)> = vec![];
+        for (i, instants) in instants.iter().enumerate() {
+            times.extend(instants.iter().flat_map(|instant| instant.times()).map(|time| (time, i)));
+        }
+        times.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut read: Vec<Vec<Reading>> = wanted.iter().map(|_| vec![]).collect();
+        for together in times.chunk_by(|a, b| a.0 == b.0) {
+            machine.advance(together[0].0)?;
+            let (outputs, rates, slopes) = (machine.outputs(), machine.output_rates(), derivatives(machine));
+            for &(time, i) in together {
+                read[i].push(wanted[i].reading(time, &outputs, &rates, slopes.as_ref().map(Vec::as_slice)));
+            }
+        }
+        let taken = instants.into_iter().zip(read).map(|(instants, read)| {
+            let mut read = read.into_iter();
+            instants.into_iter().map(|instant| instant.reading(read.by_ref())).collect()
+        });
+        Ok(taken.collect())
+    }
+
+    /// The instants at which a quantity is taken, in order.
+    fn instants(&self, file: &SceneFile, wanted: &Wanted) -> Result<Vec<Instant>> {
+        let turn = Machine::start(file)?.turn();
+        let (begin, end) = (self.transient * turn, self.turns * turn);
         let grid = |per_turn: f64| {
-            let count = ((of.turns - of.transient) * per_turn).ceil() as usize;
-            (0..=count).map(move |k| begin + (end - begin) * k as f64 / count as f64)
+            let count = ((self.turns - self.transient) * per_turn).ceil() as usize;
+            (0..=count).map(move |k| begin + (end - begin) * k as f64 / count as f64).collect::<Vec<_>>()
         };
-        match (wanted.at, wanted.reduce) {
-            (Some(at), _) => {
-                let passages = passages(file, at.angle(file), [of.transient, of.turns])?;
-                samples.extend(passages.into_iter().map(|time| (time, i)));
-            }
-            (None, Reduction::Last) => samples.push((end, i)),
-            (None, Reduction::Mean | Reduction::Rms | Reduction::Deviation) => {
-                samples.extend(grid(MEAN_SAMPLES).map(|time| (time, i)));
-            }
-            (None, Reduction::Max) => {
-                samples.push((extremum(file, wanted, grid(SAMPLES).collect(), |value| value)?, i))
-            }
-            (None, Reduction::Min) => {
-                samples.push((extremum(file, wanted, grid(SAMPLES).collect(), |value| -value)?, i))
-            }
-            (None, Reduction::Peak) => {
-                samples.push((extremum(file, wanted, grid(SAMPLES).collect(), f64::abs)?, i));
-            }
-            (None, Reduction::Range) => {
-                samples.push((extremum(file, wanted, grid(SAMPLES).collect(), |value| value)?, i));
-                samples.push((extremum(file, wanted, grid(SAMPLES).collect(), |value| -value)?, i));
-            }
+        let largest = |sign: fn(f64) -> f64| Search { file, of: &wanted.of, sign }.among(&grid(SAMPLES));
+        if let Some(at) = wanted.at {
+            let passages = passages(file, at.angle(file), [self.transient, self.turns])?;
+            return Ok(passages.into_iter().map(Instant::At).collect());
         }
+        Ok(match wanted.reduce {
+            Reduction::Last => vec![Instant::At(end)],
+            Reduction::Mean | Reduction::Rms | Reduction::Deviation => {
+                grid(MEAN_SAMPLES).into_iter().map(Instant::At).collect()
+            }
+            Reduction::Max => vec![largest(|_| 1.0)?],
+            Reduction::Min => vec![largest(|_| -1.0)?],
+            Reduction::Peak => vec![largest(f64::signum)?],
+            Reduction::Range => {
+                let mut both = vec![largest(|_| 1.0)?, largest(|_| -1.0)?];
+                both.sort_by(|a, b| a.times()[0].total_cmp(&b.times()[0]));
+                both
+            }
+        })
     }
-    samples.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut grouped: Vec<Sample> = vec![];
-    for (time, i) in samples {
-        match grouped.last_mut() {
-            Some(sample) if sample.time == time => sample.of.push(i),
-            _ => grouped.push(Sample { time, of: vec![i] }),
-        }
-    }
-    Ok(grouped)
 }
 
 /// The times [s] at which the crank passes an angle [rad] after `begin` turns, until it has made `end` turns.
@@ -327,28 +338,6 @@ fn passages(file: &SceneFile, angle: f64, [begin, end]: [f64; 2]) -> Result<Vec<
     }
     ensure!(!times.is_empty(), "the crank does not pass {:.1}° in the turns that count", angle.to_degrees());
     Ok(times)
-}
-
-/// The time at which `of` the quantity is largest, near the best of some `times`.
-fn extremum(file: &SceneFile, wanted: &Wanted, mut times: Vec<f64>, of: impl Fn(f64) -> f64) -> Result<f64> {
-    let (begin, end) = (times[0], times[times.len() - 1]);
-    let mut best = begin;
-    for _ in 0..=ROUNDS {
-        let mut machine = Machine::start(file)?;
-        let mut largest = f64::NEG_INFINITY;
-        for &time in &times {
-            machine.advance(time)?;
-            let value = of(wanted.of.value(&machine.outputs()));
-            if value > largest {
-                (largest, best) = (value, time);
-            }
-        }
-        let width = times.get(1).map_or(0.0, |next| next - times[0]);
-        let start = (best - width).max(begin);
-        let span = (best + width).min(end) - start;
-        times = (0..=TIMES).map(|k| start + span * k as f64 / TIMES as f64).collect();
-    }
-    Ok(best)
 }
 
 /// Value and derivatives of a reduced list.
@@ -380,7 +369,9 @@ fn reduced(reduce: Reduction, values: &[f64], slopes: Result<Vec<Vec<f64>>>, cou
         }
     }
     let sum = |slopes: Vec<Vec<f64>>| {
-        (0..count).map(|k| shares.iter().zip(&slopes).map(|(share, slopes)| share * slopes[k]).sum()).collect()
+        // From 0, not from -0 as `sum`.
+        let one = |k: usize| shares.iter().zip(&slopes).fold(0.0, |sum, (share, slopes)| sum + share * slopes[k]);
+        (0..count).map(one).collect()
     };
     (value, slopes.map(sum))
 }
