@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use slidercrank::fmi::slave::variables::VARIABLES;
 use slidercrank::scene::parameter::{Kind, PARAMETERS};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
+use std::process::{Command, ExitStatus, Stdio};
 
 /// The one shipped scene whose crank stands: it has no turns.
 const STANDING: &str = "hold";
@@ -104,6 +104,19 @@ fn the_other_commands_have_a_number_in_every_row() {
     ];
     commands.extend(realtime.map(|scene| vec!["realtime", "--scene", scene, "--steps", "50", "--budget", "1"]));
     commands.iter().for_each(|command| all_end_well(std::slice::from_ref(command)));
+}
+
+#[test]
+fn a_reader_that_goes_away_takes_nothing_with_it() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    let arguments = ["sensitivity", "--scene", "wornpin", "--turns", "0.05", "--of", "slider.v", "--to", "rod.length"];
+    let mut command = program();
+    command.args(arguments).arg("-o").arg(folder.path()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the program starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("an end");
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(folder.path().join("sensitivity-wornpin.csv").exists());
 }
 
 #[test]

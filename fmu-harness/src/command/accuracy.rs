@@ -1,6 +1,6 @@
 //! `accuracy`: the effect of clearances on the slider's motion.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::accuracy::{Plan, comparisons};
 use crate::report::accuracy as report;
 use crate::report::table::Table;
@@ -48,7 +48,7 @@ impl Accuracy {
         for (heading, cases) in parts {
             let measured = plan.measure_all(&cases, || bar.inc(1));
             let table = report::table(heading, &cases, &measured);
-            bar.suspend(|| println!("{}", table.print()));
+            bar.suspend(|| say(table.print()));
             page += &(table.markdown() + "\n");
             tables.push(table);
             all.extend(cases);
@@ -58,7 +58,7 @@ impl Accuracy {
         let base = out.join(format!("accuracy-{name}"));
         report::frame(&all, &found).save(&base)?;
         fs::write(base.with_extension("md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
-        ["md", "csv", "parquet"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
+        ["md", "csv", "parquet"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
         Table::complete(&tables)
     }
 }

@@ -1,6 +1,6 @@
 //! `campaign`: tests of randomly drawn scenes.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::campaign::trial::Verdict;
 use crate::campaign::{Campaign as Draws, HANGS, Kind};
 use crate::report::campaign::{slowest, table};
@@ -103,11 +103,11 @@ impl Campaign {
         bar.finish_and_clear();
         let heading = format!("{name}: {turns} turns, seed {}", self.seed);
         let counts = table(&outcomes);
-        println!("{heading}\n{}", counts.print());
+        say(format!("{heading}\n{}", counts.print()));
         *text += &format!("Scenes of the kind {heading}.\n\n{}\n", counts.markdown());
         if self.slowest > 0 {
             let slowest = slowest(&draws.slowest(&outcomes, self.slowest));
-            println!("{}", slowest.print());
+            say(slowest.print());
             *text += &(slowest.markdown() + "\n");
         }
         let mut failed = 0;
@@ -116,7 +116,7 @@ impl Campaign {
                 failed += 1;
                 keep(&out, &drawn.name, what, drawn)?;
                 let file = keep(&out, &format!("{}-simplest", drawn.name), what, simplest)?;
-                println!("{}: {what}", shown(&file));
+                say(format!("{}: {what}", shown(&file)));
             }
         }
         Ok(failed)

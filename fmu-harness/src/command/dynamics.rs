@@ -1,6 +1,6 @@
 //! `dynamics`: classification of a motion over many turns.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::dynamics::bifurcation::{Branch as Simulated, From, Range};
 use crate::dynamics::continuation::{Branch, Continuation};
 use crate::dynamics::orbit::Orbit;
@@ -111,10 +111,10 @@ impl Dynamics {
         let (name, scene) = (&scenario.name, &scenario.file.scene);
         let base = out.join(format!("dynamics-{name}"));
         let table = report::table(&portrait);
-        println!("{}\n{name}: {}\n", table.print(), report::sentence(&portrait));
+        say(format!("{}\n{name}: {}\n", table.print(), report::sentence(&portrait)));
         let mut tables = vec![table];
         if let Some(exponents) = report::exponent_table(&portrait) {
-            println!("{}", exponents.print());
+            say(exponents.print());
             tables.push(exponents);
         }
         let mut written = vec![write(&base, "svg", &report::sheet(name, scene, &portrait).svg()?)?];
@@ -133,14 +133,14 @@ impl Dynamics {
             let plan = Plan { turns: self.value_turns as usize, tangent_turns: 0, ..plan };
             let diagram = self.diagram(&scenario, &plan, range, style)?;
             for table in diagram.tables() {
-                println!("{}", table.print());
+                say(table.print());
                 page += &format!("\n{}", table.markdown());
                 tables.push(table);
             }
             written.extend(diagram.write(&out, name, scene)?);
         }
         written.push(write(&base, "md", &page)?);
-        written.iter().for_each(|file| println!("{}", shown(file)));
+        written.iter().for_each(|file| say(shown(file)));
         Table::complete(&tables)
     }
 

@@ -1,6 +1,6 @@
 //! `effects`: the cost of every effect.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::effects::{Price, TangentPrice};
 use crate::host::Fmu;
 use crate::package::Stock;
@@ -76,14 +76,14 @@ impl Effects {
         section: Option<Section>,
     ) -> Result<()> {
         let tables = [price::prices(prices), price::increments(prices), price::tangents(tangents)];
-        tables.iter().for_each(|table| println!("{}", table.print()));
+        tables.iter().for_each(|table| say(table.print()));
         let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("effects.{ending}")));
         price::write_csv(prices, &csv)?;
         let text = tables.map(|table| table.markdown()).join("\n");
         for (file, text) in [(&page, &text), (&drawing, &price::sheet(prices).svg()?)] {
             fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
-        [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
+        [csv, page, drawing].iter().for_each(|file| say(shown(file)));
         section.map_or(Ok(()), |section| section.write(&text))
     }
 }

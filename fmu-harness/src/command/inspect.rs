@@ -1,10 +1,10 @@
 //! `inspect`: what an FMU declares.
 
+use super::say;
 use crate::host::{Archive, Description};
 use crate::inspect;
 use anyhow::Result;
 use clap::Args;
-use std::io::Write;
 use std::path::PathBuf;
 
 /// Prints what an FMU declares.
@@ -20,8 +20,7 @@ impl Inspect {
         let mut archive = Archive::open(&self.fmu)?;
         let description = Description::parse(&archive.description()?)?;
         let text = inspect::declared(&description, &archive.platforms(), &archive.names());
-        // A closed pipe is not an error: `| head`, for example, closes it.
-        let _ = std::io::stdout().lock().write_all(text.as_bytes());
+        say(text.trim_end());
         Ok(())
     }
 }

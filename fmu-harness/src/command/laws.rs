@@ -1,6 +1,6 @@
 //! `laws`: peak forces and errors by elasticity and damping law.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::host::Setting;
 use crate::laws::Comparison;
 use crate::package::Stock;
@@ -65,7 +65,7 @@ impl Laws {
         let rows = comparison.run(&fmu, || bar.inc(1));
         bar.finish_and_clear();
         let table = report::table(&comparison, &rows);
-        println!("{}", table.print());
+        say(table.print());
         let base = out.join("laws");
         let mut frame = report::frame(&comparison, &rows);
         frame.origin =
@@ -75,7 +75,7 @@ impl Laws {
             let file = base.with_extension(ending);
             fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
-        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
+        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
         Table::complete([&table])
     }
 }

@@ -35,6 +35,7 @@ pub use sweep::Sweep;
 pub use wear::Wear;
 
 use crate::package::build::workspace;
+use crate::report::say::say;
 use std::env;
 use std::path::{Path, PathBuf};
 

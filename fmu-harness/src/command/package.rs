@@ -1,6 +1,6 @@
 //! `package`: packages a scene as an FMU.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::host::Setting;
 use crate::package::build::Levels;
 use crate::package::platform::Platform;
@@ -90,6 +90,6 @@ fn save(package: &package::Package, file: &Path) -> Result<()> {
     let needs = package.glibc.as_ref().map(|version| format!(", needs glibc {version} or newer")).unwrap_or_default();
     let platforms: Vec<&str> = package.platforms.iter().map(|platform| platform.name()).collect();
     let size = package.bytes.len().div_ceil(1000);
-    println!("{} ({size} kB, for {}{needs})", shown(file), platforms.join(", "));
+    say(format!("{} ({size} kB, for {}{needs})", shown(file), platforms.join(", ")));
     Ok(())
 }

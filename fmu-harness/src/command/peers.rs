@@ -1,6 +1,6 @@
 //! `peers`: other programs run the same scene.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::peers::{Contest, Task, contest, scene, scenes};
 use crate::report::contest::{sentence, sheet, summary, table, write_csv};
 use crate::report::docs::{Docs, Section};
@@ -47,7 +47,7 @@ impl Peers {
             let task = Task::of(scene)?;
             let progress = |what: &str| eprintln!("{scene}: {what}");
             let found = contest(task, Duration::from_secs(self.budget), progress).with_context(|| scene.clone())?;
-            println!("{}\n{}\n", table(&found).print(), sentence(&found));
+            say(format!("{}\n{}\n", table(&found).print(), sentence(&found)));
             done.push(found);
         }
         report(&done, &out, section)
@@ -58,14 +58,14 @@ fn report(contests: &[Contest], out: &Path, section: Option<Section>) -> Result<
     let [csv, page, drawing] = ["csv", "md", "svg"].map(|ending| out.join(format!("peers.{ending}")));
     write_csv(contests, &csv)?;
     let summary = summary(contests);
-    println!("{}", summary.print());
+    say(summary.print());
     let tables: Vec<Table> = contests.iter().map(table).collect();
     let pages = contests.iter().zip(&tables).map(|(contest, table)| table.markdown() + "\n" + &sentence(contest));
     let text = std::iter::once(summary.markdown()).chain(pages).collect::<Vec<_>>().join("\n\n") + "\n";
     for (file, text) in [(&page, &text), (&drawing, &sheet(contests).svg()?)] {
         fs::write(file, text).with_context(|| format!("cannot write {}", file.display()))?;
     }
-    [csv, page, drawing].iter().for_each(|file| println!("{}", shown(file)));
+    [csv, page, drawing].iter().for_each(|file| say(shown(file)));
     Table::complete(&tables)?;
     section.map_or(Ok(()), |section| section.write(&text))
 }

@@ -1,6 +1,6 @@
 //! `precision`: the cost of accuracy.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::host::Fmu;
 use crate::package::Stock;
 use crate::precision::diagram::{Budget, Diagram};
@@ -151,9 +151,9 @@ fn write(
         report::hosts(points),
         report::exchange(exchanged),
     ];
-    tables.iter().for_each(|table| println!("{}", table.print()));
+    tables.iter().for_each(|table| say(table.print()));
     let sentences: Vec<String> = diagrams.iter().map(report::sentence).collect();
-    println!("{}\n", sentences.join("\n"));
+    say(format!("{}\n", sentences.join("\n")));
     let [csv, page] = ["csv", "md"].map(|ending| out.join(format!("precision.{ending}")));
     report::write_csv(diagrams, points, &csv)?;
     let text = tables
@@ -164,7 +164,7 @@ fn write(
     let text = text.collect::<Vec<_>>().join("\n");
     fs::write(&page, &text).with_context(|| format!("cannot write {}", page.display()))?;
     written.extend([csv, page]);
-    written.iter().for_each(|file| println!("{}", shown(file)));
+    written.iter().for_each(|file| say(shown(file)));
     Table::complete(&tables)?;
     section.map_or(Ok(()), |section| section.write(&text))
 }

@@ -1,6 +1,6 @@
 //! `realtime`: the time of one communication step.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::host::Fmu;
 use crate::package::Stock;
 use crate::precision::ladder::told;
@@ -162,7 +162,7 @@ impl Found {
             .chain(budgeted.iter().map(within::sentence))
             .chain(scheduler)
             .collect();
-        println!("{}\n{}\n", tables.iter().map(Table::print).collect::<Vec<_>>().join("\n"), sentences.join("\n"));
+        say(format!("{}\n{}\n", tables.iter().map(Table::print).collect::<Vec<_>>().join("\n"), sentences.join("\n")));
         let markdown: Vec<String> = tables.iter().map(Table::markdown).collect();
         let text = format!("{}\n{}\n", markdown.join("\n"), sentences.join("\n\n"));
         let file = |name: &str| out.join(format!("realtime{name}"));
@@ -180,7 +180,7 @@ impl Found {
                 files.push(file);
             }
         }
-        files.iter().for_each(|file| println!("{}", shown(file)));
+        files.iter().for_each(|file| say(shown(file)));
         Ok((tables, text))
     }
 }

@@ -1,6 +1,6 @@
 //! `report`: one page about a scene.
 
-use super::{out_directory, package, run as runs, shown};
+use super::{out_directory, package, run as runs, say, shown};
 use crate::accuracy::{self, comparisons};
 use crate::dynamics::portrait;
 use crate::effects::{Price, inputs_at_start};
@@ -79,7 +79,7 @@ impl Report {
         let html = out.join(format!("report-{name}.html"));
         let text = page(name, &file.description, &film, &sections)?;
         fs::write(&html, text).with_context(|| format!("cannot write {}", html.display()))?;
-        println!("{}", shown(&html));
+        say(shown(&html));
         Ok(())
     }
 

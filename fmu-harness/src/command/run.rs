@@ -1,6 +1,6 @@
 //! `run`: runs a scene or any FMU, draws figures and prints a table.
 
-use super::{out_directory, package, shown};
+use super::{out_directory, package, say, shown};
 use crate::host::{Archive, Fmu, LogLine, Setting, Status};
 use crate::inputs;
 use crate::package::MODES;
@@ -78,11 +78,11 @@ impl Run {
             let ideal = with_ideal_joints(&subject.fmu, &experiment)?;
             let pair = Pair { title: &subject.name, actual: &actual, ideal: &ideal };
             written.extend(draw(&pair, &out)?);
-            print!("\n{}\n", summary::mechanism(&pair)?.map(|table| table.print()).join("\n"));
+            say(format!("\n{}", summary::mechanism(&pair)?.map(|table| table.print()).join("\n")));
         } else {
-            print!("\n{}\n", summary::outputs(subject.fmu.description(), &actual)?);
+            say(format!("\n{}", summary::outputs(subject.fmu.description(), &actual)?));
         }
-        written.iter().for_each(|file| println!("{}", shown(file)));
+        written.iter().for_each(|file| say(shown(file)));
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! `sensitivity`: derivatives of quantities of a run by parameters.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::host::Setting;
 use crate::report::sensitivity as report;
 use crate::report::table::Table;
@@ -64,13 +64,13 @@ impl Sensitivity {
             None
         };
         let tables = [report::table(&found, checked.as_deref()), report::reach(&found)];
-        tables.iter().for_each(|table| println!("{}", table.print()));
+        tables.iter().for_each(|table| say(table.print()));
         let base = out.join(format!("sensitivity-{}", scenario.name));
         report::frame(&found, checked.as_deref()).save(&base)?;
         let file = base.with_extension("md");
         let page = tables.iter().map(Table::markdown).collect::<Vec<_>>().join("\n");
         fs::write(&file, page).with_context(|| format!("cannot write {}", file.display()))?;
-        ["md", "csv", "parquet"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
+        ["md", "csv", "parquet"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
         Table::complete(&tables)
     }
 }

@@ -1,6 +1,6 @@
 //! `ssp`: the press with its controller as an SSP package, and the error of its coupling.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::package::Stock;
 use crate::python::{Missing, environment};
 use crate::report::ssp as report;
@@ -41,7 +41,7 @@ impl Ssp {
         let file = out.join(format!("{PRESS}.ssp"));
         let bytes = package(&Stock::build()?, &python)?;
         fs::write(&file, &bytes).with_context(|| format!("cannot write {}", file.display()))?;
-        println!("{} ({} kB)", shown(&file), bytes.len().div_ceil(1000));
+        say(format!("{} ({} kB)", shown(&file), bytes.len().div_ceil(1000)));
         if self.study { study(&python, &file, &out) } else { Ok(()) }
     }
 }
@@ -53,9 +53,9 @@ fn study(python: &Path, package: &Path, out: &Path) -> Result<()> {
     let study = Study::run(python, package, &strokes, &Plan::default())?;
     bar.finish_and_clear();
     let tables = [report::strokes(&study)?, report::clearances(&study.clearances), report::steps(&study)];
-    tables.iter().for_each(|table| println!("{}", table.print()));
+    tables.iter().for_each(|table| say(table.print()));
     let sentence = report::sentence(&study);
-    println!("{sentence}\n");
+    say(format!("{sentence}\n"));
     report::write_csv(&study, &csv)?;
     let text = tables.map(|table| table.markdown()).join("\n") + "\n" + &sentence + "\n";
     fs::write(&page, text).with_context(|| format!("cannot write {}", page.display()))?;
@@ -70,6 +70,6 @@ fn study(python: &Path, package: &Path, out: &Path) -> Result<()> {
         fs::write(&file, drawing).with_context(|| format!("cannot write {}", file.display()))?;
         written.push(file);
     }
-    written.iter().for_each(|file| println!("{}", shown(file)));
+    written.iter().for_each(|file| say(shown(file)));
     Ok(())
 }

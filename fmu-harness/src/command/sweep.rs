@@ -1,6 +1,6 @@
 //! `sweep`: runs a study.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::package::Stock;
 use crate::report::study as report;
 use crate::report::table::Table;
@@ -71,13 +71,13 @@ impl Sweep {
         let frame = sweep.frame(&journal)?;
         frame.save(&base)?;
         let table = report::summary(&study, &frame);
-        println!("{}{}\n", table.print(), report::failures(&frame));
+        say(format!("{}{}\n", table.print(), report::failures(&frame)));
         let mut page = table.markdown();
         let mut written = vec![base.with_extension("parquet"), base.with_extension("csv"), base.with_extension("md")];
         if let Some(linear) = linear {
             let (tables, sentences) = report::linear(&linear, &frame);
-            tables.iter().for_each(|table| println!("{}", table.print()));
-            sentences.iter().for_each(|sentence| println!("{sentence}"));
+            tables.iter().for_each(|table| say(table.print()));
+            sentences.iter().for_each(say);
             page += &tables.iter().map(|table| format!("\n{}", table.markdown())).collect::<String>();
             page += &sentences.iter().map(|sentence| format!("\n{sentence}.\n")).collect::<String>();
             let file = out.join(format!("sweep-{}-linear", study.name));
@@ -85,7 +85,7 @@ impl Sweep {
             written.extend(["parquet", "csv"].map(|ending| file.with_extension(ending)));
         }
         fs::write(base.with_extension("md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
-        written.iter().for_each(|file| println!("{}", shown(file)));
+        written.iter().for_each(|file| say(shown(file)));
         Table::complete([&table])
     }
 }
@@ -97,6 +97,6 @@ fn write_plan(study: &Study, scenario: &Scenario, plan: &Plan, out: &Path) -> Re
     let recipe = file.with_extension("json");
     fs::write(&recipe, format!("{:#}\n", Studied::recipe(study, scenario, plan)))
         .with_context(|| format!("cannot write {}", recipe.display()))?;
-    println!("{} runs\n{}\n{}", plan.len(), shown(&file), shown(&recipe));
+    say(format!("{} runs\n{}\n{}", plan.len(), shown(&file), shown(&recipe)));
     Ok(())
 }

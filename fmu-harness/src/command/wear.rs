@@ -1,6 +1,6 @@
 //! `wear`: joints that wear over many strokes.
 
-use super::{out_directory, shown};
+use super::{out_directory, say, shown};
 use crate::host::{Fmu, Setting};
 use crate::package::Stock;
 use crate::report::table::Table;
@@ -91,7 +91,7 @@ impl Wear {
         let joints = &study.joints;
         let tables = [report::history(&worn, joints), report::depths(&worn, joints)];
         let told = format!("{}. {}", report::effort(&worn), report::SENTENCE);
-        println!("{}\n{told}\n", tables.each_ref().map(Table::print).join("\n"));
+        say(format!("{}\n{told}\n", tables.each_ref().map(Table::print).join("\n")));
         let page = tables.map(|table| table.markdown()).join("\n") + &format!("\n{told}\n");
         let drawing = report::sheet(&scenario.name, &worn, joints).svg()?;
         for (ending, text) in [("md", page), ("svg", drawing)] {
@@ -101,8 +101,8 @@ impl Wear {
         report::history_frame(&worn, joints).save(&base)?;
         let depth = out.join(format!("wear-{}-depth", scenario.name));
         report::depth_frame(&worn, joints).save(&depth)?;
-        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| println!("{}", shown(&base.with_extension(ending))));
-        ["csv", "parquet"].iter().for_each(|ending| println!("{}", shown(&depth.with_extension(ending))));
+        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
+        ["csv", "parquet"].iter().for_each(|ending| say(shown(&depth.with_extension(ending))));
         worn.extrapolation.stopped.map_or(Ok(()), Err)
     }
 

@@ -1,5 +1,6 @@
 //! The page `fmu-harness/docs/benchmarks.md`. Each section is between two markers and is written by its command.
 
+use super::say::say;
 use crate::package::build::workspace;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
@@ -58,7 +59,7 @@ impl Section {
     pub fn write(&self, text: &str) -> Result<()> {
         let page = replaced(&page()?, &self.name, &format!("{}\n\n{}", self.origin, text.trim()))?;
         fs::write(workspace().join(PAGE), page).with_context(|| format!("cannot write {PAGE}"))?;
-        println!("{PAGE}, section {}", self.name);
+        say(format!("{PAGE}, section {}", self.name));
         Ok(())
     }
 }

@@ -20,6 +20,7 @@ pub mod precision;
 pub mod price;
 pub mod realtime;
 pub mod response;
+pub mod say;
 pub mod sensitivity;
 pub mod ssp;
 pub mod study;
