@@ -7,6 +7,7 @@ use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
 use super::jacobian::differentiate;
 use super::joint::rectangle::CORNERS;
+use super::loads::Loads;
 use super::mechanism::{FlexibleRod, Mechanism};
 use super::mechanism_model::MechanismModel;
 use super::rod::{Modes, ROWS_WITH_MODES, RodCapacity};
@@ -245,6 +246,10 @@ impl MechanismModel for Model {
     fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS] {
         let Mechanism { clearances, structure, .. } = &self.mechanism;
         clearances.rubbing(structure.play, contacts, pose, &y[2 * self.mechanism.positions()..])
+    }
+
+    fn loads(&self, conditions: &Conditions, t: f64, pose: &Pose, y: &[f64]) -> Loads {
+        self.mechanism.loads_at(conditions, t, pose, y)
     }
 
     fn pose(&self, t: f64, y: &[f64]) -> Pose {

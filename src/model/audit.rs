@@ -17,6 +17,7 @@ use super::gravity::free_fall;
 use super::jacobian::{Rates, differentiate};
 use super::joint::rectangle::CORNERS;
 use super::kinematics::BodyRotations;
+use super::loads::Loads;
 use super::mechanism_model::MechanismModel;
 use super::plane::{Vec2, perp};
 use super::reactions::reactions;
@@ -279,6 +280,10 @@ impl MechanismModel for Audited {
 
     fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS] {
         self.model.rubbing(contacts, pose, &y[..self.first()])
+    }
+
+    fn loads(&self, conditions: &Conditions, t: f64, pose: &Pose, y: &[f64]) -> Loads {
+        self.model.loads(conditions, t, pose, &y[..self.first()])
     }
 
     fn pose(&self, t: f64, y: &[f64]) -> Pose {

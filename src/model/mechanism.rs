@@ -22,7 +22,7 @@ use super::plane::{Vec2, cross, perp};
 use super::rod::{Arrays, Chord, CompiledCounts, Inertia, Modes, Rod, Shape};
 use super::scalar::Scalar;
 use super::start::StartPose;
-use super::state::{Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
+use super::state::{CONTACTS, Conditions, Contacts, Evaluation, FlexibleEvaluation, Pose, rotations, rotations_at};
 use super::structure::{CRANK, Link, ROD, Roots, SLIDER, Structure, Topology};
 use crate::integrator::EventFunctions;
 use crate::math::{self, unroll};
@@ -543,6 +543,12 @@ impl Mechanism {
             Some(rod) => self.pose_and_chord(rod, t, y).0,
             None => self.place(t, y).pose,
         }
+    }
+
+    /// Loads from inputs, viscous friction and contacts at a pose and the state `y`.
+    pub fn loads_at(&self, conditions: &Conditions, t: f64, pose: &Pose, y: &[f64]) -> Loads {
+        let bristles = &y[2 * self.positions()..];
+        self.loads_apart(&self.structure, conditions, t, bristles, pose, &mut [0.0; CONTACTS])
     }
 
     /// Elastic energy of the closed contacts and the powers that they absorb.

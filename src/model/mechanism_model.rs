@@ -3,6 +3,7 @@
 use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
 use super::joint::rectangle::CORNERS;
+use super::loads::Loads;
 use super::scalar::Tangent;
 use super::signals::EnergyOutputs;
 use super::start::StartPose;
@@ -47,6 +48,9 @@ pub trait MechanismModel: Unilateral<Discrete = Conditions> + Send {
 
     /// Sliding and forces of the closed contacts; zero in the open ones.
     fn rubbing(&self, contacts: &Contacts, pose: &Pose, y: &[f64]) -> [Rubbing; CONTACTS];
+
+    /// Loads from inputs, friction and contacts at a pose and the state `y`.
+    fn loads(&self, conditions: &Conditions, t: f64, pose: &Pose, y: &[f64]) -> Loads;
 
     /// Angles, places and velocities at the state `y`.
     fn pose(&self, t: f64, y: &[f64]) -> Pose;

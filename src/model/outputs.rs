@@ -8,6 +8,7 @@ use super::ideal::IdealMechanism;
 use super::joint::guide::contact_of_corner;
 use super::joint::rectangle::CORNERS;
 use super::joint_set::Pin;
+use super::loads::Loads;
 use super::plane::Vec2;
 use super::reactions::{Reactions, reactions};
 use super::rod::Elastic;
@@ -109,6 +110,11 @@ impl Observer {
     pub fn joint_forces(&self, evaluation: &Evaluation) -> [f64; JOINTS] {
         let Reactions { a, b, c, t, .. } = reactions(self.topology, &self.bodies, self.gravity, evaluation);
         [a, b, c, t].map(Vec2::norm)
+    }
+
+    /// [N] As [`joint_forces`](Self::joint_forces), of joints with clearance alone: they need no accelerations.
+    pub fn clearance_forces(loads: &Loads) -> [f64; JOINTS] {
+        [loads.crank, loads.big_end, loads.small_end, loads.guide.force].map(Vec2::norm)
     }
 
     /// Sets the time derivatives of those outputs whose derivatives the evaluation contains.

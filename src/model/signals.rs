@@ -219,6 +219,12 @@ impl Outputs {
         all.get()
     }
 
+    /// [N] Magnitudes of the forces of A, B, C and T.
+    pub fn joint_forces(&self) -> [f64; 4] {
+        let Self { joint_a, joint_b, joint_c, joint_t, .. } = self;
+        [joint_a.force, joint_b.force, joint_c.force, joint_t.force].map(|[x, y]| (x * x + y * y).sqrt())
+    }
+
     /// What happened in a joint: A, B, C or T by their index.
     pub fn interval_mut(&mut self, joint: usize) -> &mut IntervalOutputs {
         match joint {

@@ -1,18 +1,22 @@
 //! What lies between two communication points: the largest joint forces, and integrals over sliding in contact.
 //!
 //! Every step that the integrator accepts is examined on its interpolated states, whatever the communication points
-//! are: the local maxima of the joint forces in it are located, and the integrals over it are summed by Gauss and
-//! Legendre's rule between the zeros of the sliding velocities, where |v_t| has its kinks. An interval takes those
+//! are: the local maxima of the joint forces in it are located, and the integrals over it are those of the polynomial
+//! through the samples, or, between the zeros of the sliding velocities, where |v_t| has its kinks, sums by Gauss and Legendre's
+//! rule. An interval takes those
 //! maxima that lie in it, and the forces at its ends. None of this enters the integrator: the motion keeps its bits.
+//!
+//! Only what is asked for is computed: nothing while all joints in question fly free; the pose and the contact forces where
+//! they touch; accelerations for an ideal joint alone.
 
 use crate::integrator::{Integrator, Reader, Snapshot, StepPoint, root};
 use crate::model::contact::Rubbing;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::signals::Outputs;
-use crate::model::state::{CONTACTS, Conditions};
+use crate::model::state::{CONTACTS, Conditions, Contacts};
 use crate::model::touches::{JOINTS, Touches};
-use crate::scene::Scene;
+use crate::scene::{JointModel, Lubrication, Scene};
 
 /// Points at which a step is sampled: Chebyshev's extrema, which include both ends.
 const SAMPLES: usize = 9;
@@ -27,6 +31,15 @@ const PLACES: [f64; SAMPLES] = [
     0.853_553_390_593_273_8,
     0.961_939_766_255_643_4,
     1.0,
+];
+/// Weights of the first half of the samples in the integral over the step (C. W. Clenshaw, A. R. Curtis, Numer. Math. 2, 1960,
+/// 197), and that of the middle.
+const WEIGHTS: [f64; SAMPLES / 2 + 1] = [
+    0.007_936_507_936_507_936,
+    0.073_109_324_608_009_08,
+    0.139_682_539_682_539_7,
+    0.180_858_929_360_244_9,
+    0.196_825_396_825_396_8,
 ];
 /// Parts of the step at whose ends the polynomial through the samples is searched for maxima.
 const SEARCHED: usize = 48;
@@ -58,8 +71,35 @@ const GAUSS: [(f64, f64); 3] = [
 /// Integrals of one joint: ∫f_t·v_t dt [J], ∫|v_t| dt [m] over closed contact, ∫f_n·|v_t| dt [J].
 type Integrals = [f64; 3];
 
-/// [N] Magnitudes of the joint forces, and sliding in the contacts.
-type Forces = ([f64; JOINTS], [Rubbing; CONTACTS]);
+/// [N] Magnitudes of the joint forces, and sliding in the contacts; zero where it was not asked for.
+#[derive(Clone, Copy, Debug, Default)]
+struct Forces {
+    joints: [f64; JOINTS],
+    rubbing: [Rubbing; CONTACTS],
+}
+
+/// What joint forces are computed from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Source {
+    /// The joint carries nothing.
+    Nothing,
+    /// The pose: the joint has clearance.
+    Contacts,
+    /// Accelerations: the joint is ideal.
+    Reactions,
+}
+
+/// What is asked of an instant.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    /// The joint forces that have this source, and those that have one before it.
+    forces: Source,
+    /// Sliding in the contacts.
+    sliding: bool,
+}
+
+/// Sliding alone.
+const SLIDING: Asked = Asked { forces: Source::Nothing, sliding: true };
 
 /// A run under examination.
 pub struct Examined<'a> {
@@ -76,6 +116,9 @@ pub struct Examined<'a> {
 pub struct IntervalAudit {
     /// Whether the largest force of A, B, C, T is asked for.
     peaks: [bool; JOINTS],
+    /// What the forces of A, B, C, T are computed from while no contact is closed: those of an oil film and of viscous
+    /// friction are there all the same.
+    open: [Source; JOINTS],
     /// Whether the integrals of A, B, C, T are asked for.
     integrals: [bool; JOINTS],
     /// [s] The last communication point.
@@ -110,27 +153,23 @@ const NOTHING: Examination = Examination {
     whole: [[0.0; 3]; JOINTS],
 };
 
-fn forces(model: &dyn MechanismModel, observer: &Observer, conditions: &Conditions, t: f64, y: &[f64]) -> Forces {
-    let evaluation = model.evaluation(conditions, t, y);
-    (observer.joint_forces(&evaluation), model.rubbing(&conditions.contacts, &evaluation.pose, y))
-}
-
 impl Examined<'_> {
-    /// Joint forces [N] and sliding at `t` in the last step.
-    fn at(&mut self, t: f64) -> Forces {
+    /// What is asked at `t` in the last step.
+    #[inline(never)]
+    fn at(&mut self, t: f64, asked: Asked) -> Forces {
         let (y, conditions) = self.integrator.state_at(self.model, t);
-        forces(self.model, self.observer, &conditions, t, y)
+        forces(self.model, self.observer, &conditions, t, y, asked)
     }
 
-    /// Joint forces [N] and sliding at the end of the last step, before the events there.
-    fn at_end(&self) -> Forces {
+    /// What is asked at the end of the last step, before the events there.
+    fn at_end(&self, asked: Asked) -> Forces {
         let StepPoint { t, y, discrete, .. } = self.integrator.state().end();
-        forces(self.model, self.observer, discrete, *t, y)
+        forces(self.model, self.observer, discrete, *t, y, asked)
     }
 
-    /// Sliding velocity [m/s] of one contact at `t` in the last step.
-    fn sliding(&mut self, contact: usize, t: f64) -> f64 {
-        self.at(t).1[contact].speed
+    /// The contacts during the last step.
+    fn contacts(&self) -> &Contacts {
+        &self.integrator.state().start().discrete.contacts
     }
 
     fn span(&self) -> [f64; 2] {
@@ -139,14 +178,46 @@ impl Examined<'_> {
     }
 }
 
+#[inline(never)]
+fn forces(
+    model: &dyn MechanismModel,
+    observer: &Observer,
+    conditions: &Conditions,
+    t: f64,
+    y: &[f64],
+    asked: Asked,
+) -> Forces {
+    let (joints, pose) = if asked.forces == Source::Reactions {
+        let evaluation = model.evaluation(conditions, t, y);
+        (observer.joint_forces(&evaluation), evaluation.pose)
+    } else {
+        let pose = model.pose(t, y);
+        let loads = (asked.forces == Source::Contacts).then(|| model.loads(conditions, t, &pose, y));
+        (loads.map_or([0.0; JOINTS], |loads| Observer::clearance_forces(&loads)), pose)
+    };
+    let rubbing = asked.sliding.then(|| model.rubbing(&conditions.contacts, &pose, y));
+    Forces { joints, rubbing: rubbing.unwrap_or_default() }
+}
+
 impl IntervalAudit {
     /// The audit that a scene asks for; `None` if it asks for none.
     pub fn new(scene: &Scene) -> Option<Self> {
         let joint = &scene.joint;
         let peaks = [joint.a.peak.audit, joint.b.peak.audit, joint.c.peak.audit, joint.t.peak.audit];
         let integrals = [joint.a.wear.audit, joint.b.wear.audit, joint.c.wear.audit, joint.t.wear.audit];
+        let [a, b, c] = [&joint.a, &joint.b, &joint.c].map(|joint| match (joint.model, joint.lubrication) {
+            (JointModel::Ideal, _) => Source::Reactions,
+            (JointModel::Clearance, Lubrication::None) => Source::Nothing,
+            (JointModel::Clearance, _) => Source::Contacts,
+        });
+        let t = match joint.t.model {
+            JointModel::Ideal => Source::Reactions,
+            JointModel::Clearance if joint.t.damping == 0.0 => Source::Nothing,
+            JointModel::Clearance => Source::Contacts,
+        };
         (peaks.contains(&true) || integrals.contains(&true)).then_some(Self {
             peaks,
+            open: [a, b, c, t],
             integrals,
             begin: 0.0,
             peak: [0.0; JOINTS],
@@ -155,11 +226,34 @@ impl IntervalAudit {
         })
     }
 
+    /// What the force of one joint is computed from; nothing if it is not asked for.
+    fn source(&self, joint: usize, contacts: &Contacts) -> Source {
+        let closed = (0..CONTACTS).any(|contact| Touches::joint(contact) == joint && contacts[contact].closed);
+        match self.peaks[joint] {
+            true if closed => self.open[joint].max(Source::Contacts),
+            true => self.open[joint],
+            false => Source::Nothing,
+        }
+    }
+
+    /// What is asked of an instant with these contacts.
+    fn asked(&self, contacts: &Contacts) -> Asked {
+        let forces = (0..JOINTS).map(|joint| self.source(joint, contacts)).max().unwrap_or(Source::Nothing);
+        Asked { forces, sliding: self.slides(contacts) }
+    }
+
+    /// Whether there may be sliding in a joint whose integrals are asked for.
+    fn slides(&self, contacts: &Contacts) -> bool {
+        (0..CONTACTS).any(|contact| self.integrals[Touches::joint(contact)] && contacts[contact].closed)
+    }
+
     /// Begins an interval at `t` in the last step. Its left end counts with the inputs that hold from there on.
     pub fn begin(&mut self, run: &mut Examined<'_>, t: f64) {
         self.refresh(run);
         self.begin = t;
-        self.peak = run.at(t).0;
+        let (y, conditions) = run.integrator.state_at(run.model, t);
+        let asked = Asked { sliding: false, ..self.asked(&conditions.contacts) };
+        self.peak = forces(run.model, run.observer, &conditions, t, y, asked).joints;
     }
 
     /// Takes in a step that was accepted after the last one.
@@ -193,9 +287,14 @@ impl IntervalAudit {
     /// Sets the outputs at `t` in the last step.
     pub fn set_outputs(&mut self, run: &mut Examined<'_>, t: f64, outputs: &mut Outputs) {
         self.refresh(run);
-        let (at_point, peak) = (run.at(t).0, self.peak_until(t));
+        let peak = self.peak_until(t);
         let [start, end] = self.last.span;
-        let partial = if t >= end { self.last.whole } else { integrated(run, &self.last.kinks, [start, t]) };
+        let partial = if t >= end || !self.slides(run.contacts()) {
+            self.last.whole
+        } else {
+            integrated(run, &self.last.kinks, [start, t])
+        };
+        let at_point = outputs.joint_forces();
         for joint in 0..JOINTS {
             let interval = outputs.interval_mut(joint);
             if self.peaks[joint] {
@@ -232,38 +331,64 @@ impl IntervalAudit {
         if end <= start {
             return found;
         }
+        let contacts = *run.contacts();
+        let asked = self.asked(&contacts);
+        if asked.forces == Source::Nothing && !asked.sliding {
+            return found;
+        }
         let time = |sample: usize| if sample == SAMPLES - 1 { end } else { start + (end - start) * PLACES[sample] };
-        let (mut forces, mut sliding) = ([[0.0; SAMPLES]; JOINTS], [[0.0; SAMPLES]; CONTACTS]);
-        for sample in 0..SAMPLES {
-            // At the end the step is seen before the events there.
-            let (force, rubbing) = if sample == SAMPLES - 1 { run.at_end() } else { run.at(time(sample)) };
-            for (forces, force) in forces.iter_mut().zip(force) {
-                forces[sample] = force;
-            }
-            for (sliding, rubbing) in sliding.iter_mut().zip(rubbing) {
-                sliding[sample] = rubbing.speed;
+        // At the end the step is seen before the events there.
+        let samples: [Forces; SAMPLES] =
+            std::array::from_fn(
+                |sample| {
+                    if sample == SAMPLES - 1 { run.at_end(asked) } else { run.at(time(sample), asked) }
+                },
+            );
+        found.at_end = samples[SAMPLES - 1].joints;
+        for joint in 0..JOINTS {
+            let forces = self.source(joint, &contacts);
+            if forces != Source::Nothing {
+                let of = |t| run.at(t, Asked { forces, sliding: false }).joints[joint];
+                found.maxima[joint] = maxima(&samples.each_ref().map(|sample| sample.joints[joint]), span, of);
             }
         }
-        found.at_end = forces.map(|forces| forces[SAMPLES - 1]);
-        for joint in (0..JOINTS).filter(|&joint| self.peaks[joint]) {
-            found.maxima[joint] = maxima(&forces[joint], span, |t| run.at(t).0[joint]);
-        }
-        if self.integrals.contains(&true) {
+        if asked.sliding {
             let mut count = 0;
             for contact in (0..CONTACTS).filter(|&contact| self.integrals[Touches::joint(contact)]) {
-                for sample in 1..SAMPLES {
-                    let [before, after] = [sliding[contact][sample - 1], sliding[contact][sample]];
+                for (sample, pair) in samples.windows(2).enumerate() {
+                    let [before, after] = [0, 1].map(|side| pair[side].rubbing[contact].speed);
                     if before * after < 0.0 && count < MAX_KINKS {
-                        let bracket = [time(sample - 1), time(sample)];
-                        found.kinks[count] = zero(bracket, [before, after], |t| run.sliding(contact, t));
+                        let bracket = [time(sample), time(sample + 1)];
+                        let speed = |t| run.at(t, SLIDING).rubbing[contact].speed;
+                        found.kinks[count] = zero(bracket, [before, after], speed);
                         count += 1;
                     }
                 }
             }
             found.kinks.sort_by(f64::total_cmp);
-            found.whole = integrated(run, &found.kinks, span);
+            found.whole =
+                if count > 0 { integrated(run, &found.kinks, span) } else { of_samples(&samples, end - start) };
         }
         found
+    }
+}
+
+/// The integrals of each joint over a step of a length [s] without kinks.
+fn of_samples(samples: &[Forces; SAMPLES], length: f64) -> [Integrals; JOINTS] {
+    let mut sums = [[0.0; 3]; JOINTS];
+    for (sample, forces) in samples.iter().enumerate() {
+        add(&mut sums, length * WEIGHTS[sample.min(SAMPLES - 1 - sample)], forces);
+    }
+    sums
+}
+
+/// Adds the integrands at an instant with a weight [s].
+fn add(sums: &mut [Integrals; JOINTS], weight: f64, forces: &Forces) {
+    for (contact, Rubbing { speed, normal, friction }) in forces.rubbing.iter().enumerate() {
+        let integrals = &mut sums[Touches::joint(contact)];
+        integrals[0] += weight * friction * speed;
+        integrals[1] += weight * speed.abs();
+        integrals[2] += weight * normal * speed.abs();
     }
 }
 
@@ -278,14 +403,7 @@ fn integrated(run: &mut Examined<'_>, kinks: &[f64; MAX_KINKS], [start, end]: [f
     for to in kinks.iter().copied().filter(|kink| (start..end).contains(kink)).chain([end]) {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         for (point, weight) in GAUSS.iter().flat_map(|&(point, weight)| [(-point, weight), (point, weight)]) {
-            for (contact, Rubbing { speed, normal, friction }) in
-                run.at(middle + half * point).1.into_iter().enumerate()
-            {
-                let integrals = &mut sums[Touches::joint(contact)];
-                integrals[0] += weight * half * friction * speed;
-                integrals[1] += weight * half * speed.abs();
-                integrals[2] += weight * half * normal * speed.abs();
-            }
+            add(&mut sums, weight * half, &run.at(middle + half * point, SLIDING));
         }
         from = to;
     }
@@ -376,6 +494,15 @@ mod tests {
                 let wanted = (i as f64 / SEARCHED as f64).powi(power);
                 assert!((found - wanted).abs() < 1e-14, "{found} is not {wanted}: power {power}, point {i}");
             }
+        }
+    }
+
+    #[test]
+    fn the_samples_integrate_degree_eight() {
+        for power in 0..SAMPLES as i32 {
+            let weight = |sample: usize| WEIGHTS[sample.min(SAMPLES - 1 - sample)];
+            let sum: f64 = (0..SAMPLES).map(|sample| weight(sample) * PLACES[sample].powi(power)).sum();
+            assert!((sum - 1.0 / f64::from(power + 1)).abs() < 1e-15, "{sum}: power {power}");
         }
     }
 

@@ -1,8 +1,10 @@
 //! What lies between two communication points: largest forces, approach speeds, sliding and its works.
 
-use super::scenes::{all_plays, at, at_tolerance, contacts, crooked, inputs, letters, speed_driven, start, with_play};
+use super::scenes::{
+    all_plays, at, at_tolerance, contacts, crooked, inputs, letters, revolutes, speed_driven, start, with_play,
+};
 use slidercrank::model::signals::Outputs;
-use slidercrank::scene::{FrictionLaw, JointModel, Point, Scene};
+use slidercrank::scene::{FrictionLaw, JointModel, Joints, Lubrication, Point, Scene};
 use slidercrank::simulation::Simulation;
 
 fn audited(mut scene: Scene) -> Scene {
@@ -67,6 +69,38 @@ fn the_largest_of_an_interval_is_the_largest_of_its_parts() {
             largest = std::array::from_fn(|joint| largest[joint].max(peaks[joint]));
         }
         assert_eq!(largest.map(f64::to_bits), whole.map(f64::to_bits), "{parts} parts: {largest:?}, {whole:?}");
+    }
+}
+
+/// Whatever a force comes from (a contact, an oil film, viscous friction, the reaction of an ideal joint), and whether other
+/// joints are watched with it.
+#[test]
+fn the_largest_force_is_that_of_dense_samples() {
+    for (play, oil) in all_plays().flat_map(|play| [(play, false), (play, true)]) {
+        let mut scene = at_tolerance(with_play(crooked(), play), 1e-8);
+        if oil {
+            scene.joint.t.damping = 50.0;
+            for (joint, _) in revolutes(&mut scene).into_iter().zip(play).filter(|(_, clear)| *clear) {
+                (joint.lubrication, joint.viscosity) = (Lubrication::ShortBearing, 0.05);
+            }
+        }
+        let what = |joint: usize| format!("{}, oil: {oil}, joint {joint}", letters(play));
+        let mut dense = start(&scene, inputs(3.0, -50.0));
+        let mut largest = dense.outputs().joint_forces();
+        let times = (1..=3000).map(|k| 5e-7 * f64::from(k));
+        for forces in times.map(|time| at(&mut dense, time).joint_forces()) {
+            largest = std::array::from_fn(|joint| largest[joint].max(forces[joint]));
+        }
+        let all = peaks(&at(&mut start(&audited(scene.clone()), inputs(3.0, -50.0)), 1.5e-3));
+        for joint in 0..4 {
+            let above = all[joint] / largest[joint].max(1e-9) - 1.0;
+            assert!((-1e-12..1e-3).contains(&above) || all[joint] == largest[joint], "{}: {above:e}", what(joint));
+            let mut alone = scene.clone();
+            let Joints { a, b, c, t } = &mut alone.joint;
+            [&mut a.peak, &mut b.peak, &mut c.peak, &mut t.peak][joint].audit = true;
+            let found = peaks(&at(&mut start(&alone, inputs(3.0, -50.0)), 1.5e-3))[joint];
+            assert!((found - all[joint]).abs() <= 1e-12 * all[joint], "{}: {found:e}", what(joint));
+        }
     }
 }
 
