@@ -16,8 +16,17 @@ const POINTS: usize = 720;
 
 /// [rad] Crank angle at which the slider of the ideal mechanism is farthest from the crank: crank and rod are in line.
 pub fn farthest(scene: &Scene) -> f64 {
-    let height = scene.guide.offset - scene.slider.centre.y;
-    (height / (scene.crank.length + scene.rod.length)).asin()
+    (height(scene) / (scene.rod.length + scene.crank.length)).asin()
+}
+
+/// [rad] Crank angle at which the slider of the ideal mechanism is nearest to the crank.
+pub fn nearest(scene: &Scene) -> f64 {
+    PI + (height(scene) / (scene.rod.length - scene.crank.length)).asin()
+}
+
+/// [m] Height of the slider pin of the ideal mechanism.
+fn height(scene: &Scene) -> f64 {
+    scene.guide.offset - scene.slider.centre.y
 }
 
 /// Length of a run.

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
-use slidercrank::model::signals::{IntervalOutputs, Outputs};
+use slidercrank::model::signals::{EnergyOutputs, IntervalOutputs, Outputs};
 
 /// A real output, or a vector with the components x and y, whose length is taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +47,25 @@ impl Output {
                 ..IntervalOutputs::default()
             };
         }
+        self.components.iter().any(|get| get(&outputs).is_nan())
+    }
+
+    /// Whether it sums what happened since the start.
+    pub fn is_a_sum(&self) -> bool {
+        let nan = f64::NAN;
+        let energy = EnergyOutputs {
+            input: nan,
+            dissipated: nan,
+            residual: nan,
+            torque_work: nan,
+            load_work: nan,
+            contact_loss: nan,
+            friction_loss: nan,
+            viscous_loss: nan,
+            modal_loss: nan,
+            ..EnergyOutputs::default()
+        };
+        let outputs = Outputs { energy, ..Outputs::default() };
         self.components.iter().any(|get| get(&outputs).is_nan())
     }
 

@@ -146,7 +146,10 @@ impl Motion for Run {
     }
 
     fn place(&mut self, phase: &Phase) {
-        let (y, mut conditions) = self.integrator.state_at(self.model.as_ref(), phase.time);
+        // Sums since the start are no part of a phase: they are kept, and not those of a step that would reach to its time.
+        let state = self.integrator.state();
+        let known = phase.time.clamp(state.start().t, state.front().t);
+        let (y, mut conditions) = self.integrator.state_at(self.model.as_ref(), known);
         let mut y = y.to_vec();
         write(&phase.states, &mut y);
         let model = self.model.as_ref();

@@ -141,7 +141,10 @@ class Quantity:
 
 
 def passages(angles: Column, values: Column, at: float) -> Column:
-    """Values where the angle passes `at`, whichever way, each interpolated between two communication points."""
+    """Values where the angle passes `at`, whichever way, each interpolated between two communication points.
+
+    A run that starts there has not passed it, one that ends there has.
+    """
     place, share = _passed(angles, at)
     return values[place] + share * (values[place + 1] - values[place])
 
@@ -162,7 +165,9 @@ def _passed(angles: Column, at: float) -> tuple[NDArray[numpy.intp], Column]:
     """Samples before each passage, and the passage's share of the way to the next."""
     turns = (angles - at) / math.tau
     before, after = turns[:-1], turns[1:]
-    place = numpy.flatnonzero((numpy.floor(before) != numpy.floor(after)) & (after != before))
-    before, after = before[place], after[place]
-    passed = numpy.floor(numpy.maximum(before, after))
+    forwards = after >= before
+    last = numpy.where(forwards, numpy.floor(before), numpy.ceil(before))
+    passed = numpy.where(forwards, numpy.floor(after), numpy.ceil(after))
+    place = numpy.flatnonzero(last != passed)
+    before, after, passed = before[place], after[place], passed[place]
     return place, (passed - before) / (after - before)

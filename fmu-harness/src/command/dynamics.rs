@@ -12,7 +12,7 @@ use crate::report::dynamics as report;
 use crate::report::response::{Curves, Responses};
 use crate::report::table::Table;
 use crate::scenes::Scenario;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use slidercrank::scene::Scene;
@@ -43,8 +43,8 @@ pub struct Dynamics {
     /// Crank turns that are evaluated
     #[arg(long, default_value_t = 400, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(6..=1_000_000))]
     turns: u32,
-    /// Crank angle of the section, relative to the start angle
-    #[arg(long, default_value_t = 0.0, value_name = "DEGREES")]
+    /// Crank angle of the section, in the direction of rotation from the start angle
+    #[arg(long, default_value_t = 0.0, value_name = "DEGREES", allow_negative_numbers = true)]
     section: f64,
     /// Crank turns in which all Lyapunov exponents are measured from the tangent of the motion; 0 for none
     #[arg(long, default_value_t = 100, value_name = "TURNS", value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
@@ -56,10 +56,10 @@ pub struct Dynamics {
     #[arg(long, value_name = "NAME", requires = "from", requires = "to")]
     parameter: Option<String>,
     /// First value, in SI units
-    #[arg(long, value_name = "VALUE")]
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     from: Option<f64>,
     /// Last value
-    #[arg(long, value_name = "VALUE")]
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     to: Option<f64>,
     /// Number of values
     #[arg(long, default_value_t = 60, value_name = "NUMBER")]
@@ -93,6 +93,7 @@ pub struct Dynamics {
 impl Dynamics {
     /// Runs the scene, classifies the motion and writes the results.
     pub fn execute(&self) -> Result<()> {
+        ensure!(self.section.is_finite(), "the section must be an angle in degrees, not {}", self.section);
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
@@ -100,7 +101,7 @@ impl Dynamics {
         let plan = Plan {
             transient: self.transient,
             turns: self.turns as usize,
-            section: self.section.to_radians(),
+            section: self.section.rem_euclid(360.0).to_radians(),
             per_turn: self.per_turn as usize,
             tangent_turns: self.tangent_turns as usize,
         };

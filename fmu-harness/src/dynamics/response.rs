@@ -3,7 +3,7 @@
 use super::Machine;
 use crate::output::Output;
 use crate::sweep::quantity::Reduction;
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use std::f64::consts::TAU;
 use std::str::FromStr;
 
@@ -25,7 +25,13 @@ impl FromStr for Response {
     fn from_str(text: &str) -> Result<Self> {
         let (name, word) = text.split_once(':').unwrap_or((text, "peak"));
         let reduce = word.parse()?;
-        Ok(Self { text: text.into(), output: Output::named(name)?, reduce })
+        let output = Output::named(name)?;
+        ensure!(
+            !output.is_of_an_interval() && !output.is_a_sum(),
+            "`{name}` tells what happened since the start or since an earlier communication point; a response needs an \
+             output that the state determines"
+        );
+        Ok(Self { text: text.into(), output, reduce })
     }
 }
 

@@ -14,10 +14,14 @@ use anyhow::Result;
 use slidercrank::scene::read::SceneFile;
 
 /// Rounds of the search by values, each among this many times in the neighbourhood of the best value before.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 3;
 const TIMES: usize = 12;
-/// The least slope that is left where a quantity turns in a corner, as a share of those beside it.
-const CORNER: f64 = 0.1;
+/// The least slope that is left where a quantity turns in a corner, as a share of the change of slope; half of it is left
+/// if both sides are equally steep.
+const CORNER: f64 = 0.05;
+/// Distance of the readings beside a corner, in that of the last round's times: differences of outputs over time reach some
+/// nanoseconds.
+const BESIDE: f64 = 2.0;
 /// The least step of a jump, as a multiple of what slopes explain.
 const JUMP: f64 = 2.0;
 
@@ -112,23 +116,28 @@ impl<S: Fn(f64) -> f64> Search<'_, S> {
         let best = self.narrowed(self.best(times)?, window)?;
         let around = self.around(&best, window);
         let heights = self.heights(&around)?;
-        let place = usize::from(heights[1].slope > 0.0);
+        let [first, middle, last] = [0, 1, 2].map(|place| heights[place].slope);
+        // On a short piece of a smooth curve, slopes lie on a straight line.
+        let share = (around[1] - around[0]) / (around[2] - around[0]);
+        let bend = (middle - (first + share * (last - first))).abs();
+        let place = usize::from(middle > 0.0);
         let ([from, to], [before, after]) = ([around[place], around[place + 1]], [heights[place], heights[place + 1]]);
         let (apart, fall) = (to - from, before.slope - after.slope);
+        if first > 0.0 && last < 0.0 {
+            let zero = from + apart * before.slope / fall;
+            if bend <= CORNER * (first - last) && self.heights(&[zero])?[0].slope.abs() <= CORNER * (first - last) {
+                return Ok(Instant::At(zero));
+            }
+        }
         let turns = before.slope > 0.0 && after.slope < 0.0;
         let jumps = (after.value - before.value).abs() > JUMP * apart * before.slope.abs().max(after.slope.abs());
         if !turns || jumps {
             // At an end, or beside the jump of an input.
             return Ok(Instant::At(self.narrowed(best, window)?.time));
         }
-        let zero = from + apart * before.slope / fall;
-        let left = self.heights(&[zero])?[0].slope.abs();
-        if left <= CORNER * before.slope.min(-after.slope) {
-            return Ok(Instant::At(zero));
-        }
         // Where the tangents of both sides meet.
         let time = from + (after.value - before.value - after.slope * apart) / fall;
-        Ok(Instant::Corner { time, apart })
+        Ok(Instant::Corner { time, apart: BESIDE * apart })
     }
 
     /// The best time in ever smaller neighbourhoods.
@@ -146,14 +155,17 @@ impl<S: Fn(f64) -> f64> Search<'_, S> {
     }
 
     fn best(&self, times: &[f64]) -> Result<Best> {
-        let heights = self.heights(times)?;
-        let mut best = 0;
-        for (place, height) in heights.iter().enumerate() {
-            if height.value > heights[best].value {
-                best = place;
+        let mut machine = Machine::start(self.file)?;
+        let mut best = (f64::NEG_INFINITY, times[0]);
+        for &time in times {
+            machine.advance(time)?;
+            let value = self.of.value(&machine.outputs());
+            let value = (self.sign)(value) * value;
+            if value > best.0 {
+                best = (value, time);
             }
         }
-        Ok(Best { time: times[best], apart: times.get(1).map_or(0.0, |next| next - times[0]) })
+        Ok(Best { time: best.1, apart: times.get(1).map_or(0.0, |next| next - times[0]) })
     }
 
     fn heights(&self, times: &[f64]) -> Result<Vec<Height>> {

@@ -9,6 +9,7 @@
 
 mod extremum;
 
+use crate::accuracy::{farthest, nearest};
 use crate::dynamics::machine::Simulated;
 use crate::dynamics::tangent::Tangent;
 use crate::dynamics::{Flow, Machine};
@@ -20,13 +21,13 @@ use slidercrank::model::signals::Outputs;
 use slidercrank::scene::parameter::{Kind, PARAMETERS, Parameter};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::variation::Seed;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::str::FromStr;
 
-/// Samples per turn in the search for the largest values.
-const SAMPLES: f64 = 2000.0;
+/// Samples per turn in the search for the largest values: stiff surfaces touch for microseconds.
+const SAMPLES: f64 = 20_000.0;
 /// Samples per turn of a mean.
-const MEAN_SAMPLES: f64 = 200.0;
+const MEAN_SAMPLES: f64 = 2000.0;
 /// Turns that count as rounding.
 const SAME_TURN: f64 = 1e-9;
 /// Tolerance of the motions.
@@ -103,8 +104,8 @@ impl At {
         let scene = &file.scene;
         match self {
             Self::Angle(angle) => angle,
-            Self::OuterDeadCentre => (scene.guide.offset / (scene.rod.length + scene.crank.length)).asin(),
-            Self::InnerDeadCentre => PI + (scene.guide.offset / (scene.rod.length - scene.crank.length)).asin(),
+            Self::OuterDeadCentre => farthest(scene),
+            Self::InnerDeadCentre => nearest(scene),
         }
     }
 }
@@ -298,11 +299,12 @@ impl Experiment<'_> {
     fn instants(&self, file: &SceneFile, wanted: &Wanted) -> Result<Vec<Instant>> {
         let turn = Machine::start(file)?.turn();
         let (begin, end) = (self.transient * turn, self.turns * turn);
-        let grid = |per_turn: f64| {
-            let count = ((self.turns - self.transient) * per_turn).ceil() as usize;
-            (0..=count).map(move |k| begin + (end - begin) * k as f64 / count as f64).collect::<Vec<_>>()
+        let count = |per_turn: f64| ((self.turns - self.transient) * per_turn).ceil() as usize;
+        let largest = |sign: fn(f64) -> f64| {
+            let count = count(SAMPLES);
+            let times: Vec<f64> = (0..=count).map(|k| begin + (end - begin) * k as f64 / count as f64).collect();
+            Search { file, of: &wanted.of, sign }.among(&times)
         };
-        let largest = |sign: fn(f64) -> f64| Search { file, of: &wanted.of, sign }.among(&grid(SAMPLES));
         if let Some(at) = wanted.at {
             let passages = passages(file, at.angle(file), [self.transient, self.turns])?;
             return Ok(passages.into_iter().map(Instant::At).collect());
@@ -310,7 +312,10 @@ impl Experiment<'_> {
         Ok(match wanted.reduce {
             Reduction::Last => vec![Instant::At(end)],
             Reduction::Mean | Reduction::Rms | Reduction::Deviation => {
-                grid(MEAN_SAMPLES).into_iter().map(Instant::At).collect()
+                // The middles of equal parts, which count alike.
+                let count = count(MEAN_SAMPLES);
+                let time = |k: usize| begin + (end - begin) * (k as f64 + 0.5) / count as f64;
+                (0..count).map(time).map(Instant::At).collect()
             }
             Reduction::Max => vec![largest(|_| 1.0)?],
             Reduction::Min => vec![largest(|_| -1.0)?],
@@ -391,7 +396,7 @@ pub fn differences(of: &Experiment<'_>, wanted: &[Wanted], parameter: &'static P
         Experiment { file: &file, ..*of }.values(wanted)
     };
     let mut slopes: Vec<Vec<f64>> = vec![];
-    for decade in 2..9 {
+    for decade in 2..12 {
         let step = unit * 10f64.powi(-decade);
         let four = [2.0, 1.0, -1.0, -2.0].map(|place| at(place * step));
         if let [Ok(a), Ok(b), Ok(c), Ok(d)] = four {

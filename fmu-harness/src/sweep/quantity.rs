@@ -76,14 +76,16 @@ impl Quantity {
     }
 }
 
-/// Values at the angle `at`, in either direction of rotation.
+/// Values at the angle `at`, in either direction of rotation. A run that starts there has not passed it, one that ends there
+/// has.
 fn passages(angles: &[f64], values: &[f64], at: f64) -> Vec<f64> {
     let turns = |angle: f64| (angle - at) / TAU;
     let mut found = Vec::new();
     for i in 1..angles.len() {
         let (before, after) = (turns(angles[i - 1]), turns(angles[i]));
-        let passed = if after >= before { after.floor() } else { before.floor() };
-        if before.floor() != after.floor() && after != before {
+        let last = if after >= before { f64::floor } else { f64::ceil };
+        let passed = last(after);
+        if last(before) != passed {
             let share = (passed - before) / (after - before);
             found.push(values[i - 1] + share * (values[i] - values[i - 1]));
         }
@@ -160,6 +162,9 @@ mod tests {
         let values = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
         assert_eq!(passages(&angles, &values, 3.0), [1.5, 4.5]);
         assert_eq!(passages(&angles, &values, 3.0 - TAU).len(), 2);
+        // Two turns backwards from the angle on.
+        let (angles, values) = ([0.0, -0.6, -1.0, -1.5, -2.0].map(|turns| TAU * turns), [0.0, 1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(passages(&angles, &values, 0.0), [2.0, 4.0]);
     }
 
     #[test]

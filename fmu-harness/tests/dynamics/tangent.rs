@@ -161,6 +161,39 @@ fn the_largest_force_has_its_derivative_where_it_turns_beside_an_impact_and_in_a
     assert!(slopes[0] > 0.0 && slopes[1] < 1e3, "{slopes:?}");
 }
 
+/// Extremes that lie on a sample, means over whole turns and dead centres, all in closed form.
+#[test]
+fn quantities_of_the_ideal_mechanism_are_exact() {
+    let [crank, rod] = ["crank.length", "rod.length"].map(|name| parameters(name).expect("a parameter")[0]);
+    for speed in [500.0, 314.159, -523.6] {
+        let mut file = Scenario::find("ideal").expect("a shipped scene").file;
+        file.scene.crank.speed_start = speed;
+        let (r, l) = (file.scene.crank.length, file.scene.rod.length);
+        let chord = (l * l - r * r).sqrt();
+        let least = [l - r, -1.0, 1.0];
+        let tilt = [(r / l).asin(), 1.0 / chord, -r / (l * chord)];
+        // x = r·cos θ + √(l² − r²·sin² θ): the mean of x² is l².
+        let length = [l, 0.0, 1.0];
+        let none = [0.0; 3];
+        let cases =
+            [("slider.x:min", least), ("rod.angle:max", tilt), ("slider.a:mean", none), ("slider.x:rms", length)];
+        let wanted: Vec<Wanted> = cases.iter().map(|(text, _)| text.parse().expect("a quantity")).collect();
+        let experiment = Experiment { file: &file, turns: 1.0, transient: 0.0 };
+        let found = experiment.run(&wanted, &[crank, rod]).expect("a run");
+        for (row, (text, exact)) in found.rows.iter().zip(cases) {
+            let slopes = row.slopes.as_ref().expect("no events");
+            for (found, exact) in [row.value, slopes[0], slopes[1]].into_iter().zip(exact) {
+                assert!((found - exact).abs() < 1e-7 * exact.abs().max(1.0), "{speed}, {text}: {found}, not {exact}");
+            }
+        }
+    }
+    let mut file = Scenario::find("ideal").expect("a shipped scene").file;
+    (file.scene.slider.centre.y, file.scene.guide.offset) = (0.02, 0.005);
+    let wanted = ["slider.v@bdc", "slider.v@tdc"].map(|text| text.parse().expect("a quantity"));
+    let speeds = Experiment { file: &file, turns: 1.0, transient: 0.0 }.values(&wanted).expect("a run");
+    assert!(speeds.iter().all(|speed| speed.abs() < 1e-9), "{speeds:?}");
+}
+
 #[test]
 fn lengths_many_times_a_clearance_have_exact_derivatives() {
     let mut file = wornpin(20e-6);

@@ -65,6 +65,12 @@ fn a_refusal_is_one_clear_line() {
     );
     assert_eq!(words.lines().count(), 1);
     assert!(refusal(&["package", "--scene", "none.toml"]).contains("cannot read none.toml: No such file"));
+    let words = refusal(&["dynamics", "--section", "nan"]);
+    assert!(words.contains("the section must be an angle in degrees, not NaN"), "{words}");
+    for sum in ["energy.input:last", "joint.C.sliding:range", "joint.C.impact.speed:max"] {
+        let words = refusal(&["dynamics", "--parameter", "joint.C.clearance", "--response", sum]);
+        assert!(words.contains("an output that the state determines"), "{words}");
+    }
 
     let workshop = Workshop::open();
     let scene = workshop.directory.path().join("bad.toml");

@@ -41,6 +41,9 @@ def test_passages_are_interpolated_forwards_and_backwards():
     angles, values = numpy.array([0.0, 2.0, 4.0, 6.0, 4.0, 2.0]), numpy.arange(6.0)
     assert passages(angles, values, 3.0).tolist() == [1.5, 4.5]
     assert len(passages(angles, values, 3.0 - math.tau)) == 2
+    # Two turns backwards from the angle on.
+    angles = -math.tau * numpy.array([0.0, 0.6, 1.0, 1.5, 2.0])
+    assert passages(angles, numpy.arange(5.0), 0.0).tolist() == [2.0, 4.0]
 
 
 def test_what_is_not_there_is_named():
