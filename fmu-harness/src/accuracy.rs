@@ -12,7 +12,7 @@ use slidercrank::scene::{JointModel, Lubrication, Scene};
 use std::f64::consts::{PI, TAU};
 
 /// Communication points per turn.
-const POINTS: usize = 720;
+const POINTS: usize = 7200;
 
 /// [rad] Crank angle at which the slider of the ideal mechanism is farthest from the crank: crank and rod are in line.
 pub fn farthest(scene: &Scene) -> f64 {
@@ -94,7 +94,7 @@ pub struct Accuracy {
     pub velocity: Deviation,
     /// [m/s²]
     pub acceleration: Deviation,
-    /// At crank angle 0, where the slider is farthest from the crank.
+    /// At bottom dead centre.
     pub dead_centre: DeadCentre,
     /// [N] Largest force in any joint.
     pub peak_force: f64,
@@ -206,7 +206,7 @@ impl Plan {
         // Bottom dead centre is one of the points.
         let start = file.scene.crank.angle_start;
         let forwards = file.scene.crank.speed_start.signum();
-        let to_bottom = (-start * forwards).rem_euclid(TAU);
+        let to_bottom = ((farthest(&file.scene) - start) * forwards).rem_euclid(TAU);
         let first = to_bottom + TAU * self.transient as f64;
         let (mut errors, mut actual) = ([vec![], vec![], vec![]], [vec![], vec![], vec![]]);
         let mut strokes: Vec<[f64; 2]> = Vec::new();

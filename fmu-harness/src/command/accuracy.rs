@@ -15,7 +15,7 @@ use std::path::PathBuf;
 ///
 /// The tables compare the sixteen choices of joints with clearance, clearances and speeds from a quarter to twice those
 /// of the scene and, for a scene with a flexible rod, the same scene with a rigid rod. They also give the error at
-/// bottom dead centre (crank angle 0), its spread from stroke to stroke and the slider's tilt there. Runs in this
+/// bottom dead centre (crank and rod in line), its spread from stroke to stroke and the slider's tilt there. Runs in this
 /// process, on all cores. Writes accuracy-SCENE.md, .csv and .parquet.
 #[derive(Args)]
 pub struct Accuracy {

@@ -149,8 +149,8 @@ fn accuracy_of(file: &SceneFile, bar: &ProgressBar) -> Result<Section> {
     let plan = accuracy::Plan { transient: 2, turns: 5 };
     let parts = comparisons(file);
     begin(bar, "accuracy", parts.iter().map(|(_, cases)| cases.len()).sum());
-    let text = "The slider against that of the ideal mechanism at the same crank angle. Bottom dead centre is at a crank \
-                angle of 0, where the slider is farthest from the crank.";
+    let text = "The slider against that of the ideal mechanism at the same crank angle. At bottom dead centre \
+                crank and rod are in line, and the slider is farthest from the crank.";
     let section = Section::new("Accuracy of the slider").saying(text);
     Ok(parts.iter().fold(section, |section, (heading, cases)| {
         let measured = plan.measure_all(cases, || bar.inc(1));

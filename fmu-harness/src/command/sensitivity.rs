@@ -55,7 +55,8 @@ impl Sensitivity {
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
         let named = self.to.iter().map(|pattern| parameters(pattern)).collect::<Result<Vec<_>>>()?.concat();
-        let experiment = Experiment { file: &scenario.file, turns: self.turns, transient: self.transient };
+        let experiment =
+            Experiment { file: &scenario.file, turns: self.turns, transient: self.transient, counted: false };
         let found = experiment.run(&self.of, &named)?;
         let checked = if self.check {
             let columns = named.iter().map(|parameter| differences(&experiment, &self.of, parameter));

@@ -63,11 +63,13 @@ impl Machine {
     /// If it cannot go on.
     pub fn advance_to_event(&mut self, time: f64) -> Result<bool> {
         while self.time() < time {
-            let next = self.next_look(time);
-            if self.simulation.advance_to_event(next)? {
+            let look = self.next_look();
+            if self.simulation.advance_to_event(look.min(time))? {
                 return Ok(true);
             }
-            self.look();
+            if look <= time {
+                self.look();
+            }
         }
         Ok(false)
     }
@@ -160,8 +162,9 @@ impl<S: Simulated> Machine<S> {
         self.look();
     }
 
-    fn next_look(&self, time: f64) -> f64 {
-        self.step.map_or(time, |step| time.min(((self.time() / step + 1e-6).floor() + 1.0) * step))
+    /// [s] The next time at which inputs are renewed, whatever times are asked for.
+    fn next_look(&self) -> f64 {
+        self.step.map_or(f64::INFINITY, |step| ((self.time() / step + 1e-6).floor() + 1.0) * step)
     }
 
     /// Sets the inputs to their current values.
@@ -234,9 +237,11 @@ impl<S: Simulated> Flow for Machine<S> {
 
     fn advance(&mut self, time: f64) -> Result<()> {
         while self.time() < time {
-            let next = self.next_look(time);
-            self.simulation.advance_to(next).with_context(|| format!("after {} s", self.time()))?;
-            self.look();
+            let look = self.next_look();
+            self.simulation.advance_to(look.min(time)).with_context(|| format!("after {} s", self.time()))?;
+            if look <= time {
+                self.look();
+            }
         }
         Ok(())
     }

@@ -9,6 +9,9 @@ use anyhow::Result;
 /// Differences by each parameter, of all quantities.
 type Checked = [Result<Vec<f64>>];
 
+/// Relative derivatives of a value that is 0 but for rounding errors.
+const MEANINGLESS: f64 = 1e10;
+
 /// A row for each quantity and parameter.
 pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
     let mut table = Table::default();
@@ -27,7 +30,7 @@ pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
                         parameter.name.into(),
                         parameter.unit().into(),
                         format!("{slope:.6e}"),
-                        if relative.is_finite() { three_digits(relative) } else { "–".into() },
+                        number_below(MEANINGLESS, relative),
                     ];
                     line.extend(checked.map(|checked| match &checked[k] {
                         Ok(differences) => format!("{:.6e}", differences[i]),
@@ -46,6 +49,11 @@ pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
     table
 }
 
+/// A number with three digits; none from `bound` on.
+fn number_below(bound: f64, number: f64) -> String {
+    if number.abs() < bound { three_digits(number) } else { "–".into() }
+}
+
 /// The changes for which the derivatives hold.
 pub fn reach(found: &Sensitivities) -> Table {
     let mut table = Table::default();
@@ -62,7 +70,7 @@ pub fn reach(found: &Sensitivities) -> Table {
     }
     table.row([
         "growth of neighbouring motions [1/s]".to_owned(),
-        three_digits(found.growth),
+        number_below(f64::INFINITY, found.growth),
         String::new(),
         String::new(),
     ]);

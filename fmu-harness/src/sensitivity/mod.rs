@@ -120,12 +120,20 @@ impl Wanted {
         Ok(Self { text: name.into(), of: differentiable(of)?, at: at.map(At::Angle), reduce: *reduce })
     }
 
-    /// What outputs, their rates and their derivatives at a time [s] say about it.
-    fn reading(&self, time: f64, outputs: &Outputs, rates: &Outputs, slopes: Result<&[Outputs], &Error>) -> Reading {
+    /// What outputs, their rates and their derivatives at a time [s] say about it; with `at_angle` its derivatives are those
+    /// at a constant crank angle.
+    fn reading(
+        &self,
+        time: f64,
+        outputs: &Outputs,
+        rates: &Outputs,
+        slopes: Result<&[Outputs], &Error>,
+        at_angle: bool,
+    ) -> Reading {
         let rate = self.of.slope(outputs, rates);
         let slope = |slopes: &Outputs| {
             // At the same angle, which comes later by −δθ/θ̇.
-            let late = if self.at.is_some() { slopes.crank.angle / outputs.crank.speed } else { 0.0 };
+            let late = if at_angle { slopes.crank.angle / outputs.crank.speed } else { 0.0 };
             self.of.slope(outputs, slopes) - rate * late
         };
         let slopes = slopes.map(|slopes| slopes.iter().map(slope).collect()).map_err(|error| anyhow!("{error:#}"));
@@ -189,6 +197,9 @@ pub struct Experiment<'a> {
     pub turns: f64,
     /// First turns that do not count.
     pub transient: f64,
+    /// Whether the window of time is that of the turns which the crank makes, as in studies; otherwise turns are timed with
+    /// the start speed. Passages of an angle are always those of the crank.
+    pub counted: bool,
 }
 
 /// A quantity at one time of a run.
@@ -223,7 +234,7 @@ impl Experiment<'_> {
             })
         };
         let readings = self.readings(&file, wanted, &mut machine, derivatives)?;
-        machine.advance(machine.turn() * self.turns)?;
+        machine.advance(self.window(&file)?[1])?;
         let (reach, growth) = match machine.directions() {
             Ok(end) => {
                 let norm = |matrix: &nalgebra::DMatrix<f64>, column: usize| matrix.column(column).amax();
@@ -275,6 +286,8 @@ impl Experiment<'_> {
         derivatives: impl Fn(&mut Machine<S>) -> Result<Vec<Outputs>>,
     ) -> Result<Vec<Vec<Reading>>> {
         let instants = wanted.iter().map(|wanted| self.instants(file, wanted)).collect::<Result<Vec<_>>>()?;
+        let window = self.window(file)?;
+        let at_edge = |time: f64| window.iter().any(|edge| (time - edge).abs() <= SAME_TURN * window[1]);
         let mut times: Vec<(f64, usize)> = vec![];
         for (i, instants) in instants.iter().enumerate() {
             times.extend(instants.iter().flat_map(|instant| instant.times()).map(|time| (time, i)));
@@ -285,7 +298,8 @@ impl Experiment<'_> {
             machine.advance(together[0].0)?;
             let (outputs, rates, slopes) = (machine.outputs(), machine.output_rates(), derivatives(machine));
             for &(time, i) in together {
-                read[i].push(wanted[i].reading(time, &outputs, &rates, slopes.as_ref().map(Vec::as_slice)));
+                let at_angle = wanted[i].at.is_some() || self.counted && at_edge(time);
+                read[i].push(wanted[i].reading(time, &outputs, &rates, slopes.as_ref().map(Vec::as_slice), at_angle));
             }
         }
         let taken = instants.into_iter().zip(read).map(|(instants, read)| {
@@ -295,10 +309,22 @@ impl Experiment<'_> {
         Ok(taken.collect())
     }
 
+    /// [s] Begin and end of the window of time.
+    fn window(&self, file: &SceneFile) -> Result<[f64; 2]> {
+        let mut machine = Machine::start(file)?;
+        let mut time = |turns: f64| -> Result<f64> {
+            if !self.counted {
+                return Ok(turns * machine.turn());
+            }
+            machine.advance_turned(TAU * turns)?;
+            Ok(machine.time())
+        };
+        Ok([time(self.transient)?, time(self.turns)?])
+    }
+
     /// The instants at which a quantity is taken, in order.
     fn instants(&self, file: &SceneFile, wanted: &Wanted) -> Result<Vec<Instant>> {
-        let turn = Machine::start(file)?.turn();
-        let (begin, end) = (self.transient * turn, self.turns * turn);
+        let [begin, end] = self.window(file)?;
         let count = |per_turn: f64| ((self.turns - self.transient) * per_turn).ceil() as usize;
         let largest = |sign: fn(f64) -> f64| {
             let count = count(SAMPLES);

@@ -11,6 +11,7 @@ use crate::frame::Frame;
 use crate::scenes::Scenario;
 use crate::sensitivity::{Experiment, Sensitivities, Wanted};
 use anyhow::{Context, Result, anyhow, ensure};
+use slidercrank::scene::DriveMode;
 
 /// Quantile of the standard normal distribution at 97.5 %.
 pub const NORMAL: f64 = 1.959_963_984_540_054;
@@ -67,14 +68,14 @@ impl Linear {
         let mut wanted = vec![];
         let mut rows = vec![];
         for name in study.keep.keys() {
-            let row = differentiable(study, name).map(|quantity| {
+            let row = differentiable(study, file.scene.drive.mode, name).map(|quantity| {
                 wanted.push(quantity);
                 wanted.len() - 1
             });
             rows.push((name.clone(), row));
         }
         let (turns, transient) = (study.run.turns, study.run.transient);
-        let found = Experiment { file: &file, turns, transient }.run(&wanted, &parameters)?;
+        let found = Experiment { file: &file, turns, transient, counted: true }.run(&wanted, &parameters)?;
         Ok(Self { found, deviations, rows, turns })
     }
 
@@ -158,13 +159,17 @@ impl Comparison {
 }
 
 /// A kept quantity, if a study's parameters leave its window of time where it is.
-fn differentiable(study: &Study, name: &str) -> Result<Wanted> {
+fn differentiable(study: &Study, drive: DriveMode, name: &str) -> Result<Wanted> {
     let quantity = &study.keep[name];
-    let of_window =
-        matches!(quantity.reduce, Reduction::Mean | Reduction::Rms | Reduction::Deviation | Reduction::Last);
+    let in_time = quantity.at.is_none();
+    let of_all = matches!(quantity.reduce, Reduction::Mean | Reduction::Rms | Reduction::Deviation);
     ensure!(
-        quantity.at.is_some() || !of_window || !study.random.contains_key(SPEED),
+        !in_time || !(of_all || quantity.reduce == Reduction::Last) || !study.random.contains_key(SPEED),
         "{SPEED} changes how long its turns take: it has a derivative at a crank angle (`at`) only"
+    );
+    ensure!(
+        !in_time || !of_all || drive == DriveMode::Speed,
+        "parameters change how long the turns of a free crank take: it has a derivative at a crank angle (`at`) only"
     );
     Wanted::kept(name, quantity)
 }

@@ -9,6 +9,8 @@ use fmu_harness::sweep::linear::Comparison;
 use fmu_harness::sweep::study::parameter;
 use fmu_harness::sweep::{Linear, Plan, Study};
 use rand::SeedableRng;
+use slidercrank::scene::DriveMode;
+use slidercrank::scene::profile::Profile;
 
 /// The first impacts of a worn pin, whose tolerances are narrower than what they change.
 const STUDY: &str = r#"
@@ -55,7 +57,7 @@ fn monte_carlo(study: &Study, scenario: &Scenario) -> Frame {
             parameter(name).expect("a parameter").write(&mut file.scene, value).expect("a value");
         });
         let (turns, transient) = (study.run.turns, study.run.transient);
-        Experiment { file: &file, turns, transient }.values(&kept).expect("a run")
+        Experiment { file: &file, turns, transient, counted: true }.values(&kept).expect("a run")
     });
     let runs: Vec<Vec<f64>> = runs.collect();
     let columns = kept.iter().enumerate();
@@ -82,6 +84,48 @@ fn a_smooth_map_has_the_standard_deviations_of_its_derivatives() {
         assert!((total - 100.0).abs() < 1.0, "{row:?}");
     }
     assert_eq!(shares.len(), 4);
+}
+
+/// A study's runs end by turns, which a free crank makes in a time of its own.
+#[test]
+fn turns_of_a_free_crank_end_where_those_of_the_runs_do() {
+    let mut scenario = Scenario::find("ideal").expect("a scene");
+    scenario.file.scene.drive.mode = DriveMode::Torque;
+    scenario.file.inputs.crank_torque = Profile::Constant(5.0);
+    let text = r#"
+        name = "free"
+        scene = "ideal"
+        seed = 3
+        draws = 40
+        run = { turns = 2.25, step = 1e-4 }
+        random."crank.inertia" = { uniform = { min = 0.0099, max = 0.0101 } }
+        [keep]
+        end = { of = "slider.x", reduce = "last" }
+        speed = { of = "crank.speed", reduce = "last" }
+        fastest = { of = "crank.speed", reduce = "max" }
+        passage = { of = "crank.speed", reduce = "mean", at = 0 }
+        mean = { of = "crank.speed", reduce = "mean" }
+    "#;
+    let study = study(text);
+    let linear = Linear::of(&study, &scenario).expect("a linear analysis");
+    let runs = monte_carlo(&study, &scenario);
+    for (name, row) in &linear.rows {
+        match (name.as_str(), linear.compare(name, row, &runs)) {
+            ("mean", found) => {
+                let refusal = found.err().map(|error| error.to_string()).expect("a refusal");
+                assert!(refusal.contains("the turns of a free crank"), "{refusal}");
+            }
+            // At the crank angle of the end it does not move at all.
+            ("end", found) => {
+                let found = found.expect("numbers");
+                assert!(found.deviation < 1e-9 && found.linear < 1e-9, "{} {}", found.deviation, found.linear);
+            }
+            (_, found) => {
+                let Comparison { deviation, linear, explained, .. } = found.expect("numbers");
+                assert!((linear / deviation - 1.0).abs() < 0.4 && explained > 0.999, "{name}: {deviation} {linear}");
+            }
+        }
+    }
 }
 
 #[test]

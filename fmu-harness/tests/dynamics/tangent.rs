@@ -126,7 +126,7 @@ fn a_periodic_motion_is_the_simulated_one_and_its_multipliers_are_how_neighbours
 
 /// Asserts that derivatives of a run's quantities are difference quotients of neighbouring runs within a share of them.
 fn assert_differences(file: &SceneFile, wanted: &[&str], names: [&str; 2], share: f64) -> Sensitivities {
-    let experiment = Experiment { file, turns: 0.2, transient: 0.0 };
+    let experiment = Experiment { file, turns: 0.2, transient: 0.0, counted: false };
     let wanted: Vec<Wanted> = wanted.iter().map(|text| text.parse().expect("a quantity")).collect();
     let names = names.map(|name| parameters(name).expect("a parameter")[0]);
     let found = experiment.run(&wanted, &names).expect("a run");
@@ -178,7 +178,7 @@ fn quantities_of_the_ideal_mechanism_are_exact() {
         let cases =
             [("slider.x:min", least), ("rod.angle:max", tilt), ("slider.a:mean", none), ("slider.x:rms", length)];
         let wanted: Vec<Wanted> = cases.iter().map(|(text, _)| text.parse().expect("a quantity")).collect();
-        let experiment = Experiment { file: &file, turns: 1.0, transient: 0.0 };
+        let experiment = Experiment { file: &file, turns: 1.0, transient: 0.0, counted: false };
         let found = experiment.run(&wanted, &[crank, rod]).expect("a run");
         for (row, (text, exact)) in found.rows.iter().zip(cases) {
             let slopes = row.slopes.as_ref().expect("no events");
@@ -190,7 +190,7 @@ fn quantities_of_the_ideal_mechanism_are_exact() {
     let mut file = Scenario::find("ideal").expect("a shipped scene").file;
     (file.scene.slider.centre.y, file.scene.guide.offset) = (0.02, 0.005);
     let wanted = ["slider.v@bdc", "slider.v@tdc"].map(|text| text.parse().expect("a quantity"));
-    let speeds = Experiment { file: &file, turns: 1.0, transient: 0.0 }.values(&wanted).expect("a run");
+    let speeds = Experiment { file: &file, turns: 1.0, transient: 0.0, counted: false }.values(&wanted).expect("a run");
     assert!(speeds.iter().all(|speed| speed.abs() < 1e-9), "{speeds:?}");
 }
 
