@@ -67,3 +67,21 @@ fn an_audit_changes_no_bit_of_the_motion() {
         }
     }
 }
+
+/// Another point of phase space, of another time, has no sums of its own.
+#[test]
+fn sums_since_the_start_go_on_from_a_phase_of_another_time() {
+    let mut scene = shipped("wornpin");
+    scene.energy.audit = true;
+    let mut simulation = Simulation::start(&scene, Inputs::default()).expect("a scene whose loop closes");
+    simulation.advance_to(1e-3).expect("no trouble");
+    let early = simulation.phase();
+    simulation.advance_to(0.1).expect("no trouble");
+    simulation.phase();
+    let before = simulation.outputs().energy;
+    simulation.place(&early);
+    let after = simulation.outputs().energy;
+    for (before, after) in [(before.input, after.input), (before.dissipated, after.dissipated)] {
+        assert!((after - before).abs() <= 1e-2 * before.abs(), "{after:e}, not {before:e}");
+    }
+}

@@ -14,7 +14,13 @@ pub fn mechanism(pair: &Pair) -> Result<[Table; 3]> {
     let mut peaks = Table::default();
     peaks.row(["peak", "this", "ideal", "ratio"]);
     for joint in JOINTS {
-        peak(&mut peaks, &format!("force in joint {joint}"), "N", [actual, pair.ideal].map(|run| force(run, joint)))?;
+        // Those between communication points, too, which are 0 without an audit.
+        let forces = |run: &Recording| {
+            let mut forces = force(run, joint)?;
+            forces.extend(run.column(&format!("joint.{joint}.force.peak"))?);
+            Ok(forces)
+        };
+        peak(&mut peaks, &format!("force in joint {joint}"), "N", [actual, pair.ideal].map(forces))?;
     }
     for (name, variable, unit) in [("drive torque", "drive.torque", "N.m"), ("slider acceleration", "slider.a", "m/s2")]
     {

@@ -1,10 +1,11 @@
 //! Distributions in SI units: random values, mean and standard deviation.
 
 use super::study::{Distribution, Number};
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, Normal, Uniform};
 use slidercrank::scene::parameter::{Kind, Parameter};
+use slidercrank::scene::units::quantity;
 
 /// Number of draws outside a truncated range after which the range counts as empty.
 const TRIES: usize = 10_000;
@@ -54,9 +55,11 @@ impl Law {
                 Ok(Self { parameter, shape: Shape::LogUniform(between(min.ln(), max.ln())?), min, max })
             }
             Distribution::Normal { mean, deviation, min, max } => {
+                // A deviation has the parameter's unit, but not its bounds.
                 let deviation = match deviation {
                     Number::Plain(deviation) => *deviation,
-                    text => text.value(parameter)?,
+                    Number::Text(text) => quantity(text, parameter.unit())
+                        .map_err(|error| anyhow!("`{name}`: deviation = \"{text}\": {error}"))?,
                 };
                 let normal = Normal::new(value(mean)?, deviation);
                 let shape = Shape::Normal(normal.with_context(|| format!("`{name}`: deviation = {deviation}"))?);

@@ -86,6 +86,16 @@ fn a_smooth_map_has_the_standard_deviations_of_its_derivatives() {
     assert_eq!(shares.len(), 4);
 }
 
+#[test]
+fn a_deviation_has_the_unit_of_its_parameter_and_not_its_bounds() {
+    let drawn = r#""crank.length" = { normal = { mean = "50 mm", deviation = "0.2 um" } }"#;
+    let text = STUDY.replace(r#""joint.C.restitution" ="#, &format!("{drawn}\n\"joint.C.restitution\" ="));
+    let study = study(&text);
+    let of = |name: &str| Law::of(parameter(name).expect("a parameter"), &study.random[name]).map(|law| law.moments());
+    let (mean, deviation) = of("crank.length").expect("a law");
+    assert!((mean - 0.05).abs() < 1e-12 && (deviation - 2e-7).abs() < 1e-12, "{mean} {deviation}");
+}
+
 /// A study's runs end by turns, which a free crank makes in a time of its own.
 #[test]
 fn turns_of_a_free_crank_end_where_those_of_the_runs_do() {
