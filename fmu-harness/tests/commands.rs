@@ -107,6 +107,18 @@ fn the_other_commands_have_a_number_in_every_row() {
 }
 
 #[test]
+fn a_setting_may_have_a_unit() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    let results = ["crank.speed_start=3000 rpm", "crank.speed_start=314.1592653589793"].map(|setting| {
+        let out = folder.path().join(setting);
+        let arguments = ["run", "--scene", "ideal", "--turns", "0.1", "--set", setting];
+        assert_eq!(wrong(&arguments, &out), None);
+        std::fs::read_to_string(out.join("ideal.csv")).expect("a file")
+    });
+    assert!(results[0] == results[1]);
+}
+
+#[test]
 fn a_reader_that_goes_away_takes_nothing_with_it() {
     let folder = tempfile::tempdir().expect("a temporary directory");
     let arguments = ["sensitivity", "--scene", "wornpin", "--turns", "0.05", "--of", "slider.v", "--to", "rod.length"];

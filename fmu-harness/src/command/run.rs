@@ -12,8 +12,10 @@ use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::scene::parameter::Parameter;
 use slidercrank::scene::read::{SceneFile, read_with};
 use slidercrank::scene::run::End;
+use slidercrank::scene::units::quantity;
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -48,7 +50,7 @@ pub struct Run {
     /// CSV file of inputs: the first column is time, the others have the inputs' names
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
-    /// Sets a variable before initialization; may be repeated
+    /// Sets a variable before initialization, with a unit if it is a parameter of ours; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Setting>,
     /// Directory of the results [default: target/out]
@@ -113,7 +115,11 @@ impl Run {
             (None, None, Some(scene)) => scene.run.end,
             (None, None, None) => End::Time(suggested("stopTime").unwrap_or(start + 1.0)),
         };
-        let until = match (end, self.start_speed(fmu)) {
+        if let End::Turns(turns) = end {
+            ensure!(turns > 0.0, "turns must be above 0, not {turns}");
+        }
+        let settings = self.settings();
+        let until = match (end, start_speed(fmu, &settings)) {
             (End::Time(stop), _) => Until::Time(stop),
             (End::Turns(turns), Some(speed)) => Until::Turns { turns, latest: start + PATIENCE * turns * TAU / speed },
             (End::Turns(_), None) => bail!("without `{SPEED}` the length of a turn is unknown; give a --stop time"),
@@ -127,16 +133,25 @@ impl Run {
             (None, Some(scene)) => inputs::of_scene(&scene.inputs),
             (None, None) => vec![],
         };
-        Ok(Experiment { settings: self.set.clone(), inputs, start, until, step, tolerance: self.tolerance })
+        Ok(Experiment { settings, inputs, start, until, step, tolerance: self.tolerance })
     }
 
-    /// [rad/s] Start speed of the crank, if the FMU has a crank that turns.
-    fn start_speed(&self, fmu: &Fmu) -> Option<f64> {
-        let set =
-            self.set.iter().rev().find(|setting| setting.name == SPEED).and_then(|setting| setting.value.parse().ok());
-        let declared = || fmu.description().variable(SPEED).ok()?.of_kind.number("start");
-        set.or_else(declared).map(f64::abs).filter(|speed| *speed > 0.0)
+    /// What the command line sets, in SI units where it names another unit of one of our parameters.
+    fn settings(&self) -> Vec<Setting> {
+        let in_si = |Setting { name, value }: &Setting| {
+            let number = Parameter::named(name).and_then(|parameter| quantity(value, parameter.unit()).ok());
+            Setting { name: name.clone(), value: number.map_or_else(|| value.clone(), |number| number.to_string()) }
+        };
+        self.set.iter().map(in_si).collect()
     }
+}
+
+/// [rad/s] Start speed of the crank, if the FMU has a crank that turns.
+fn start_speed(fmu: &Fmu, settings: &[Setting]) -> Option<f64> {
+    let set =
+        settings.iter().rev().find(|setting| setting.name == SPEED).and_then(|setting| setting.value.parse().ok());
+    let declared = || fmu.description().variable(SPEED).ok()?.of_kind.number("start");
+    set.or_else(declared).map(f64::abs).filter(|speed| *speed > 0.0)
 }
 
 /// The scene in a package of this program.

@@ -3,7 +3,8 @@
 //! moved near again along the same direction.
 //!
 //! The distance contains everything that determines the further motion, bristles and approach speeds of closed contacts
-//! included. Two neighbours may have different contacts closed for a moment; their distance is then measured as soon as
+//! included. Neighbours begin with the same approach speeds: in a contact that never opens a difference would stay as it is,
+//! and hide how fast the motions approach each other. Two neighbours may have different contacts closed for a moment; their distance is then measured as soon as
 //! they agree again. Both start anew after each measurement, so that they take similar steps, whose errors cancel.
 
 use super::{Flow, Point};
@@ -53,7 +54,8 @@ impl Probe {
         let mut near = start.clone();
         // Alternating signs: such a direction is not invariant under any symmetry of the system.
         let sign = |i: usize| if i % 3 == 1 { -1.0 } else { 1.0 };
-        near.coordinates.iter_mut().enumerate().for_each(|(i, x)| *x += sign(i) * self.distance);
+        let moving = near.coordinates.len() - near.remembered;
+        near.coordinates[..moving].iter_mut().enumerate().for_each(|(i, x)| *x += sign(i) * self.distance);
         neighbour.place(&near);
         flow.place(&start);
         let (mut growths, mut history) = (Vec::with_capacity(self.count), Vec::with_capacity(self.count));

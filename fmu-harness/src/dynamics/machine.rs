@@ -254,6 +254,7 @@ impl<S: Simulated> Flow for Machine<S> {
         Point {
             time,
             coordinates: states.chain(speeds).collect(),
+            remembered: approach.iter().flatten().count(),
             modes: approach.iter().map(Option::is_some).collect(),
         }
     }

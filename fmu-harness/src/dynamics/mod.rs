@@ -44,6 +44,9 @@ pub struct Point {
     /// All numbers that determine the further motion, each divided by the size of a noticeable difference. The discrete
     /// state decides which numbers there are.
     pub coordinates: Vec<f64>,
+    /// How many of them, the last ones, do not change until the discrete state does: what contacts remember. In a contact that
+    /// never opens they are a parameter of the motion rather than a part of it.
+    pub remembered: usize,
     /// The discrete state, such as which contacts are closed.
     pub modes: Vec<bool>,
 }

@@ -178,7 +178,7 @@ pub fn exponent_table(portrait: &Portrait) -> Option<Table> {
     let shown = |value: f64| [value, value * portrait.turn].map(three_digits);
     for (number, Exponent { value, error, .. }) in exponents.all.iter().enumerate() {
         let [second, turn] = shown(*value);
-        table.row([(number + 1).to_string(), second, three_digits(*error), turn]);
+        table.row([(number + 1).to_string(), second, known(*error), turn]);
     }
     let [second, turn] = shown(exponents.sum());
     table.row(["sum".into(), second, String::new(), turn]);
@@ -195,17 +195,22 @@ pub fn exponent_table(portrait: &Portrait) -> Option<Table> {
     let apart = (largest.value - portrait.exponent.value).abs() / both;
     table.row([
         "largest less that of two trajectories, in standard errors".into(),
-        three_digits(apart),
+        known(if both.is_finite() { apart } else { f64::INFINITY }),
         String::new(),
         String::new(),
     ]);
     Some(table)
 }
 
+/// A number, if it is known: of few intervals there is no standard error.
+fn known(number: f64) -> String {
+    if number.is_finite() { three_digits(number) } else { "–".into() }
+}
+
 /// The verdict with its evidence.
 pub fn sentence(portrait: &Portrait) -> String {
     let (evidence, exponent) = (&portrait.evidence, &portrait.exponent);
-    let [value, error] = [exponent.value, exponent.error].map(|number| three_digits(number * portrait.turn));
+    let [value, error] = [exponent.value, exponent.error].map(|number| known(number * portrait.turn));
     format!(
         "{}; exponent {value} ± {error} a turn; best repetition after {} turns, within {} clearances",
         evidence.verdict,
@@ -221,7 +226,7 @@ pub fn table(portrait: &Portrait) -> Table {
     table.row(["what", "value"]);
     table.row(["verdict", &evidence.verdict.to_string()]);
     table.row(["largest Lyapunov exponent [1/s]", &three_digits(exponent.value)]);
-    table.row(["its standard error [1/s]", &three_digits(exponent.error)]);
+    table.row(["its standard error [1/s]", &known(exponent.error)]);
     table.row(["the exponent in one turn", &three_digits(exponent.value * portrait.turn)]);
     table.row(["turns looked at", &portrait.visits.len().to_string()]);
     table.row(["best repetition after turns", &evidence.repeats_after.to_string()]);

@@ -1,7 +1,7 @@
 //! Derivatives of quantities of a run by parameters, from the tangent of the motion: exact through impacts.
 //!
 //! A quantity at a crank angle is differentiated at that angle, which neighbours pass at other times. The largest value
-//! of an output is differentiated where it is reached ([`extremum`]).
+//! of an output is differentiated where it is reached, on both sides if it lies in a corner.
 //!
 //! Where a motion is chaotic, derivatives grow like the motion's largest exponent, and the changes for which they hold
 //! shrink alike. [`Sensitivities`] has both: the growth, and the change of each parameter that moves the mechanism by one

@@ -44,7 +44,7 @@ impl<const N: usize, P: integrator::System<Discrete = ()>> Flow for System<N, P>
 
     fn point(&mut self) -> Point {
         let coordinates = self.state().iter().map(|x| x / SCALE).collect();
-        Point { time: self.time, coordinates, modes: vec![] }
+        Point { time: self.time, coordinates, remembered: 0, modes: vec![] }
     }
 
     fn place(&mut self, point: &Point) {

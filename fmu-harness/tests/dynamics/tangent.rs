@@ -99,6 +99,18 @@ fn the_largest_exponent_of_the_worn_pin_is_that_of_two_trajectories() {
     assert!(exponents.left_out * 10 < exponents.intervals, "{}", exponents.left_out);
 }
 
+/// A contact that stays closed remembers its approach speed for ever, which is no part of the motion.
+#[test]
+fn neighbours_of_a_periodic_motion_approach_it_as_the_tangent_says() {
+    let plan = Plan { transient: 60, turns: 60, section: 0.0, per_turn: 25, tangent_turns: 60 };
+    let portrait = plan.portrait(&wornpin(0.02e-3), || {}).expect("a portrait");
+    let exponents = portrait.exponents.expect("asked for").expect("a tangent");
+    let (one, other) = (&exponents.all[0], &portrait.exponent);
+    let error = one.error.hypot(other.error);
+    assert!((one.value - other.value).abs() < 4.0 * error, "{} {} {error}", one.value, other.value);
+    assert!(one.value < -10.0 && error < 0.2 * one.value.abs(), "{} {error}", one.value);
+}
+
 #[test]
 fn a_periodic_motion_is_the_simulated_one_and_its_multipliers_are_how_neighbours_come_nearer() {
     let file = wornpin(0.02e-3);
