@@ -4,6 +4,7 @@
 use crate::dynamics::Machine;
 use anyhow::{Context, Result};
 use rayon::prelude::*;
+use slidercrank::model::ideal::IdealMechanism;
 use slidercrank::model::rod::Rod;
 use slidercrank::model::signals::Outputs;
 use slidercrank::scene::check::MAX_ROUGHNESS;
@@ -16,17 +17,14 @@ const POINTS: usize = 7200;
 
 /// [rad] Crank angle at which the slider of the ideal mechanism is farthest from the crank: crank and rod are in line.
 pub fn farthest(scene: &Scene) -> f64 {
-    (height(scene) / (scene.rod.length + scene.crank.length)).asin()
+    let IdealMechanism { crank, rod, height } = IdealMechanism::new(scene);
+    (height / (rod + crank)).asin()
 }
 
 /// [rad] Crank angle at which the slider of the ideal mechanism is nearest to the crank.
 pub fn nearest(scene: &Scene) -> f64 {
-    PI + (height(scene) / (scene.rod.length - scene.crank.length)).asin()
-}
-
-/// [m] Height of the slider pin of the ideal mechanism.
-fn height(scene: &Scene) -> f64 {
-    scene.guide.offset - scene.slider.centre.y
+    let IdealMechanism { crank, rod, height } = IdealMechanism::new(scene);
+    PI + (height / (rod - crank)).asin()
 }
 
 /// Length of a run.

@@ -47,7 +47,7 @@ impl Output {
                 ..IntervalOutputs::default()
             };
         }
-        self.components.iter().any(|get| get(&outputs).is_nan())
+        self.is_among_the_nans_of(&outputs)
     }
 
     /// Whether it sums what happened since the start.
@@ -65,8 +65,11 @@ impl Output {
             modal_loss: nan,
             ..EnergyOutputs::default()
         };
-        let outputs = Outputs { energy, ..Outputs::default() };
-        self.components.iter().any(|get| get(&outputs).is_nan())
+        self.is_among_the_nans_of(&Outputs { energy, ..Outputs::default() })
+    }
+
+    fn is_among_the_nans_of(&self, outputs: &Outputs) -> bool {
+        self.components.iter().any(|get| get(outputs).is_nan())
     }
 
     /// Its value.

@@ -2,7 +2,7 @@
 
 use super::plot::{Curve, Mark, Panel, Role, Sheet};
 use super::table::Table;
-use super::units::{Shown, significant, three_digits};
+use super::units::{Shown, known, significant, three_digits};
 use crate::dynamics::bifurcation::{Branch, Range};
 use crate::dynamics::continuation::{Branch as Orbits, Found};
 use crate::dynamics::exponents::Exponents;
@@ -178,6 +178,7 @@ pub fn exponent_table(portrait: &Portrait) -> Option<Table> {
     let shown = |value: f64| [value, value * portrait.turn].map(three_digits);
     for (number, Exponent { value, error, .. }) in exponents.all.iter().enumerate() {
         let [second, turn] = shown(*value);
+        // Of few intervals there is no standard error.
         table.row([(number + 1).to_string(), second, known(*error), turn]);
     }
     let [second, turn] = shown(exponents.sum());
@@ -200,11 +201,6 @@ pub fn exponent_table(portrait: &Portrait) -> Option<Table> {
         String::new(),
     ]);
     Some(table)
-}
-
-/// A number, if it is known: of few intervals there is no standard error.
-fn known(number: f64) -> String {
-    if number.is_finite() { three_digits(number) } else { "–".into() }
 }
 
 /// The verdict with its evidence.

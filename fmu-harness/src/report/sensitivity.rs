@@ -1,7 +1,7 @@
 //! Tables and columns of derivatives of quantities by parameters.
 
 use super::table::Table;
-use super::units::three_digits;
+use super::units::known;
 use crate::frame::{Column, Frame};
 use crate::sensitivity::Sensitivities;
 use anyhow::Result;
@@ -30,7 +30,7 @@ pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
                         parameter.name.into(),
                         parameter.unit().into(),
                         format!("{slope:.6e}"),
-                        number_below(MEANINGLESS, relative),
+                        known(if relative.abs() < MEANINGLESS { relative } else { f64::NAN }),
                     ];
                     line.extend(checked.map(|checked| match &checked[k] {
                         Ok(differences) => format!("{:.6e}", differences[i]),
@@ -49,11 +49,6 @@ pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
     table
 }
 
-/// A number with three digits; none from `bound` on.
-fn number_below(bound: f64, number: f64) -> String {
-    if number.abs() < bound { three_digits(number) } else { "–".into() }
-}
-
 /// The changes for which the derivatives hold.
 pub fn reach(found: &Sensitivities) -> Table {
     let mut table = Table::default();
@@ -68,12 +63,7 @@ pub fn reach(found: &Sensitivities) -> Table {
             if share.is_finite() { format!("{share:.1e}") } else { "–".into() },
         ]);
     }
-    table.row([
-        "growth of neighbouring motions [1/s]".to_owned(),
-        number_below(f64::INFINITY, found.growth),
-        String::new(),
-        String::new(),
-    ]);
+    table.row(["growth of neighbouring motions [1/s]".to_owned(), known(found.growth), String::new(), String::new()]);
     table
 }
 

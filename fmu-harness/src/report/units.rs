@@ -73,6 +73,11 @@ pub fn grouped(number: f64) -> String {
     if number < 0.0 { format!("-{text}") } else { text }
 }
 
+/// A number with [`three_digits`], if it is known; a dash if it is not finite.
+pub fn known(number: f64) -> String {
+    if number.is_finite() { three_digits(number) } else { "–".into() }
+}
+
 /// A number with three significant digits, or more if it has more digits before the decimal point.
 pub fn three_digits(number: f64) -> String {
     // Unit of the last digit.

@@ -233,8 +233,9 @@ impl Experiment<'_> {
                 slopes
             })
         };
-        let readings = self.readings(&file, wanted, &mut machine, derivatives)?;
-        machine.advance(self.window(&file)?[1])?;
+        let window = self.window(&file)?;
+        let readings = self.readings(&file, window, wanted, &mut machine, derivatives)?;
+        machine.advance(window[1])?;
         let (reach, growth) = match machine.directions() {
             Ok(end) => {
                 let norm = |matrix: &nalgebra::DMatrix<f64>, column: usize| matrix.column(column).amax();
@@ -263,7 +264,7 @@ impl Experiment<'_> {
     pub fn values(&self, wanted: &[Wanted]) -> Result<Vec<f64>> {
         let file = self.accurate();
         let mut machine = Machine::start(&file)?;
-        let readings = self.readings(&file, wanted, &mut machine, |_| Ok(vec![]))?;
+        let readings = self.readings(&file, self.window(&file)?, wanted, &mut machine, |_| Ok(vec![]))?;
         let value = |(wanted, readings): (&Wanted, Vec<Reading>)| {
             wanted.reduce.of(&readings.iter().map(|reading| reading.value).collect::<Vec<_>>())
         };
@@ -276,17 +277,17 @@ impl Experiment<'_> {
         file
     }
 
-    /// Runs `machine` and reads each quantity at each of its instants, in order. `derivatives` gives those of the outputs at
+    /// Runs `machine` and reads each quantity at each of its instants within the window [s], in order. `derivatives` gives those of the outputs at
     /// the time reached.
     fn readings<S: Simulated>(
         &self,
         file: &SceneFile,
+        window: [f64; 2],
         wanted: &[Wanted],
         machine: &mut Machine<S>,
         derivatives: impl Fn(&mut Machine<S>) -> Result<Vec<Outputs>>,
     ) -> Result<Vec<Vec<Reading>>> {
-        let instants = wanted.iter().map(|wanted| self.instants(file, wanted)).collect::<Result<Vec<_>>>()?;
-        let window = self.window(file)?;
+        let instants = wanted.iter().map(|wanted| self.instants(file, window, wanted)).collect::<Result<Vec<_>>>()?;
         let at_edge = |time: f64| window.iter().any(|edge| (time - edge).abs() <= SAME_TURN * window[1]);
         let mut times: Vec<(f64, usize)> = vec![];
         for (i, instants) in instants.iter().enumerate() {
@@ -322,9 +323,8 @@ impl Experiment<'_> {
         Ok([time(self.transient)?, time(self.turns)?])
     }
 
-    /// The instants at which a quantity is taken, in order.
-    fn instants(&self, file: &SceneFile, wanted: &Wanted) -> Result<Vec<Instant>> {
-        let [begin, end] = self.window(file)?;
+    /// The instants at which a quantity is taken within the window [s], in order.
+    fn instants(&self, file: &SceneFile, [begin, end]: [f64; 2], wanted: &Wanted) -> Result<Vec<Instant>> {
         let count = |per_turn: f64| ((self.turns - self.transient) * per_turn).ceil() as usize;
         let largest = |sign: fn(f64) -> f64| {
             let count = count(SAMPLES);
