@@ -96,6 +96,11 @@ impl<D: Copy> Integrator<D> {
         &*self.stepper.method
     }
 
+    /// Writes the state at `t` in the last step by the method's own polynomial. Returns whether there is one.
+    pub fn inside(&self, t: f64, y: &mut [f64]) -> bool {
+        self.stepper.method.inside(self.state().start(), self.state().front().t, t, y)
+    }
+
     /// Restores the memory of the method from a snapshot; `None` if no run can have produced it.
     pub fn load_method(&mut self, reader: &mut Reader<'_>) -> Option<()> {
         self.stepper.with_method(|method| method.load(reader))

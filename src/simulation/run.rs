@@ -12,9 +12,7 @@ use super::record;
 use super::settings::{deadline, settings};
 use super::side::Side;
 use crate::integrator::methods::named;
-use crate::integrator::{
-    IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Snapshot, SolverState, StateLayout, StepPoint,
-};
+use crate::integrator::{IntegrationError, Integrator, Jacobian, MAX_STATES, Reader, Snapshot, StateLayout, StepPoint};
 use crate::model::contact::ContactState;
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
@@ -69,13 +67,13 @@ impl Run {
     pub(super) fn advance_followed(
         &mut self,
         t: f64,
-        follow: &mut dyn FnMut(&dyn MechanismModel, &SolverState<Conditions>),
+        follow: &mut dyn FnMut(&dyn MechanismModel, &Integrator<Conditions>),
     ) -> Result<(), IntegrationError> {
         let Self { model, integrator, observer, audit, .. } = self;
         let mut watched = watch(model.as_ref(), observer, audit);
         integrator.advance_watched(model.as_ref(), t, &mut |integrator| {
             watched(integrator);
-            follow(model.as_ref(), integrator.state());
+            follow(model.as_ref(), integrator);
         })
     }
 

@@ -112,9 +112,7 @@ fn followed(ball: &Ball, method: &str, start: [f64; 2], end: f64) -> (Integrator
     let mut integrator = begin(method, ball, settings(1e-11), 0.0, start, false);
     let (both, none) = (DMatrix::identity(2, 2), DMatrix::zeros(0, 2));
     let mut tangents = Tangents::new(ball, integrator.state(), both, none, vec![1.0; 2], 1e-10);
-    integrator
-        .advance_watched(ball, end, &mut |integrator| tangents.follow(ball, integrator.state()))
-        .expect("a motion");
+    integrator.advance_watched(ball, end, &mut |integrator| tangents.follow(ball, integrator)).expect("a motion");
     (integrator, tangents)
 }
 
@@ -155,7 +153,7 @@ fn the_tangent_over_a_compliant_impact_is_the_product_of_its_parts() {
     let end = time + low + 0.1;
     for method in ["cong8", "dop853", "dopri5", "radau13", "rodas4"] {
         let (mut integrator, mut tangents) = followed(&ball, method, start, end);
-        let found = tangents.at(&ball, integrator.state(), end).expect("no grazing");
+        let found = tangents.at(&ball, &integrator, end).expect("no grazing");
         let miss = (found - exact).abs().max() / exact.abs().max();
         assert!(miss < 1e-8, "{method}: {miss:e}");
         // The impact oscillator's multipliers are the eigenvalues.
@@ -173,7 +171,7 @@ fn a_jump_of_the_acceleration_has_its_saltation() {
     let (time, speed) = touch(&ball, start);
     let end = time + 0.5 * speed.abs() / 10.0;
     let (integrator, mut tangents) = followed(&ball, "dop853", start, end);
-    let found = tangents.at(&ball, integrator.state(), end).expect("no grazing");
+    let found = tangents.at(&ball, &integrator, end).expect("no grazing");
     let free = |t: f64| Matrix2::new(1.0, t, 0.0, 1.0);
     let exact = free(end - time) * Matrix2::new(1.0, 0.0, 11.0 / speed, 1.0) * free(time);
     assert!((found - exact).abs().max() < 1e-9 * exact.abs().max());
@@ -190,7 +188,7 @@ fn a_moving_table_counts_in_the_time_of_touch() {
         Vector2::from_row_slice(integrator.state_at(&ball, end).0)
     };
     let (integrator, mut tangents) = followed(&ball, "dop853", start, end);
-    let found = tangents.at(&ball, integrator.state(), end).expect("no grazing");
+    let found = tangents.at(&ball, &integrator, end).expect("no grazing");
     for column in 0..2 {
         let moved = |share: f64| {
             let mut start = start;
@@ -211,9 +209,9 @@ fn a_shorter_last_step_is_followed_from_its_start() {
     let start = [0.2, 0.1];
     let (mut integrator, mut tangents) = followed(&ball, "dop853", start, 0.75);
     let middle = 0.5 * (integrator.state().start().t + integrator.state().front().t);
-    let before = tangents.at(&ball, integrator.state(), middle).expect("no grazing");
+    let before = tangents.at(&ball, &integrator, middle).expect("no grazing");
     integrator.truncate(&ball, middle);
-    tangents.shorten(&ball, integrator.state());
+    tangents.shorten(&ball, &integrator);
     let after = tangents.directions().expect("no grazing");
     assert!((before - after).abs().max() < 1e-8 * after.abs().max());
 }

@@ -221,6 +221,37 @@ fn oil() {
 }
 
 #[test]
+fn what_decays_within_a_long_step_is_gone_at_its_end() {
+    // Oil slows what moves against it within microseconds, and implicit steps are a hundred times as long.
+    let mut scene = shipped("oilpress");
+    scene.solver.tolerance = 1e-6;
+    let seeds: Vec<Seed> = [0, 3, 9].map(Seed::State).into();
+    for (from, end) in [(5e-3, 6e-3), (10.1e-3, 11.1e-3)] {
+        let mut simulation = Simulation::start(&scene, Inputs::default()).expect("a start");
+        simulation.advance_to(from).expect("a motion");
+        let snapshot = simulation.snapshot();
+        let (start, scales) = (simulation.phase(), simulation.phase_scales().states);
+        let mut variation = Variation::resume(&scene, &snapshot, &seeds).expect("the state");
+        variation.advance_to(end).expect("a motion");
+        let directions = variation.directions().expect("no grazing");
+        let fine = shipped("oilpress");
+        for (column, seed) in directions.column_iter().zip(&seeds) {
+            let Seed::State(place) = *seed else { continue };
+            let exact: Vec<f64> = column.iter().take(scales.len()).map(|slope| slope * scales[place]).collect();
+            let miss = plateau(&exact, &scales, |share| {
+                let mut moved = start.clone();
+                moved.states[place] += share * scales[place];
+                let mut simulation = Simulation::start(&fine, Inputs::default()).expect("a start");
+                simulation.place(&moved);
+                simulation.advance_to(end).expect("a motion");
+                simulation.phase().states
+            });
+            assert!(miss < 1e-3, "state {place} from {from} s: {miss:e}");
+        }
+    }
+}
+
+#[test]
 fn parameters_change_the_start_too() {
     let mut scene = shipped("wornpin");
     scene.joint.c.eccentricity_start.x = 1e-4;

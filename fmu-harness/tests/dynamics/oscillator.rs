@@ -149,9 +149,9 @@ impl ReturnMap for Oscillator {
         let mut halfway = start;
         for turn in 1..=turns {
             integrator
-                .advance_watched(self, turn as f64, &mut |integrator| tangents.follow(self, integrator.state()))?;
+                .advance_watched(self, turn as f64, &mut |integrator| tangents.follow(self, integrator))?;
             integrator.truncate(self, turn as f64);
-            tangents.shorten(self, integrator.state());
+            tangents.shorten(self, &integrator);
             if turn == turns / 2 {
                 halfway.copy_from_slice(integrator.state_at(self, turn as f64).0);
             }

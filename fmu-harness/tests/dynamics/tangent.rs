@@ -46,9 +46,9 @@ impl TangentFlow for Tangent {
 
     fn advance(&mut self, time: f64) -> Result<()> {
         let Self { integrator, tangents, .. } = self;
-        integrator.advance_watched(&Lorenz, time, &mut |integrator| tangents.follow(&Lorenz, integrator.state()))?;
+        integrator.advance_watched(&Lorenz, time, &mut |integrator| tangents.follow(&Lorenz, integrator))?;
         integrator.truncate(&Lorenz, time);
-        tangents.shorten(&Lorenz, integrator.state());
+        tangents.shorten(&Lorenz, &integrator);
         self.time = time;
         Ok(())
     }
@@ -207,7 +207,8 @@ fn quantities_of_the_ideal_mechanism_are_exact() {
     let mut file = Scenario::find("ideal").expect("a shipped scene").file;
     (file.scene.slider.centre.y, file.scene.guide.offset) = (0.02, 0.005);
     let wanted = ["slider.v@bdc", "slider.v@tdc"].map(|text| text.parse().expect("a quantity"));
-    let speeds = Experiment { file: &file, turns: 1.0, transient: 0.0, counted: false }.values(&wanted).expect("a run");
+    let experiment = Experiment { file: &file, turns: 1.0, transient: 0.0, counted: false };
+    let speeds = experiment.values(&wanted).expect("a run");
     assert!(speeds.iter().all(|speed| speed.abs() < 1e-9), "{speeds:?}");
 }
 

@@ -1,6 +1,7 @@
 //! The variational equation in a part of an accepted step.
 //!
-//! Collocation at Gauss nodes has order 8 and is A-stable: one method serves smooth and stiff motions. The stages are
+//! Collocation at Radau's nodes has order 7 and is L-stable: one method serves smooth and stiff motions, and what decays
+//! within a part is gone at its end, whether the part resolves it or not. The stages are
 //! found by fixed-point iteration, and by elimination where that does not contract or where there are many directions. A
 //! part is halved until the coefficients of its Legendre polynomials, extrapolated geometrically, promise the tolerance.
 //!
@@ -26,7 +27,7 @@ const MAX_HALVINGS: u32 = 12;
 /// Halving a part gains at least this, …
 const LEAST_GAIN: f64 = 0.25;
 /// … but for so many times.
-const MAX_STALLS: u32 = 2;
+const MAX_STALLS: u32 = 4;
 /// Most iterations before the stages are found by elimination.
 const MAX_ITERATIONS: usize = 60;
 /// Most directions whose stages are found by iteration: it takes its time for each, a factorisation once for all.
@@ -133,6 +134,8 @@ pub struct Path<'a, D> {
     pub discrete: &'a D,
     /// The step.
     pub step: Step<'a>,
+    /// Writes the state at a time [s] in the step by the method's own polynomial. Returns whether there is one.
+    pub inside: &'a dyn Fn(f64, &mut [f64]) -> bool,
     /// Square roots at its ends.
     pub roots: Roots,
     /// Parameters in rows, directions in columns.
@@ -188,15 +191,13 @@ impl Flow {
     /// Advances the directions in the columns of `tangents` over the shares `from` to `to` of a step. States stand in
     /// its first rows, memories below.
     pub fn advance<D: Copy>(&mut self, path: &Path<'_, D>, [from, to]: [f64; 2], tangents: &mut DMatrix<f64>) {
-        let Path { system, discrete, step, tolerance, .. } = *path;
+        let Path { step, tolerance, .. } = *path;
         // A prescribed motion without play has no states.
         if step.h == 0.0 || from >= to || step.layout.states == 0 {
             return;
         }
         self.select(path, tangents);
-        self.correction.forget();
-        // The dense output's slack is too much for its second derivatives.
-        self.correction.find(&step, system.system(), discrete, 1e-3 * tolerance);
+        self.correct(path);
         let (start, end) = (path.roots.variable(from), path.roots.variable(to));
         let mut ends = vec![end];
         ends.extend(self.corners(path, [from, to]).into_iter().rev().map(|share| path.roots.variable(share)));
@@ -224,13 +225,33 @@ impl Flow {
         }
     }
 
+    /// Finds the correction of the step, where the method has no polynomial of its own.
+    fn correct<D: Copy>(&mut self, path: &Path<'_, D>) {
+        let Path { system, discrete, step, inside, tolerance, .. } = *path;
+        self.correction.forget();
+        let mut y = [0.0; MAX_STATES];
+        if !inside(step.t + 0.5 * step.h, &mut y[..step.layout.states]) {
+            // The dense output's slack is too much for its second derivatives.
+            self.correction.find(&step, system.system(), discrete, 1e-3 * tolerance);
+        }
+    }
+
+    /// Writes the state at a share of the step. Rates in a stiff step do not correct its interpolant, since they multiply the
+    /// error of the state: the method's own polynomial is used.
+    fn write_state<D>(&self, path: &Path<'_, D>, share: f64, y: &mut [f64]) {
+        let Path { step, inside, .. } = *path;
+        if !inside(step.t + share * step.h, y) {
+            step.state(share, self.correction.coefficients(), y);
+        }
+    }
+
     /// Shares of the step at which the slope of a rate jumps, in order. Steps end near such points, not at them.
     fn corners<D: Copy>(&self, path: &Path<'_, D>, [from, to]: [f64; 2]) -> Vec<f64> {
         let Path { system, discrete, step, .. } = *path;
         let at = |share: f64| {
             let mut y = [0.0; MAX_STATES];
             let y = &mut y[..step.layout.states];
-            step.state(share, self.correction.coefficients(), y);
+            self.write_state(path, share, y);
             let mut functions = Discontinuities::NONE;
             system.system().discontinuities(discrete, step.t + share * step.h, y, &mut functions);
             functions
@@ -273,7 +294,7 @@ impl Flow {
         self.lengths[node] = length;
         let (mut y, t) = ([0.0; MAX_STATES], step.t + share * step.h);
         let y = &mut y[..n];
-        step.state(share, self.correction.coefficients(), y);
+        self.write_state(path, share, y);
         system.system().jacobian(discrete, t, y, &mut self.jacobian);
         for i in p..n {
             for (j, slope) in self.jacobian.row(i).iter().enumerate() {
@@ -324,8 +345,8 @@ impl Flow {
                     add_multiple(inner, *integral, stage);
                 }
                 write_slopes(found, layout, lengths[node], &turning[node], &pushing[node], inner);
-                if node == NODES - 1 {
-                    // All nodes come near at the same rate.
+                if node == NODES / 2 {
+                    // All nodes come near at the same rate, but for the last if time stands still there.
                     add_multiple(&mut stages[node], -1.0, found);
                     change = size(path, least, &stages[node], before);
                 }
@@ -380,7 +401,7 @@ impl Flow {
     }
 
     /// Error of the part relative to the tangents. With coefficients that fall like ρ^m the error at the end falls like
-    /// ρ^(2·NODES), and the last coefficient is ρ^(NODES − 1).
+    /// ρ^(2·NODES − 1), and the last coefficient is ρ^(NODES − 1).
     fn error<D: Copy>(&mut self, path: &Path<'_, D>) -> f64 {
         let Self { legendre, stages, before, inner, least, .. } = self;
         let sizes = legendre.analysis.map(|row| {
@@ -395,7 +416,7 @@ impl Flow {
             return 0.0;
         }
         let last = sizes[NODES - 1] / largest;
-        let error = largest * math::powf(last, 2.0 * NODES as f64 / (NODES - 1) as f64);
+        let error = largest * math::powf(last, (2 * NODES - 1) as f64 / (NODES - 1) as f64);
         if error.is_finite() { error } else { f64::INFINITY }
     }
 }

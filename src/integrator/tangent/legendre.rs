@@ -1,19 +1,15 @@
-//! Collocation at the four nodes of Gauss quadrature, in Legendre polynomials (E. Hairer, S. P. Nørsett, G. Wanner,
-//! Solving Ordinary Differential Equations I, II.7: order 8).
+//! Collocation at the four nodes of Radau's right quadrature, in Legendre polynomials (E. Hairer, G. Wanner, Solving
+//! Ordinary Differential Equations II, IV.5: order 7, L-stable).
 
 use std::array::from_fn;
 
 /// Number of nodes.
 pub const NODES: usize = 4;
 
-/// Half the distance of the nodes from the middle, outer and inner.
-const OUTER: f64 = 0.430_568_155_797_026_3;
-const INNER: f64 = 0.169_990_521_792_428_13;
-/// Nodes as shares of a step.
-pub const SHARES: [f64; NODES] = [0.5 - OUTER, 0.5 - INNER, 0.5 + INNER, 0.5 + OUTER];
+/// Nodes as shares of a step: the last is its end.
+pub const SHARES: [f64; NODES] = [0.088_587_959_512_703_95, 0.409_466_864_440_734_7, 0.787_659_461_760_847_1, 1.0];
 /// Weights of the nodes.
-pub const WEIGHTS: [f64; NODES] =
-    [0.173_927_422_568_726_93, 0.326_072_577_431_273_07, 0.326_072_577_431_273_07, 0.173_927_422_568_726_93];
+pub const WEIGHTS: [f64; NODES] = [0.220_462_211_176_768_38, 0.388_193_468_843_171_9, 0.328_844_319_980_059_74, 0.0625];
 
 /// Integrals of the cardinal polynomials, and values of Legendre polynomials.
 #[derive(Clone, Debug)]

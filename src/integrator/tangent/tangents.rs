@@ -4,7 +4,7 @@ use super::flow::{Flow, Path, Roots};
 use super::saltation::{Grazing, cross, near_miss};
 use super::variational::Variational;
 use crate::integrator::dense_output::Step;
-use crate::integrator::{EventFunction, MAX_EVENTS, MAX_STATES, SolverState, StepPoint};
+use crate::integrator::{EventFunction, Integrator, MAX_EVENTS, MAX_STATES, SolverState, StepPoint};
 use nalgebra::{DMatrix, RowDVector};
 
 /// Directions of neighbouring motions, in columns: states in the first rows, then memories, in the order of the
@@ -85,8 +85,9 @@ impl<D: Copy> Tangents<D> {
         self.parameters.set_row(parameter, &RowDVector::from_iterator(self.parameters.ncols(), shares));
     }
 
-    /// Follows the last step of `state`, which was accepted after the last call.
-    pub fn follow(&mut self, system: &dyn Variational<Discrete = D>, state: &SolverState<D>) {
+    /// Follows the last step of `motion`, which was accepted after the last call.
+    pub fn follow(&mut self, system: &dyn Variational<Discrete = D>, motion: &Integrator<D>) {
+        let state = motion.state();
         let close = self.close(system);
         // An event may have happened at the front before the step.
         let Placed { point, directions, crossed } = &mut self.front;
@@ -96,22 +97,22 @@ impl<D: Copy> Tangents<D> {
         }
         point.copy_from(state.start());
         std::mem::swap(&mut self.start, &mut self.front);
-        self.run(system, state);
+        self.run(system, motion);
     }
 
-    /// Follows the last step of `state`, whose end has changed since the last call.
-    pub fn shorten(&mut self, system: &dyn Variational<Discrete = D>, state: &SolverState<D>) {
-        self.run(system, state);
+    /// Follows the last step of `motion`, whose end has changed since the last call.
+    pub fn shorten(&mut self, system: &dyn Variational<Discrete = D>, motion: &Integrator<D>) {
+        self.run(system, motion);
     }
 
-    /// Directions at `t` in the last step of `state`; at its end, behind the events there.
+    /// Directions at `t` in the last step of `motion`; at its end, behind the events there.
     ///
     /// # Errors
     /// `Grazing`, where the first order has ended.
     pub fn at(
         &mut self,
         system: &dyn Variational<Discrete = D>,
-        state: &SolverState<D>,
+        motion: &Integrator<D>,
         t: f64,
     ) -> Result<DMatrix<f64>, Grazing> {
         if let Some(grazing) = self.grazing {
@@ -121,9 +122,9 @@ impl<D: Copy> Tangents<D> {
             return Ok(self.front.directions.clone());
         }
         let mut directions = self.start.directions.clone();
-        let step = state.last_step(system.system().layout());
+        let step = motion.state().last_step(system.system().layout());
         let share = (t - step.t) / step.h;
-        self.advance(system, state, step, share, &mut directions);
+        self.advance(system, motion, step, share, &mut directions);
         Ok(directions)
     }
 
@@ -133,11 +134,12 @@ impl<D: Copy> Tangents<D> {
     }
 
     /// From the start of the last step to its front.
-    fn run(&mut self, system: &dyn Variational<Discrete = D>, state: &SolverState<D>) {
+    fn run(&mut self, system: &dyn Variational<Discrete = D>, motion: &Integrator<D>) {
+        let state = motion.state();
         let (end, front) = (state.end(), state.front());
         let step = state.last_step(system.system().layout());
         let mut directions = self.start.directions.clone();
-        self.advance(system, state, step, 1.0, &mut directions);
+        self.advance(system, motion, step, 1.0, &mut directions);
         let close = self.close(system);
         let missed = near_miss([step.t, end.t], system.system().event_count(), close, |share| {
             let mut y = [0.0; MAX_STATES];
@@ -161,16 +163,18 @@ impl<D: Copy> Tangents<D> {
     fn advance(
         &mut self,
         system: &dyn Variational<Discrete = D>,
-        state: &SolverState<D>,
+        motion: &Integrator<D>,
         step: Step<'_>,
         share: f64,
         directions: &mut DMatrix<f64>,
     ) {
+        let state = motion.state();
         let end = system.differ(&state.end().discrete, &state.front().discrete);
         let path = Path {
             system,
             discrete: &state.start().discrete,
             step,
+            inside: &|t, y| motion.inside(t, y),
             roots: Roots { start: self.start.crossed, end },
             parameters: &self.parameters,
             least: &self.least,

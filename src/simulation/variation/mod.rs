@@ -175,9 +175,9 @@ impl Variation {
     pub fn advance_to(&mut self, time: f64) -> Result<(), SimulationError> {
         let Self { run, neighbours, tangents, followed, .. } = self;
         run.begin_interval(self.time);
-        let advanced = run.advance_followed(time, &mut |model, state| {
+        let advanced = run.advance_followed(time, &mut |model, integrator| {
             *followed = true;
-            tangents.follow(&Varied { model, neighbours }, state);
+            tangents.follow(&Varied { model, neighbours }, integrator);
         });
         match advanced {
             Ok(()) => self.time = time,
@@ -214,7 +214,7 @@ impl Variation {
             return;
         }
         let (model, _, integrator) = self.run.parts();
-        self.tangents.shorten(&Varied { model, neighbours: &self.neighbours }, integrator.state());
+        self.tangents.shorten(&Varied { model, neighbours: &self.neighbours }, integrator);
     }
 
     /// Ends the last step at the communication point; the point of phase space there.
@@ -243,7 +243,7 @@ impl Variation {
     /// `Grazing`, where the first order has ended.
     pub fn directions(&mut self) -> Result<DMatrix<f64>, Grazing> {
         let (model, _, integrator) = self.run.parts();
-        self.tangents.at(&Varied { model, neighbours: &self.neighbours }, integrator.state(), self.time)
+        self.tangents.at(&Varied { model, neighbours: &self.neighbours }, integrator, self.time)
     }
 
     /// Replaces the directions at the communication point, where the last step then ends. Grazing before no longer counts.
