@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
-use slidercrank::model::signals::{EnergyOutputs, IntervalOutputs, Outputs};
+use slidercrank::model::signals::{EnergyOutputs, Outputs};
 
 /// A real output, or a vector with the components x and y, whose length is taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,19 +35,7 @@ impl Output {
 
     /// Whether it tells what happened since an earlier communication point.
     pub fn is_of_an_interval(&self) -> bool {
-        let mut outputs = Outputs::default();
-        for joint in 0..4 {
-            let not_a_number = f64::NAN;
-            *outputs.interval_mut(joint) = IntervalOutputs {
-                impact_speed: not_a_number,
-                force_peak: not_a_number,
-                friction_work: not_a_number,
-                sliding: not_a_number,
-                wear_work: not_a_number,
-                ..IntervalOutputs::default()
-            };
-        }
-        self.is_among_the_nans_of(&outputs)
+        self.is_among_the_nans_of(&Outputs::undetermined())
     }
 
     /// Whether it sums what happened since the start.

@@ -235,6 +235,26 @@ impl Outputs {
         }
     }
 
+    /// Zeros, and NaN for outputs that tell what happened in an interval or in a joint since the start: the state does not
+    /// determine them, and they have no derivative.
+    pub fn undetermined() -> Self {
+        let nan = f64::NAN;
+        let happened = IntervalOutputs {
+            impact_speed: nan,
+            force_peak: nan,
+            friction_work: nan,
+            sliding: nan,
+            wear_work: nan,
+            impacts: 0,
+        };
+        let mut outputs = Self::default();
+        for joint in 0..4 {
+            *outputs.interval_mut(joint) = happened;
+        }
+        outputs.solver.error_estimate = nan;
+        outputs
+    }
+
     /// Applies `combine` to each real output of both; integers and Booleans are 0 and false.
     pub fn combined(&self, other: &Self, combine: impl Fn(f64, f64) -> f64 + Copy) -> Self {
         let pair = |a: [f64; 2], b: [f64; 2]| [combine(a[0], b[0]), combine(a[1], b[1])];

@@ -321,6 +321,8 @@ fn a_refused_step_jacobian_writes_nothing() {
         (STEP, vec![vr("joint.C.model")], vec![], count, "joint.C.model is not a real parameter or input"),
         (STEP, vec![clearance, clearance], vec![], count, "joint.C.clearance is named twice"),
         (STEP, vec![clearance], vec![clearance], count, "joint.C.clearance is not a real output"),
+        (STEP, vec![], vec![vr("joint.C.impact.speed")], count, "joint.C.impact.speed is not determined by the state"),
+        (STEP, vec![], vec![vr("joint.B.wear.work")], count, "joint.B.wear.work is not determined by the state"),
         (STEP, vec![], vec![], count - 1, "numbers of a phase, where there are"),
     ] {
         let found = call(&slave, step, &others, &outputs, room, true);

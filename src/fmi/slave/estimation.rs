@@ -52,7 +52,7 @@ impl Slave {
     }
 
     /// The step of `size` [s] from the communication point, made on a copy. With `derivatives` there are those by the
-    /// phase and by `others`: real parameters and inputs.
+    /// phase and by `others`: real parameters and inputs. Outputs that the state does not determine have none.
     pub fn mapped_step(
         &mut self,
         size: f64,
@@ -62,7 +62,15 @@ impl Slave {
     ) -> Result<Step, Error> {
         let by = others.iter().map(|reference| by(*reference)).collect::<Result<Vec<_>, _>>()?;
         check_once(others)?;
-        let readers = outputs.iter().map(|reference| real_output(variable(*reference)?));
+        let undetermined = Outputs::undetermined();
+        let readers = outputs.iter().map(|reference| {
+            let variable = variable(*reference)?;
+            let read = real_output(variable)?;
+            if derivatives && read(&undetermined).is_nan() {
+                return Err(VariableError::Kind(variable.name, "determined by the state, and has no derivative"));
+            }
+            Ok(read)
+        });
         let readers = readers.collect::<Result<Vec<_>, VariableError>>()?;
         let request = StepRequest { end: self.step_end(self.time(), size)?, derivatives, by };
         let scene = self.settings.simulated_scene()?;
