@@ -8,13 +8,16 @@
 use super::access::{Permission, finite, finite_output, real_parameter, variable};
 use super::course::{Course, Interface};
 use super::error::{Error, VariableError};
-use super::start_sensitivity::{Rate, along};
+use super::start_sensitivity::{Rate, Wanted, along};
 use super::variables::{Access, Variable};
 use super::{Slave, started};
 use crate::integrator::MAX_STATES;
 use crate::model::coordinates::state_variables;
 use crate::model::signals::{Inputs, Outputs};
-use crate::simulation::{Direction, HostedMechanism};
+use crate::simulation::{Direction, HostedMechanism, nominals};
+
+/// [s] A rate counts as nothing if it takes longer than this to change the state by a nominal value.
+const NOTICED_AFTER: f64 = 1e-3;
 
 /// A direction of the knowns.
 struct Along {
@@ -212,8 +215,16 @@ impl Slave {
         }
         let unknowns = unknowns.iter().map(|unknown| self.unknown(permission, *unknown));
         let unknowns = unknowns.collect::<Result<Vec<_>, _>>()?;
-        let names: Vec<_> = unknowns.iter().map(|(variable, _)| variable.name).collect();
-        along(starts, &self.settings, &names, |mut settings| {
+        let nominals = nominals(&self.settings.scene);
+        let wanted = unknowns.iter().map(|(variable, unknown)| {
+            let least = match unknown {
+                Unknown::Output(_) => 0.0,
+                Unknown::State(place) => nominals[*place],
+                Unknown::Derivative(place) => nominals[*place] / NOTICED_AFTER,
+            };
+            Wanted { name: variable.name, least }
+        });
+        along(starts, &self.settings, &wanted.collect::<Vec<_>>(), |mut settings| {
             let mut course = started(self.interface, self.newer, &mut settings)?;
             let (outputs, states) = (course.outputs(), course.state_values());
             let of = |unknown: Unknown| match unknown {

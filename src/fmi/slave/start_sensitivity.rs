@@ -20,23 +20,32 @@ const SHARE_OF_RANGE: f64 = 1e-3;
 const MOST: f64 = 0.1;
 /// A derivative is rejected if its error may be larger than this share of it, …
 const DOUBTFUL: f64 = 1e-3;
-/// … unless the error times the longest step is less than this share of the number.
+/// … unless the error times the longest step is less than this share of the number, or of the size below which it counts as
+/// nothing.
 const NOTICEABLE: f64 = 1e-6;
 
-/// Derivatives of numbers with these names along a direction of the start values. `assembled` returns the numbers for
-/// settings.
+/// A number whose derivative is wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// Its name.
+    pub name: &'static str,
+    /// Size below which it counts as nothing: what is zero but for rounding has no derivative from differences.
+    pub least: f64,
+}
+
+/// Derivatives of numbers along a direction of the start values. `assembled` returns the numbers for settings.
 ///
 /// # Errors
 /// `NoDerivative` if a number jumps; the error of the settings if they cannot be changed in either direction.
 pub fn along(
     direction: &[Rate],
     settings: &Settings,
-    names: &[&'static str],
+    wanted: &[Wanted],
     mut assembled: impl FnMut(Settings) -> Result<Vec<f64>, Error>,
 ) -> Result<Vec<f64>, Error> {
     let largest = direction.iter().fold(0.0, |largest: f64, (_, rate)| largest.max(rate.abs()));
     if largest == 0.0 {
-        return Ok(vec![0.0; names.len()]);
+        return Ok(vec![0.0; wanted.len()]);
     }
     // The largest component of the direction becomes 1, so that no step overflows.
     let reach = |(parameter, rate): &Rate| scale(parameter, settings) / (rate / largest).abs();
@@ -47,15 +56,15 @@ pub fn along(
             let value = parameter.value(&changed.scene) + step * (rate / largest);
             parameter.write(&mut changed.scene, value)?;
         }
-        let values = names.iter().zip(assembled(changed)?).map(|(name, value)| finite_number(name, value));
+        let values = wanted.iter().zip(assembled(changed)?).map(|(wanted, value)| finite_number(wanted.name, value));
         values.collect::<Result<Vec<_>, Error>>()
     })?;
-    let accepted = |(&name, estimate): (&&'static str, Estimate)| {
+    let accepted = |(&Wanted { name, least }, estimate): (&Wanted, Estimate)| {
         let Estimate { value, error, size } = estimate;
-        let sure = error <= DOUBTFUL * value.abs() || error * longest <= NOTICEABLE * size;
+        let sure = error <= DOUBTFUL * value.abs() || error * longest <= NOTICEABLE * size.max(least);
         if sure { Ok(value * largest) } else { Err(Error::NoDerivative(name)) }
     };
-    names.iter().zip(estimates).map(accepted).collect()
+    wanted.iter().zip(estimates).map(accepted).collect()
 }
 
 /// Longest step of a parameter.
