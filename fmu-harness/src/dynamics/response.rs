@@ -1,14 +1,18 @@
 //! How strongly a motion responds: an output over whole turns, reduced to one number.
 
-use super::Machine;
+use super::{Flow, Machine};
 use crate::output::Output;
 use crate::sweep::quantity::Reduction;
 use anyhow::{Result, ensure};
 use std::f64::consts::TAU;
 use std::str::FromStr;
 
-/// Samples per turn.
+/// Samples per turn, evenly spaced over the crank's angle.
 const SAMPLES: usize = 500;
+/// Samples from one of these to the next, in search of the largest value: a blow lasts microseconds.
+const BETWEEN: usize = 40;
+/// A crank this many times slower than at the start is not sampled more densely.
+const SLOWEST: f64 = 10.0;
 
 /// A reduced output, such as `rod.deflection:peak`.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +52,15 @@ impl Response {
     pub fn of(&self, machine: &mut Machine, turns: usize) -> Result<f64> {
         let start = machine.turned();
         let mut values = Vec::with_capacity(turns * SAMPLES);
+        let of_extremes = matches!(self.reduce, Reduction::Max | Reduction::Min | Reduction::Peak | Reduction::Range);
         for sample in 1..=turns * SAMPLES {
+            let (from, next) = (machine.time(), TAU / SAMPLES as f64 / machine.outputs().crank.speed.abs());
+            if of_extremes && next < SLOWEST * machine.turn() / SAMPLES as f64 {
+                for part in 1..BETWEEN {
+                    machine.advance(from + next * part as f64 / BETWEEN as f64)?;
+                    values.push(self.output.value(&machine.outputs()));
+                }
+            }
             machine.advance_turned(start + TAU * sample as f64 / SAMPLES as f64)?;
             values.push(self.output.value(&machine.outputs()));
         }

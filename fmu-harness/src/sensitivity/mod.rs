@@ -257,14 +257,20 @@ impl Experiment<'_> {
         Ok(Sensitivities { parameters: parameters.to_vec(), values, rows, reach, growth, time: machine.time() })
     }
 
-    /// The quantities alone, for a scene with other parameters.
+    /// The quantities alone.
     ///
     /// # Errors
-    /// If it cannot run.
+    /// If the scene cannot run.
     pub fn values(&self, wanted: &[Wanted]) -> Result<Vec<f64>> {
+        self.values_beside(self, wanted)
+    }
+
+    /// The quantities of a neighbour of `timed`, by whose start speed turns are timed.
+    fn values_beside(&self, timed: &Self, wanted: &[Wanted]) -> Result<Vec<f64>> {
         let file = self.accurate();
+        let window = if self.counted { self.window(&file)? } else { timed.window(timed.file)? };
         let mut machine = Machine::start(&file)?;
-        let readings = self.readings(&file, self.window(&file)?, wanted, &mut machine, |_| Ok(vec![]))?;
+        let readings = self.readings(&file, window, wanted, &mut machine, |_| Ok(vec![]))?;
         let value = |(wanted, readings): (&Wanted, Vec<Reading>)| {
             wanted.reduce.of(&readings.iter().map(|reading| reading.value).collect::<Vec<_>>())
         };
@@ -419,7 +425,7 @@ pub fn differences(of: &Experiment<'_>, wanted: &[Wanted], parameter: &'static P
         let mut file = of.file.clone();
         parameter.write(&mut file.scene, value + change)?;
         file.scene.check()?;
-        Experiment { file: &file, ..*of }.values(wanted)
+        Experiment { file: &file, ..*of }.values_beside(of, wanted)
     };
     let mut slopes: Vec<Vec<f64>> = vec![];
     for decade in 2..12 {

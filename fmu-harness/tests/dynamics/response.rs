@@ -1,15 +1,18 @@
 //! The frequency response of a slender rod that bends at twice the speed of its crank: it folds over, since bending
 //! draws the slider in.
 
+use fmu_harness::dynamics::Machine;
 use fmu_harness::dynamics::bifurcation::{Branch as Simulated, Range};
 use fmu_harness::dynamics::continuation::{Bifurcation, Continuation};
 use fmu_harness::dynamics::orbit::{Orbit, ReturnMap};
 use fmu_harness::dynamics::poincare::PoincareMap;
 use fmu_harness::dynamics::portrait::Plan;
+use fmu_harness::dynamics::response::Response;
 use fmu_harness::scenes::Scenario;
 use slidercrank::scene::JointModel;
 use slidercrank::scene::parameter::Parameter;
 use slidercrank::scene::read::SceneFile;
+use std::f64::consts::TAU;
 
 const SPEED: &str = "crank.speed_start";
 
@@ -61,4 +64,21 @@ fn going_up_and_down_the_response_jumps_at_the_folds_of_the_branch_and_lies_on_i
     for simulated in &down {
         assert_on(simulated, if simulated.value > lower { high } else { low });
     }
+}
+
+#[test]
+fn the_largest_force_of_blows_between_samples_counts() {
+    let mut file = Scenario::find("wornpin").expect("a shipped scene").file;
+    // Blows of 50 us, where the evenly spaced samples are 240 us apart.
+    (file.scene.crank.speed_start, file.scene.joint.c.peak.audit) = (52.36, true);
+    let response: Response = "joint.C.force:peak".parse().expect("a response");
+    let mut machine = Machine::start(&file).expect("a machine");
+    let found = response.of(&mut machine, 2).expect("a run");
+    let mut audited = Machine::start(&file).expect("a machine");
+    let mut largest = 0.0_f64;
+    for part in 1..=100 {
+        audited.advance_turned(TAU * f64::from(part) / 50.0).expect("a motion");
+        largest = largest.max(audited.outputs().joint_c.interval.force_peak);
+    }
+    assert!((found / largest - 1.0).abs() < 5e-3, "{found} N, {largest} N");
 }
