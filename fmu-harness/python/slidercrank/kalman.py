@@ -8,7 +8,7 @@ needs one step with its Jacobian for each measurement, the unscented one 2·n + 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy
@@ -20,7 +20,7 @@ from .unit import Unit
 TRUST = 3.0
 """Standard deviations beyond which a measurement does not correct more."""
 LEAST = 0.1
-"""Share of its first guess below which no parameter falls."""
+"""Share of its first guess below which a parameter that must be above 0 does not fall."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,11 @@ class Task:
     scale: Mapping[str, float]
     """Scales of the phase's numbers."""
 
-    def scales(self, names: Iterable[str]) -> numpy.ndarray:
+    def scales(self, names: Sequence[str]) -> numpy.ndarray:
         """Scales in the order of the phase; without one, a number is not estimated."""
+        for name in self.scale:
+            if name not in names:
+                raise KeyError(f"the phase has no `{name}`: {', '.join(names)}")
         return numpy.array([self.scale.get(name, 0.0) for name in names])
 
 
@@ -67,17 +70,23 @@ class _Filter:
     def __init__(self, unit: Unit, task: Task):
         self.unit, self.task, self.names = unit, task, list(task.parameters)
         self.scales = task.scales(unit.phase_names)
-        guesses = numpy.array([*task.parameters.values()])
+        guesses = numpy.array([*task.parameters.values()], float).reshape(-1, 2)
         self.phase = unit.predict(task.step).phase
         self.parameters = guesses[:, 0]
-        self.least = LEAST * self.parameters
+        self.least, self.greatest = numpy.array([unit.limits(name) for name in self.names]).reshape(-1, 2).T
+        # A clearance or a mass that came down to its legal minimum would be another machine.
+        self.least = numpy.where(self.least > 0.0, numpy.maximum(self.least, LEAST * self.parameters), self.least)
         self.covariance = numpy.diag(numpy.concatenate([task.phase * self.scales, guesses[:, 1]]) ** 2)
         drift = numpy.concatenate([task.drift * self.scales, numpy.zeros(len(guesses))])
         self.drift = numpy.diag(drift**2)
         self.steps = 0
 
     def place(self, phase: numpy.ndarray, parameters: numpy.ndarray) -> None:
-        self.unit.set_phase(phase, dict(zip(self.names, map(float, parameters))))
+        """Continues from this phase; beyond its range a parameter acts as at the limit."""
+        self.unit.set_phase(phase, dict(zip(self.names, map(float, self.legal(parameters)))))
+
+    def legal(self, parameters: numpy.ndarray) -> numpy.ndarray:
+        return parameters.clip(self.least, self.greatest)
 
     def follow(self, measured: numpy.ndarray) -> Estimate:
         began, rows, innovations = time.perf_counter(), [], []
@@ -88,7 +97,7 @@ class _Filter:
             # Around an impact predictions err by more than their variance tells.
             trusted = float(numpy.clip(innovation, -TRUST * variance**0.5, TRUST * variance**0.5))
             self.phase = self.phase + gain[:count] * trusted
-            self.parameters = numpy.maximum(self.parameters + gain[count:] * trusted, self.least)
+            self.parameters = self.legal(self.parameters + gain[count:] * trusted)
             self.covariance -= numpy.outer(gain, gain) * variance
             # Rounding must not make it lopsided.
             self.covariance = 0.5 * (self.covariance + self.covariance.T)

@@ -92,6 +92,17 @@ class Unit:
                 raise RunError(f"{name}: {error}") from error
         return values
 
+    def limits(self, name: str) -> tuple[float, float]:
+        """The least and the greatest legal value of a variable."""
+        variable = self.variable(name)
+        return float(variable.min or -math.inf), float(variable.max or math.inf)
+
+    def variable(self, name: str) -> ModelVariable:
+        variable = self.variables.get(name)
+        if variable is None:
+            raise RunError(f"the FMU has no variable `{name}`")
+        return variable
+
     def start(self, settings: Mapping[str, float] | None = None) -> None:
         """Starts an instance with these parameters and inputs at time 0, in place of the one before."""
         self.stop()
@@ -262,18 +273,12 @@ class Session:
     def _initialized(self) -> None:
         """What is done at the start."""
 
-    def _variable(self, name: str) -> ModelVariable:
-        variable = self.unit.variables.get(name)
-        if variable is None:
-            raise RunError(f"the FMU has no variable `{name}`")
-        return variable
-
     def _references(self, names: Iterable[str]) -> ctypes.Array[ctypes.c_uint]:
-        variables = [self._variable(name) for name in names]
+        variables = [self.unit.variable(name) for name in names]
         return (ctypes.c_uint * len(variables))(*(variable.valueReference for variable in variables))
 
     def _set(self, name: str, value: float) -> None:
-        variable, reference = self._variable(name), self._references([name])
+        variable, reference = self.unit.variable(name), self._references([name])
         if variable.type == "Real":
             self.slave.fmi2SetReal(self.component, reference, 1, (ctypes.c_double * 1)(value))
         elif variable.type == "Boolean":

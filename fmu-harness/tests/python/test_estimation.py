@@ -1,4 +1,4 @@
-"""A step's Jacobian is that of differences on either library, and both Kalman filters find speed and clearance."""
+"""A step's Jacobian is that of differences on either library, and both Kalman filters find parameters and phase."""
 
 import math
 
@@ -85,19 +85,67 @@ def test_what_is_refused_says_why(unit):
             call()
 
 
+SCALE = {"state.slider.x": 1e-4, "state.rod.angle": 1e-3, "state.slider.vx": 1.0, "state.rod.speed": 10.0}
+
+
+def positions(unit, settings, step, count):
+    """Of the slider, after each step."""
+    unit.start(settings)
+    found = []
+    for _ in range(count):
+        unit.step(step)
+        found.append(unit.read(["slider.x"])[0])
+    return numpy.array(found)
+
+
+@pytest.mark.parametrize("estimator", [extended, unscented])
+@pytest.mark.parametrize("truth, guess", [(-0.010, -0.011), (-0.001, 0.0)])
+def test_a_parameter_may_be_negative_or_guessed_as_0(unit, estimator, truth, guess):
+    name, step = "guide.offset", 1e-3
+    measured = positions(unit, PIN | {"joint.C.model": 1, name: truth}, step, 30)
+    unit.start(PIN | {"joint.C.model": 1, name: guess})
+    task = Task("slider.x", 1e-6, step, {name: (guess, 1e-3)}, phase=0.0, drift=0.0, scale={})
+    assert estimator(unit, task, measured).course[name].iloc[-1] == pytest.approx(truth, abs=2e-6)
+
+
+@pytest.mark.parametrize("estimator", [extended, unscented])
+def test_a_parameter_stays_within_its_legal_range(unit, estimator):
+    step, task = 5e-4, Task("slider.x", 20e-6, 5e-4, {CLEARANCE: (6e-4, 5e-4)}, phase=1e-3, drift=1e-2, scale=SCALE)
+    measured = positions(unit, PIN, step, 60)
+    unit.start(PIN | {CLEARANCE: 6e-4})
+    # Points of the unscented filter begin at −0.5 mm.
+    assert abs(estimator(unit, task, measured).course[CLEARANCE].iloc[-1] - PIN[CLEARANCE]) < 1e-4
+    # Positions that no clearance explains.
+    unit.start(PIN | {CLEARANCE: 6e-4})
+    assert (estimator(unit, task, measured + 1e-2).course[CLEARANCE] >= 6e-5).all()
+
+
+@pytest.mark.parametrize("estimator", [extended, unscented])
+def test_a_phase_is_estimated_alone(unit, estimator):
+    noise, step = 20e-6, 5e-4
+    measured = positions(unit, PIN, step, 60)
+    unit.start(PIN)
+    unit.set_phase(unit.predict(step).phase + numpy.array([1e-4, 1e-3, 0.0, 0.0, 0.0]))
+    found = estimator(unit, Task("slider.x", noise, step, {}, phase=1.0, drift=1e-2, scale=SCALE), measured)
+    assert found.course.shape == (60, 0)
+    # Uncorrected it would end 340 µm off.
+    assert abs(unit.read(["slider.x"])[0] - measured[-1]) < noise
+
+
+def test_a_scale_of_what_is_no_number_of_the_phase_is_refused(unit):
+    unit.start(PIN)
+    task = Task("slider.x", 1e-6, 5e-4, {}, phase=1.0, drift=1e-3, scale={"slider.x": 1e-4})
+    with pytest.raises(KeyError, match="the phase has no `slider.x`: state.slider.x, state.rod.angle"):
+        extended(unit, task, numpy.zeros(1))
+
+
 @pytest.mark.parametrize("estimator", [extended, unscented])
 def test_speed_and_clearance_are_found_from_noisy_positions(unit, estimator):
     noise, step, count = 20e-6, 5e-4, 400
-    unit.start(PIN)
-    positions = []
-    for _ in range(count):
-        unit.step(step)
-        positions.append(unit.read(["slider.x"])[0])
-    measured = numpy.array(positions) + noise * numpy.random.default_rng(1).standard_normal(count)
+    measured = positions(unit, PIN, step, count) + noise * numpy.random.default_rng(1).standard_normal(count)
     guess = {SPEED: (1.01 * PIN[SPEED], 0.01 * PIN[SPEED]), CLEARANCE: (6e-4, 1e-4)}
-    scale = {"state.slider.x": 1e-4, "state.rod.angle": 1e-3, "state.slider.vx": 1.0, "state.rod.speed": 10.0}
     unit.start(PIN | {name: value for name, (value, _) in guess.items()})
-    found = estimator(unit, Task("slider.x", noise, step, guess, phase=1e-3, drift=1e-2, scale=scale), measured)
+    found = estimator(unit, Task("slider.x", noise, step, guess, phase=1e-3, drift=1e-2, scale=SCALE), measured)
     last = found.course.iloc[-1]
     for name in guess:
         assert abs(last[name] - PIN[name]) < 4 * last[f"{name} ±"], (name, last)
