@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy
+from fmpy.model_description import ModelVariable
 
 from .quantity import ANGLE, QuantityError
 from .recipe import Recipe, RunError
@@ -21,6 +22,9 @@ STEP = 1e-3
 """Steps of differences at the start, as shares of the parameters."""
 CENTRAL = [(-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12)]
 """Places of a difference in steps, with their weights."""
+
+SUM = "since the start"
+"""What the model description says of outputs that sum up a run."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +41,8 @@ def gradient(
 ) -> Gradient:
     """A kept quantity of a run with these parameters, and its derivatives by the real parameters `names`.
 
-    Where there is no derivative, near grazing or with rigid contacts, there is a `RunError` that says so.
+    Where there is no derivative, near grazing, with rigid contacts, of discrete outputs and of sums since the start, there
+    is a `RunError` that says so.
     """
     kept = recipe.keep[quantity]
     try:
@@ -45,8 +50,8 @@ def gradient(
     except QuantityError as error:
         raise RunError(f"{quantity}: {error}") from error
     for output in outputs:
-        if output in unit.outputs and unit.outputs[output].type != "Real":
-            raise RunError(f"{quantity}: `{output}` is not a real output and has no derivative")
+        if output in unit.outputs and (why := _without_derivative(unit.outputs[output])):
+            raise RunError(f"{quantity}: `{output}` {why} and has no derivative")
     with _Chain(unit, recipe, settings, outputs, start(unit, recipe, settings, outputs, names)) as chain:
         chain.march(recipe.latest(settings), budget)
         columns, slopes = chain.columns(), numpy.array(chain.slopes)
@@ -55,6 +60,15 @@ def gradient(
         return Gradient(kept.value(columns, recipe.transient), kept.slope(columns, by_name, recipe.transient))
     except QuantityError as error:
         raise RunError(f"{quantity}: {error}") from error
+
+
+def _without_derivative(output: ModelVariable) -> str | None:
+    """Why an output has no derivative, if it has none: the phase must determine it."""
+    if output.type != "Real":
+        return "is not a real output"
+    if output.variability != "continuous":
+        return "is discrete"
+    return f"is a sum {SUM}" if SUM in output.description else None
 
 
 @dataclass(frozen=True)

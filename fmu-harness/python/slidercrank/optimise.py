@@ -185,8 +185,7 @@ def _tried(search: _Search) -> tuple[numpy.ndarray, float]:
     value, slopes = search.cost_and_slopes(middle)
     size = float(numpy.linalg.norm(slopes))
     if size == 0.0:
-        search.reason = "all derivatives in the middle are 0"
-        return middle, 1.0
+        raise Unreachable("all derivatives in the middle are 0")
     other = middle - TRIAL * slopes / size
     moved, there = search.cost_and_slopes(other)
     # The mean of both slopes is right for a parabola.

@@ -111,6 +111,15 @@ def test_where_derivatives_do_not_reach_the_search_goes_on_without(write):
     assert found.method == "Nelder-Mead" and "`joint.C.contact` is not a real output" in found.reason
 
 
+def test_where_derivatives_tell_nothing_the_search_goes_on_without(write):
+    # Ideal joints have no error, and what was dissipated has no derivative by the phase.
+    for output, why in [("accuracy.position", "all derivatives in the middle are 0"), ("energy.dissipated", "is a sum")]:
+        file = write(BALANCE.replace("joint.A.force", output).replace("rms", "mean").replace("turns = 1", "turns = 0.1"))
+        found = minimise(file, fmu("ideal"), "force", {"slider.mass": (0.1, 0.2)}, method="gradient", evaluations=6)
+        assert found.method == "Nelder-Mead" and why in found.reason
+        assert len(found.evaluations["slider.mass"].unique()) > 2
+
+
 def test_a_search_is_its_seed_s(write):
     search = lambda seed: minimise(write(BALANCE), fmu("ideal"), "force", BOUNDS, seed=seed, evaluations=6)
     assert search(1).evaluations.equals(search(1).evaluations)

@@ -52,5 +52,15 @@ def test_what_has_no_derivative_says_why(unit):
     contact = replace(RUN, keep={"contact": Quantity("joint.C.contact", "mean")}, turns=0.01)
     with pytest.raises(RunError, match="`joint.C.contact` is not a real output"):
         gradient(unit, contact, WORN, "contact", ["joint.C.clearance"])
+    discrete = ["joint.A.impact.speed", "joint.T.force.peak", "solver.error_estimate", "solver.tolerance_used"]
+    sums = [*(f"joint.C.{sum}" for sum in ("friction.work", "sliding", "wear.work")), "energy.input", "energy.residual"]
+    sums += [f"energy.{sum}" for sum in ("dissipated", "torque_work", "load_work", "contact_loss", "friction_loss")]
+    sums += ["energy.viscous_loss", "energy.modal_loss"]
+    told = {name: "is discrete" for name in discrete} | {name: "is a sum since the start" for name in sums}
+    for name, why in told.items():
+        with pytest.raises(RunError, match=f"own: `{name}` {why} and has no derivative"):
+            gradient(unit, replace(RUN, keep={"own": Quantity(name, "last")}), WORN, "own", ["joint.C.clearance"])
+    kinetic = replace(RUN, keep={"own": Quantity("energy.kinetic", "last")}, turns=0.01)
+    assert gradient(unit, kinetic, WORN, "own", ["joint.C.clearance"]).by_parameters.shape == (1,)
     with pytest.raises(RunError, match="moreau"):
         gradient(unit, RUN, {**WORN, "solver.method": 8}, "rms", ["joint.C.clearance"])
