@@ -125,7 +125,8 @@ def starts(fmu: str | Path, settings: Mapping[str, float]) -> Callable[[str], fl
 
 def bottom_dead_centre(start: Callable[[str], float]) -> float:
     """[rad] The crank's angle where crank and rod are in line and the slider is farthest."""
-    return math.asin(start("guide.offset") / (start("crank.length") + start("rod.length")))
+    height = start("guide.offset") - start("slider.centre.y")
+    return math.asin(height / (start("crank.length") + start("rod.length")))
 
 
 @dataclass(frozen=True)

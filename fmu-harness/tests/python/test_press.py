@@ -57,6 +57,20 @@ def test_what_is_no_power_or_not_in_line_is_within_the_error_that_is_told(settin
     assert found.loc["total", "error"] < 5e-6
 
 
+@pytest.mark.parametrize("settings, same, height", [
+    ({"slider.centre.y": 0.05}, {"guide.offset": -0.05}, -0.05),
+    ({"slider.centre.y": 0.05, "guide.offset": 0.05}, {}, 0.0),
+])
+def test_the_dead_centre_is_that_of_the_pin_wherever_the_guide_lies(settings, same, height):
+    assert Scene.of(fmu("press"), settings).angle == pytest.approx(math.asin(height / 0.515), rel=1e-12)
+    # The same mechanism, whose slide is named from another point.
+    found, expected = (stack_up(fmu("press"), settings=told) for told in (settings, same))
+    assert numpy.allclose(found, expected, rtol=0.0, atol=1e-11)
+    strokes = parallelism(fmu("ideal"), [0.0], load=0.0, turns=1.0, settings={"drive.mode": 2, **settings})
+    stroke, bottom = strokes.loc[0.0], strokes.attrs["bottom dead centre"]
+    assert (stroke["slider.x"].idxmax() - bottom + math.pi) % math.tau - math.pi == pytest.approx(0.0, abs=math.tau / 2000)
+
+
 def test_rough_bearings_touch_three_roughnesses_early_and_oil_is_squeezed_out():
     found = stack_up(fmu("press"), settings={"joint.B.lubrication": 2, "joint.B.roughness": 1e-6})
     assert found["difference"].to_numpy() == pytest.approx([0, -6e-6, 0, -6e-6], abs=1e-9)
