@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy
 import pandas
-from fmpy import read_model_description, simulate_fmu
+from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
+
+ROUNDING = 1e-6
+"""Share of a step by which rows of inputs may be off a communication point."""
 
 
 def simulate(
@@ -21,8 +28,9 @@ def simulate(
     """Runs an FMU in FMPy; outputs in columns, `time` [s] the index.
 
     `stop` and `step` [s] are the FMU's own unless they are given. `settings` are start values by name, `inputs` a frame
-    whose index is time [s] and whose columns are inputs, straight between its rows. Without `outputs` all numbers that
-    the FMU gives are kept.
+    whose index is time [s] and whose columns are inputs, straight between its rows: steps of any length find the same. An
+    FMU of FMI 3.0 cannot be told slopes, and each step holds its first values until it ends or a row comes. Two rows of one
+    time are a jump. Without `outputs` all numbers that the FMU gives are kept.
     """
     description = read_model_description(str(fmu))
     known = {variable.name: variable for variable in description.modelVariables}
@@ -33,21 +41,60 @@ def simulate(
     for name in [*outputs, *(settings or {}), *(inputs.columns if inputs is not None else [])]:
         if name not in known:
             raise KeyError(f"{Path(fmu).name} has no variable `{name}`")
-    result = simulate_fmu(
-        str(fmu),
-        fmi_type="CoSimulation",
-        stop_time=stop,
-        output_interval=step,
-        start_values=dict(settings or {}),
-        input=None if inputs is None else signals(inputs),
-        output=outputs,
-    )
+    starts = dict(settings or {})
+    with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
+        instance = instantiate_fmu(extract(str(fmu), folder), description, "CoSimulation")
+        if inputs is not None:
+            instance.doStep = Signals(instance, inputs, [known[name].valueReference for name in inputs.columns]).step
+            starts |= dict(zip(inputs.columns, inputs.to_numpy(float)[0]))
+        try:
+            result = simulate_fmu(
+                folder,
+                fmi_type="CoSimulation",
+                stop_time=stop,
+                output_interval=step,
+                start_values=starts,
+                output=outputs,
+                model_description=description,
+                fmu_instance=instance,
+            )
+        finally:
+            instance.freeInstance()
     columns = {name: result[name] for name in outputs}
     return pandas.DataFrame(columns, index=pandas.Index(result["time"], name="time"))
 
 
-def signals(inputs: pandas.DataFrame) -> numpy.ndarray:
-    """Inputs as FMPy takes them."""
-    kinds = [("time", float), *((name, float) for name in inputs.columns)]
-    rows = zip(inputs.index, *(inputs[name] for name in inputs.columns))
-    return numpy.array([tuple(map(float, row)) for row in rows], dtype=kinds)
+class Signals:
+    """Inputs that are straight between the rows of a frame over time, and constant before and after them."""
+
+    def __init__(self, instance: FMU2Slave | FMU3Slave, inputs: pandas.DataFrame, references: list[int]):
+        self.instance, self.do_step, self.references = instance, instance.doStep, references
+        self.times, self.table = inputs.index.to_numpy(float), inputs.to_numpy(float)
+
+    def step(self, currentCommunicationPoint: float, communicationStepSize: float) -> object:
+        """In place of the instance's `doStep`, as FMPy calls it; a step begins anew at every row."""
+        told = None
+        for begin, end in self.pieces(currentCommunicationPoint, communicationStepSize):
+            values, slopes = self.line(begin, end)
+            if isinstance(self.instance, FMU3Slave):
+                self.instance.setFloat64(self.references, values)
+            else:
+                self.instance.setReal(self.references, values)
+                self.instance.setRealInputDerivatives(self.references, [1] * len(slopes), slopes)
+            told = self.do_step(begin, end - begin)
+        return told
+
+    def pieces(self, begin: float, size: float) -> Iterable[tuple[float, float]]:
+        """A step without rows in it. A row that is off its communication point by rounding is there."""
+        inside = (self.times - begin > ROUNDING * size) & (begin + size - self.times > ROUNDING * size)
+        return pairwise([begin, *numpy.unique(self.times[inside]), begin + size])
+
+    def line(self, begin: float, end: float) -> tuple[numpy.ndarray, numpy.ndarray]:
+        """Values at the beginning, and slopes from there to the end."""
+        after = int(numpy.searchsorted(self.times, (begin + end) / 2.0))
+        if not 0 < after < len(self.times):
+            row = self.table[min(after, len(self.times) - 1)]
+            return row, numpy.zeros_like(row)
+        before = after - 1
+        slopes = (self.table[after] - self.table[before]) / (self.times[after] - self.times[before])
+        return self.table[before] + slopes * (begin - self.times[before]), slopes

@@ -7,6 +7,7 @@
 
 use crate::program::{program, stock};
 use crate::pytest::Suite;
+use fmu_harness::package::Version;
 use fmu_harness::package::build::workspace;
 use fmu_harness::python::sources;
 use fmu_harness::scenes::Scenario;
@@ -35,10 +36,15 @@ fn packages() -> &'static Path {
     DIRECTORY.get_or_init(|| {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python-fmus");
         let stock = stock();
-        for name in ["ideal", "press", "wornpin"] {
-            let scenario = Scenario::find(name).expect("a shipped scene");
+        for (name, scene, version) in [
+            ("ideal", "ideal", Version::Fmi2),
+            ("press", "press", Version::Fmi2),
+            ("wornpin", "wornpin", Version::Fmi2),
+            ("ideal3", "ideal", Version::Fmi3),
+        ] {
+            let scenario = Scenario::find(scene).expect("a shipped scene");
             let file = directory.join(format!("{name}.fmu"));
-            stock.package(&scenario).expect("a package").save(&file).expect("a file");
+            stock.package_for(version, &scenario).expect("a package").save(&file).expect("a file");
         }
         directory
     })

@@ -73,6 +73,33 @@ def test_a_run_is_a_frame_over_time_with_the_settings_and_inputs_that_were_given
         simulate(fmu("ideal"), outputs=["slider.w"])
 
 
+RAMP = pandas.DataFrame({"crank.torque": [0.0, 10.0]}, index=[0.0, 0.01])
+KINK = pandas.DataFrame({"crank.torque": [0.0, 4.0, -6.0, 0.0]}, index=[0.002, 0.0032, 0.0032, 0.008])
+"""It also jumps, and stays as it is before and after its rows."""
+FREE = {"settings": {"drive.mode": 1, "crank.speed_start": 1.0}, "outputs": ["crank.angle", "crank.speed"]}
+
+
+@pytest.mark.parametrize("inputs", [RAMP, KINK])
+def test_inputs_are_straight_between_their_rows_whatever_the_step(inputs):
+    runs = [simulate(fmu("ideal"), 0.01, step, **FREE, inputs=inputs).iloc[-1] for step in (1e-2, 5e-3, 1e-4)]
+    assert runs[0].equals(runs[1]) and runs[0].equals(runs[2])
+    held = simulate(fmu("ideal"), 0.01, 1e-2, **FREE, inputs=inputs.iloc[:1]).iloc[-1]
+    assert abs(runs[0]["crank.speed"] - held["crank.speed"]) > 1.0
+
+
+def test_fmi_3_holds_inputs_until_the_step_ends_or_a_row_comes():
+    ramp, pulse = RAMP, pandas.DataFrame({"crank.torque": [0.0, 0.0, 4.0, 4.0, 0.0]}, index=[0, 0.002, 0.002, 0.004, 0.004])
+    two, three = (
+        [simulate(fmu(name), 0.01, step, **FREE, inputs=inputs)["crank.speed"].iloc[-1] for inputs, step in
+         [(pulse, 1e-2), (ramp, 1e-4), (ramp, 1e-2)]]
+        for name in ("ideal", "ideal3")
+    )
+    assert three[0] == two[0]
+    assert three[1] == pytest.approx(two[1], rel=0.01) and three[1] != two[1]
+    # In one step of the ramp there is no torque at all.
+    assert three[2] == simulate(fmu("ideal3"), 0.01, 1e-2, **FREE)["crank.speed"].iloc[-1]
+
+
 def test_a_study_that_is_wrong_is_told_in_the_program_s_words(write):
     with pytest.raises(SourceError, match="missing field"):
         slidercrank.plan(write('name = "own"\n'))
