@@ -50,7 +50,7 @@ def gradient(
     except QuantityError as error:
         raise RunError(f"{quantity}: {error}") from error
     for output in outputs:
-        if output in unit.outputs and (why := _without_derivative(unit.outputs[output])):
+        if output in unit.outputs and (why := _without_derivative(unit, unit.outputs[output])):
             raise RunError(f"{quantity}: `{output}` {why} and has no derivative")
     with _Chain(unit, recipe, settings, outputs, start(unit, recipe, settings, outputs, names)) as chain:
         chain.march(recipe.latest(settings), budget)
@@ -62,9 +62,9 @@ def gradient(
         raise RunError(f"{quantity}: {error}") from error
 
 
-def _without_derivative(output: ModelVariable) -> str | None:
+def _without_derivative(unit: Unit, output: ModelVariable) -> str | None:
     """Why an output has no derivative, if it has none: the phase must determine it."""
-    if output.type != "Real":
+    if output.type != unit.calls.real:
         return "is not a real output"
     if output.variability != "continuous":
         return "is discrete"

@@ -13,6 +13,8 @@ from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
+from .calls import kinds_of
+
 ROUNDING = 1e-6
 """Share of a step by which rows of inputs may be off a communication point."""
 
@@ -35,7 +37,8 @@ def simulate(
     description = read_model_description(str(fmu))
     known = {variable.name: variable for variable in description.modelVariables}
     if outputs is None:
-        numbers = (v for v in description.modelVariables if v.causality == "output" and v.type != "String")
+        kinds = kinds_of(description)
+        numbers = (v for v in description.modelVariables if v.causality == "output" and v.type in kinds)
         outputs = [variable.name for variable in numbers]
     outputs = list(outputs)
     for name in [*outputs, *(settings or {}), *(inputs.columns if inputs is not None else [])]:

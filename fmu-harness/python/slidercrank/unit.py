@@ -6,7 +6,6 @@ import ctypes
 import math
 import threading
 import time
-from array import array
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -15,28 +14,19 @@ from tempfile import TemporaryDirectory
 from typing import Self
 
 import numpy
-from fmpy import calloc, extract, free, read_model_description
+from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import (
-    FMU2Slave,
-    fmi2CallbackAllocateMemoryTYPE,
-    fmi2CallbackFreeMemoryTYPE,
-    fmi2CallbackFunctions,
-    fmi2CallbackLoggerTYPE,
-    fmi2CoSimulation,
-)
 from fmpy.model_description import ModelVariable
 
+from .calls import Number, load
 from .quantity import ANGLE, Column, QuantityError
 from .recipe import Recipe, RunError
 
-STATUS = ["fmi2OK", "fmi2Warning", "fmi2Discard", "fmi2Error", "fmi2Fatal", "fmi2Pending"]
+STATUS = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"]
 UNWATCHED = 8
 """Steps between two looks at the clock."""
 MOST_POINTS = 20_000_000
 """More communication points than this end a run."""
-Number = type[ctypes.c_double] | type[ctypes.c_int]
-"""What a variable is in C."""
 
 _loading = threading.Lock()  # FMPy changes the working directory while it loads a library
 
@@ -57,17 +47,11 @@ class Unit:
             extract(str(fmu), unzipdir=str(into))
             self.description = read_model_description(str(fmu))
             self.variables = {variable.name: variable for variable in self.description.modelVariables}
-            self.slave = FMU2Slave(
-                guid=self.description.guid,
-                unzipDirectory=str(into),
-                modelIdentifier=self.description.coSimulation.modelIdentifier,
-                instanceName=self.description.modelName,
-            )
-        self.resources = (into / "resources").absolute().as_uri()
+            self.calls = load(self.description, into)
         self.outputs = {
             name: variable
             for name, variable in self.variables.items()
-            if variable.causality == "output" and variable.type != "String"
+            if variable.causality == "output" and variable.type in self.calls.kinds
         }
 
     def run(self, recipe: Recipe, settings: Mapping[str, float], budget: float = 600.0) -> list[float]:
@@ -201,22 +185,21 @@ class Selection:
     """Outputs of one type, read together."""
 
     def __init__(self, call: Callable[..., int], kind: Number, variables: list[ModelVariable]):
-        self.call = call
+        self.call, self.kind = call, kind
         self.names = [variable.name for variable in variables]
         self.references = (ctypes.c_uint * len(variables))(*(variable.valueReference for variable in variables))
         self.buffer = (kind * len(variables))()
-        self.rows = array("d" if kind is ctypes.c_double else "i")
+        self.rows = bytearray()
 
     def read(self, component: int) -> None:
         self.call(component, self.references, len(self.names), self.buffer)
 
     def record(self, component: int) -> None:
         self.read(component)
-        self.rows.frombytes(bytes(self.buffer))
+        self.rows += bytes(self.buffer)
 
     def columns(self) -> dict[str, Column]:
-        kind = numpy.float64 if self.rows.typecode == "d" else numpy.intc
-        table = numpy.frombuffer(self.rows, dtype=kind).reshape(-1, len(self.names))
+        table = numpy.frombuffer(self.rows, dtype=self.kind).reshape(-1, len(self.names))
         return {name: numpy.ascontiguousarray(table[:, place], float) for place, name in enumerate(self.names)}
 
 
@@ -224,38 +207,23 @@ class Session:
     """One instance: instantiated with parameters, initialised, freed."""
 
     def __init__(self, unit: Unit, settings: Mapping[str, float]):
-        self.unit, self.slave = unit, unit.slave
+        self.unit, self.calls = unit, unit.calls
         self.said: str | None = None
-        # Kept, since the FMU calls them as long as it lives.
-        self.callbacks = fmi2CallbackFunctions()
-        self.callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
-        self.callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-        self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self.settings = settings
         self.phase_names: list[str] = []
         self.component: int | None = None
 
     def __enter__(self) -> Self:
-        slave = self.slave
-        description = self.unit.description
-        self.component = slave.fmi2Instantiate(
-            description.modelName.encode(),
-            fmi2CoSimulation,
-            description.guid.encode(),
-            self.unit.resources.encode(),
-            ctypes.byref(self.callbacks),
-            0,
-            1,
-        )
+        self.component, self.callbacks = self.calls.instantiate(self._log)
         if not self.component:
             raise RunError(f"the FMU could not be instantiated{self._because()}")
         try:
             for name, value in self.settings.items():
                 self._try(f"setting `{name}`", self._set, name, value)
-            self._try("fmi2SetupExperiment", slave.fmi2SetupExperiment, self.component, 0, 0.0, 0.0, 0, 0.0)
-            self._try("fmi2EnterInitializationMode", slave.fmi2EnterInitializationMode, self.component)
+            for function, *arguments in self.calls.entering:
+                self._standard(function, *arguments)
             self._initialize()
-            self._try("fmi2ExitInitializationMode", slave.fmi2ExitInitializationMode, self.component)
+            self._standard("ExitInitializationMode")
             self._initialized()
         except BaseException:
             self.__exit__()
@@ -264,7 +232,7 @@ class Session:
 
     def __exit__(self, *_: object) -> None:
         if self.component:
-            self.slave.fmi2FreeInstance(self.component)
+            self.calls.of("FreeInstance")(self.component)
             self.component = None
 
     def _initialize(self) -> None:
@@ -278,13 +246,15 @@ class Session:
         return (ctypes.c_uint * len(variables))(*(variable.valueReference for variable in variables))
 
     def _set(self, name: str, value: float) -> None:
-        variable, reference = self.unit.variable(name), self._references([name])
-        if variable.type == "Real":
-            self.slave.fmi2SetReal(self.component, reference, 1, (ctypes.c_double * 1)(value))
-        elif variable.type == "Boolean":
-            self.slave.fmi2SetBoolean(self.component, reference, 1, (ctypes.c_int * 1)(int(value)))
-        else:
-            self.slave.fmi2SetInteger(self.component, reference, 1, (ctypes.c_int * 1)(int(value)))
+        kind, number = self.calls.kinds[self.unit.variable(name).type]
+        values = numpy.array([value], number).ctypes.data_as(ctypes.POINTER(number))
+        self.calls.access("Set", kind)(self.component, self._references([name]), 1, values)
+
+    def _standard(self, function: str, *arguments: object) -> None:
+        self._try(self.calls.prefix + function, self.calls.of(function), self.component, *arguments)
+
+    def _stepping(self, now: float, size: float) -> str:
+        return f"{self.calls.prefix}DoStep from {plain(now)} s by {plain(size)} s"
 
     def _try(self, call: str, function: Callable[..., object], *arguments: object) -> None:
         try:
@@ -297,7 +267,7 @@ class Session:
 
     def _told(self, call: str, status: int) -> str:
         known = 0 <= status < len(STATUS)
-        name = STATUS[status] if known else f"the unknown status {status}"
+        name = self.calls.prefix + STATUS[status] if known else f"the unknown status {status}"
         return f"{call} returned {name}{self._because()}"
 
     def _because(self) -> str:
@@ -305,9 +275,9 @@ class Session:
 
     def read_phase_names(self) -> None:
         size = ctypes.c_size_t()
-        self._call("slidercrank_phase_names", None, ctypes.byref(size))
+        self._call("phase_names", None, ctypes.byref(size))
         names = ctypes.create_string_buffer(size.value)
-        self._call("slidercrank_phase_names", names, ctypes.byref(size))
+        self._call("phase_names", names, ctypes.byref(size))
         self.phase_names = names.value.decode().splitlines()
 
     def predict(self, step: float, outputs: Sequence[str]) -> Step:
@@ -333,7 +303,7 @@ class Session:
     ) -> None:
         by, of, count = self._references(parameters), self._references(outputs), ctypes.c_size_t(len(self.phase_names))
         self._call(
-            "slidercrank_step_jacobian",
+            "step_jacobian",
             ctypes.c_double(step),
             by,
             ctypes.c_size_t(len(by)),
@@ -345,15 +315,16 @@ class Session:
         )
 
     def _call(self, name: str, *arguments: object) -> None:
-        function = getattr(self.slave.dll, name, None)
+        name = self.calls.own + name
+        function = getattr(self.calls.slave.dll, name, None)
         if function is None:
             raise RunError(f"the FMU has no function `{name}`")
         status = function(ctypes.c_void_p(self.component), *arguments)
         if status != 0:
             raise RunError(self._told(name, status))
 
-    def _log(self, _environment: object, _name: bytes, _status: int, _category: bytes, message: bytes) -> None:
-        self.said = message.decode(errors="replace")
+    def _log(self, *told: bytes) -> None:
+        self.said = told[-1].decode(errors="replace")
 
 
 class Instance(Session):
@@ -362,22 +333,19 @@ class Instance(Session):
     def __init__(self, unit: Unit, recipe: Recipe, settings: Mapping[str, float], names: list[str]):
         super().__init__(unit, settings)
         self.recipe = recipe
-        calls: dict[str, tuple[Callable[..., int], Number]] = {
-            "Real": (self.slave.fmi2GetReal, ctypes.c_double),
-            "Integer": (self.slave.fmi2GetInteger, ctypes.c_int),
-            "Boolean": (self.slave.fmi2GetBoolean, ctypes.c_int),
-        }
-        groups: dict[str, list[ModelVariable]] = {kind: [] for kind in calls}
+        kinds = dict(self.calls.kinds.values())
+        groups: dict[str, list[ModelVariable]] = {kind: [] for kind in kinds}
         for name in names:
             if name not in unit.outputs:
                 raise RunError(f"turns cannot be counted: `{name}` is not an output of this FMU")
             variable = unit.outputs[name]
-            groups["Integer" if variable.type == "Enumeration" else variable.type].append(variable)
-        self.selections = [Selection(*calls[kind], group) for kind, group in groups.items() if group]
-        self.angle = Selection(*calls["Real"], [unit.outputs[ANGLE]])
+            groups[self.calls.kinds[variable.type][0]].append(variable)
+        select = lambda kind, group: Selection(self.calls.access("Get", kind), kinds[kind], group)
+        self.selections = [select(kind, group) for kind, group in groups.items() if group]
+        self.angle = select(self.calls.real, [unit.outputs[ANGLE]])
         self.angle_now = 0.0
         self.inputs = self._references(own.name for own in recipe.inputs)
-        self.values = (ctypes.c_double * len(recipe.inputs))()
+        self.values, self.set_real = (ctypes.c_double * len(recipe.inputs))(), self.calls.access("Set", self.calls.real)
         self.wants_angle = any(own.wants_angle for own in recipe.inputs)
 
     def _initialize(self) -> None:
@@ -392,15 +360,13 @@ class Instance(Session):
         # The angle is the first of the real outputs.
         real = self.selections[0].buffer
         start = real[0]
-        step, component = self.slave.fmi2DoStep, self.component
         for point, (now, then) in enumerate(self.recipe.intervals(latest), 1):
             self._apply_inputs(now)
             self._before(now, then - now)
             try:
-                step(component, now, then - now, 1)
+                self.calls.do_step(self.component, now, then - now)
             except FMICallException as error:
-                call = f"fmi2DoStep from {plain(now)} s by {plain(then - now)} s"
-                raise RunError(self._answer(call, error)) from error
+                raise RunError(self._answer(self._stepping(now, then - now), error)) from error
             self._record()
             turned = abs(real[0] - start) / math.tau
             if then >= latest and turned < turns:
@@ -427,11 +393,11 @@ class Instance(Session):
             self.angle_now = self.angle.buffer[0]
         for place, own in enumerate(self.recipe.inputs):
             self.values[place] = own.value(now, self.angle_now)
-        set_real = self.slave.fmi2SetReal
         try:
-            set_real(self.component, self.inputs, len(self.inputs), self.values)
+            self.set_real(self.component, self.inputs, len(self.inputs), self.values)
         except FMICallException as error:
-            raise RunError(self._answer(f"fmi2SetReal of {list(self.inputs)}", error)) from error
+            call = f"{self.calls.prefix}Set{self.calls.real} of {list(self.inputs)}"
+            raise RunError(self._answer(call, error)) from error
 
     def _record(self) -> None:
         for selection in self.selections:
@@ -449,14 +415,14 @@ class Estimated(Session):
         self.read_phase_names()
 
     def step(self, size: float) -> None:
-        what = f"fmi2DoStep from {plain(self.time)} s by {plain(size)} s"
-        self._try(what, self.slave.fmi2DoStep, self.component, self.time, size, 1)
+        self._try(self._stepping(self.time, size), self.calls.do_step, self.component, self.time, size)
         self.time += size
 
     def read(self, names: Sequence[str]) -> numpy.ndarray:
         values = (ctypes.c_double * len(names))()
         references = self._references(names)
-        self._try("fmi2GetReal", self.slave.fmi2GetReal, self.component, references, len(names), values)
+        get, real = self.calls.access("Get", self.calls.real), f"{self.calls.prefix}Get{self.calls.real}"
+        self._try(real, get, self.component, references, len(names), values)
         return numpy.array(values)
 
     def set_inputs(self, values: Mapping[str, float]) -> None:
@@ -468,7 +434,7 @@ class Estimated(Session):
         values = numpy.array([*parameters.values()], float)
         references = self._references(parameters)
         self._call(
-            "slidercrank_set_phase",
+            "set_phase",
             _pointer(numbers),
             ctypes.c_size_t(numbers.size),
             references,

@@ -41,6 +41,7 @@ fn packages() -> &'static Path {
             ("press", "press", Version::Fmi2),
             ("wornpin", "wornpin", Version::Fmi2),
             ("ideal3", "ideal", Version::Fmi3),
+            ("wornpin3", "wornpin", Version::Fmi3),
         ] {
             let scenario = Scenario::find(scene).expect("a shipped scene");
             let file = directory.join(format!("{name}.fmu"));

@@ -58,6 +58,24 @@ def test_a_jacobian_is_that_of_differences(unit, portable):
     assert abs((slope - exact) / size).max() < 1e-5 * abs(exact / size).max()
 
 
+def test_both_versions_of_fmi_give_the_same_numbers(unit):
+    with Unit(fmu("wornpin3")) as newer:
+        told = []
+        for own in (unit, newer):
+            own.start(PIN)
+            own.set_inputs({"slider.load": -10.0})
+            own.step(2e-2)
+            phase = own.predict(1e-3).phase
+            own.set_phase(phase, {CLEARANCE: 4e-4})
+            found = own.step_jacobian(1e-3, [CLEARANCE, "slider.load"], ["slider.x", "joint.C.force.x"])
+            own.step(1e-3)
+            matrices = [found.phase_by_phase, found.phase_by_parameters, found.outputs_by_phase, found.outputs_by_parameters]
+            told.append([phase, found.next_phase, found.next_outputs, own.read(found.outputs), *matrices])
+        assert all(map(numpy.array_equal, *told))
+        with pytest.raises(RunError, match="slidercrank_fmi3_step_jacobian returned fmi3Error: .*communicationStepSize"):
+            newer.step_jacobian(math.nan)
+
+
 def test_the_instance_stays_where_it_is_and_goes_where_it_was_told(unit):
     unit.start(PIN)
     unit.step(1e-2)

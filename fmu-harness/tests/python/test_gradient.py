@@ -48,6 +48,14 @@ def test_a_gradient_is_that_of_differences(unit, settings, turns, step):
         assert found.by_parameters == pytest.approx(differences, rel=1e-2), quantity
 
 
+def test_both_versions_of_fmi_give_the_same_gradient(unit):
+    recipe = replace(RUN, turns=0.15, keep={**KEEP, "contact": Quantity("joint.C.contact", "mean")})
+    with Unit(fmu("wornpin3")) as newer:
+        assert newer.run(recipe, WORN) == unit.run(recipe, WORN)
+        told = [gradient(own, recipe, WORN, "rms", ["joint.C.clearance"]) for own in (unit, newer)]
+    assert numpy.array_equal(told[0].by_parameters, told[1].by_parameters) and told[0].value == told[1].value
+
+
 def test_what_has_no_derivative_says_why(unit):
     contact = replace(RUN, keep={"contact": Quantity("joint.C.contact", "mean")}, turns=0.01)
     with pytest.raises(RunError, match="`joint.C.contact` is not a real output"):

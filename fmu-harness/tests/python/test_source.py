@@ -100,6 +100,10 @@ def test_fmi_3_holds_inputs_until_the_step_ends_or_a_row_comes():
     assert three[2] == simulate(fmu("ideal3"), 0.01, 1e-2, **FREE)["crank.speed"].iloc[-1]
 
 
+def test_without_outputs_all_numbers_are_kept_and_no_clocks():
+    assert list(simulate(fmu("wornpin3"), 1e-4, 1e-4)) == list(simulate(fmu("wornpin"), 1e-4, 1e-4))
+
+
 def test_a_study_that_is_wrong_is_told_in_the_program_s_words(write):
     with pytest.raises(SourceError, match="missing field"):
         slidercrank.plan(write('name = "own"\n'))
