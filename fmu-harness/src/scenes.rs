@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::read::{SceneFile, read};
 use slidercrank::scene::units::quantity;
-use slidercrank::scene::write::write;
+use slidercrank::scene::write::{write, write_table};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -52,6 +52,12 @@ impl Scenario {
         // Reading the text checks the combination of values.
         self.file = read(&self.text, &self.name)?;
         Ok(self)
+    }
+
+    /// All that the scene is read from, by name: the text of the file, and the rod's table of modes, wherever it stands.
+    pub fn texts(&self) -> Vec<(String, String)> {
+        let modes = self.file.scene.rod.flexible.table.as_ref().map(|table| ("modes".into(), write_table(table)));
+        [("scene".into(), self.text.clone())].into_iter().chain(modes).collect()
     }
 }
 

@@ -90,6 +90,20 @@ fn what_is_wrong_in_a_study_is_named() {
 }
 
 #[test]
+fn another_table_of_modes_is_another_study() {
+    let (study, plan) = study(STUDY).expect("a plan");
+    let told = |scenario: &Scenario| {
+        let recipe = Sweep::recipe(&study, scenario, &plan);
+        ["digest", "origin"].map(|key| recipe[key].to_string())
+    };
+    let [first, again, mut other] = [(); 3].map(|()| Scenario::find("ferod").expect("a scene"));
+    // The file that the scene names has changed, the scene's own text has not.
+    other.file.scene.rod.flexible.table.as_mut().expect("a table").mass *= 2.0;
+    assert_eq!(told(&first), told(&again));
+    assert!(told(&first).iter().zip(told(&other)).all(|(first, other)| *first != other));
+}
+
+#[test]
 fn the_shipped_studies_can_be_planned() {
     let directory = fmu_harness::scenes::directory().with_file_name("studies");
     let mut runs = 0;

@@ -116,3 +116,14 @@ fn a_study_that_was_killed_runs_nothing_twice_and_ends_the_same() {
         assert_eq!(fs::read_to_string(&file).expect("a journal"), text);
     });
 }
+
+#[test]
+fn another_table_of_modes_is_another_study() {
+    resting(|study, _| {
+        let [first, mut other] = [(); 2].map(|()| Scenario::find("ferod").expect("a scene"));
+        other.file.scene.rod.flexible.table.as_mut().expect("a table").mass *= 2.0;
+        let coefficients = ["C=1e-17".parse().expect("coefficients")];
+        let digest = |scenario| Study::new(scenario, study.fmu, &coefficients, PLAN).expect("a study").digest();
+        assert!(digest(&first) == digest(&first) && digest(&first) != digest(&other));
+    });
+}

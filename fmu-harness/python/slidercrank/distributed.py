@@ -88,11 +88,10 @@ def run(
 def check_scene(fmu: Path, recipe: Recipe) -> None:
     """An FMU of another scene would give other results under this study's name."""
     with zipfile.ZipFile(fmu) as archive:
-        try:
-            text = archive.read("documentation/scene.toml").decode()
-        except KeyError:
-            text = None
-    if text != recipe.origin["scene"]:
+        files = {name: f"documentation/{name}.toml" for name in ("scene", "modes")}
+        held = set(archive.namelist())
+        texts = {name: archive.read(file).decode() for name, file in files.items() if file in held}
+    if any(texts.get(name) != recipe.origin.get(name) for name in files):
         raise StudyError(f"{fmu} is not the study's scene `{recipe.scene}` as it stands: package it anew")
 
 

@@ -68,8 +68,8 @@ impl Laws {
         say(table.print());
         let base = out.join("laws");
         let mut frame = report::frame(&comparison, &rows);
-        frame.origin =
-            vec![("scene".into(), scenario.text.clone()), ("version".into(), env!("CARGO_PKG_VERSION").into())];
+        frame.origin = scenario.texts();
+        frame.origin.push(("version".into(), env!("CARGO_PKG_VERSION").into()));
         frame.save(&base)?;
         for (ending, text) in [("md", table.markdown()), ("svg", report::sheet(&comparison, &rows).svg()?)] {
             let file = base.with_extension(ending);

@@ -26,6 +26,7 @@ use journal::{Line, Outcome};
 use rayon::prelude::*;
 use serde_json::json;
 use slidercrank::scene::profile::Profile;
+use slidercrank::scene::write::write;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Duration;
@@ -119,9 +120,9 @@ impl Sweep<'_> {
         })
     }
 
-    /// Digest that identifies the study of a journal.
+    /// Digest that identifies the study of a journal. The scene is written out for it, with a table of modes from elsewhere.
     pub fn digest(study: &Study, scenario: &Scenario, plan: &Plan) -> String {
-        plan.digest(&[&study.text, &scenario.text, env!("CARGO_PKG_VERSION")])
+        plan.digest(&[&study.text, &write(&scenario.file), env!("CARGO_PKG_VERSION")])
     }
 
     /// All runs in their order, with their outcomes.
@@ -154,10 +155,8 @@ impl Sweep<'_> {
 
 /// Origin of the results.
 fn origin(study: &Study, scenario: &Scenario) -> Vec<(String, String)> {
-    vec![
-        ("study".into(), study.text.clone()),
-        ("scene".into(), scenario.text.clone()),
-        ("version".into(), env!("CARGO_PKG_VERSION").into()),
-        ("seed".into(), study.seed.to_string()),
-    ]
+    let study_text = ("study".into(), study.text.clone());
+    let version = ("version".into(), env!("CARGO_PKG_VERSION").into());
+    let seed = ("seed".into(), study.seed.to_string());
+    [study_text].into_iter().chain(scenario.texts()).chain([version, seed]).collect()
 }

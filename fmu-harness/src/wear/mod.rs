@@ -20,6 +20,7 @@ use anyhow::{Context, Result, bail, ensure};
 use extrapolation::{Extrapolation, Growth, extrapolate};
 use joint::{Coefficients, Wearing, Work};
 use sectors::Sectors;
+use slidercrank::scene::write::write;
 use std::f64::consts::TAU;
 use std::time::Duration;
 
@@ -98,7 +99,7 @@ impl<'a> Study<'a> {
         let Plan { transient, turns, sectors, .. } = self.plan;
         let joints: String = self.joints.iter().map(|joint| joint.letter).collect();
         let numbers = [transient, turns, sectors].map(|number| number as f64);
-        digest([self.scenario.text.as_str(), &joints, env!("CARGO_PKG_VERSION")], &numbers)
+        digest([write(&self.scenario.file).as_str(), &joints, env!("CARGO_PKG_VERSION")], &numbers)
     }
 
     /// Follows the clearances over `strokes` strokes.

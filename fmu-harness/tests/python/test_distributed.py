@@ -7,8 +7,9 @@ import os
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+import zipfile
+from contextlib import contextmanager, nullcontext, suppress
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import pyarrow.parquet
 import pytest
 from distributed import Client, LocalCluster
 
-from slidercrank import distributed, study
+from slidercrank import distributed, plan, study
 from slidercrank.distributed import Shipment, StudyError
 from slidercrank.journal import Outcome, path
 
@@ -232,6 +233,18 @@ def test_an_fmu_of_another_scene_is_refused_before_anything_is_run(write, tmp_pa
     with pytest.raises(StudyError, match="not the study's scene `wornpin`"):
         distributed.run(write(WORN_PIN), fmu("ideal"), client, tmp_path)
     assert not path(tmp_path, "own").exists()
+
+
+def test_an_fmu_with_another_table_of_modes_is_refused(write, tmp_path):
+    recipe = plan(write(WORN_PIN)).recipe
+    file = tmp_path / "flexible.fmu"
+    for table, wanted in [("mass = 1.0", "mass = 1.0"), ("mass = 1.0", "mass = 2.0"), ("mass = 1.0", None)]:
+        with zipfile.ZipFile(file, "w") as archive:
+            archive.writestr("documentation/scene.toml", recipe.origin["scene"])
+            archive.writestr("documentation/modes.toml", table)
+        told = replace(recipe, origin={**recipe.origin, **({} if wanted is None else {"modes": wanted})})
+        with nullcontext() if table == wanted else pytest.raises(StudyError, match="package it anew"):
+            distributed.check_scene(file, told)
 
 
 def test_a_run_that_takes_too_long_is_a_row_that_says_so(write, tmp_path, client):
