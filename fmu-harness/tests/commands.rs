@@ -119,6 +119,43 @@ fn a_setting_may_have_a_unit() {
 }
 
 #[test]
+fn a_setting_or_a_column_takes_the_place_of_one_input_and_leaves_the_others() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).expect("written");
+        file.display().to_string()
+    };
+    let run = |arguments: &[&str]| {
+        let arguments = [&["run", "--turns", "0.05"], arguments].concat();
+        assert_eq!(wrong(&arguments, folder.path()), None);
+        std::fs::read_to_string(folder.path().join("own.csv")).expect("a file")
+    };
+    let text = std::fs::read_to_string(directory().join("ideal.toml")).expect("a scene");
+    let loaded = |load: u32| text.replace("[slider]\n", &format!("[slider]\nload = {load}\n"));
+    let scene = write("own.toml", &loaded(500));
+    let wanted = run(&["--scene", &scene]);
+    let torque = write("torque.csv", "time,crank.torque\n0,1\n");
+    assert!(run(&["--scene", &scene, "--input", &torque]) == wanted, "the load stays");
+
+    write("own.toml", &loaded(100));
+    assert!(run(&["--scene", &scene]) != wanted);
+    let fmu = folder.path().join("own.fmu").display().to_string();
+    let load = write("load.csv", "time,slider.load\n0,500\n");
+    for subject in [["--scene", &scene], ["--fmu", &fmu]] {
+        for place in [["--set", "slider.load=500"], ["--input", &load]] {
+            assert!(run(&[subject, place].concat()) == wanted, "{subject:?} {place:?}");
+        }
+    }
+
+    let twice = write("twice.csv", "time,slider.load,slider.load\n0,1,2\n");
+    for (input, load) in [(&load, "slider.load=1"), (&twice, "crank.mass=1")] {
+        let found = wrong(&["run", "--scene", &scene, "--input", input, "--set", load], folder.path());
+        assert!(found.is_some_and(|text| text.contains("`slider.load`") && text.contains(input)), "{input}");
+    }
+}
+
+#[test]
 fn a_reader_that_goes_away_takes_nothing_with_it() {
     let folder = tempfile::tempdir().expect("a temporary directory");
     let arguments = ["sensitivity", "--scene", "wornpin", "--turns", "0.05", "--of", "slider.v", "--to", "rod.length"];

@@ -1,7 +1,7 @@
 //! Inputs of an FMU during a run, each a profile over time or crank angle.
 
 use crate::trajectory::Trajectory;
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::profile::{Profile, ProfileArgument, Profiles};
 
@@ -42,12 +42,17 @@ pub fn of_scene(profiles: &Profiles) -> Vec<Input> {
 }
 
 /// The columns of a CSV file as profiles over time.
+///
+/// # Errors
+/// If two columns have the same name.
 pub fn of_table(table: &Trajectory) -> Result<Vec<Input>> {
-    let input = |name: &String| {
+    let names = table.names();
+    let input = |(place, name): (usize, &String)| {
+        ensure!(!names[..place].contains(name), "two columns have the name `{name}`");
         let points = table.times().iter().zip(table.column(name)?).map(|(time, value)| [*time, *value]).collect();
         Ok(Input { name: name.clone(), profile: Profile::Points { against: ProfileArgument::Time, points } })
     };
-    table.names().iter().map(input).collect()
+    names.iter().enumerate().map(input).collect()
 }
 
 #[cfg(test)]

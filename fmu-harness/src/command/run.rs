@@ -2,7 +2,7 @@
 
 use super::{out_directory, package, say, shown};
 use crate::host::{Archive, Fmu, LogLine, Setting, Status};
-use crate::inputs;
+use crate::inputs::{self, Input};
 use crate::package::MODES;
 use crate::report::figure::{self, Pair};
 use crate::report::summary;
@@ -47,10 +47,12 @@ pub struct Run {
     /// Relative tolerance, instead of the FMU's own
     #[arg(long, value_name = "NUMBER")]
     tolerance: Option<f64>,
-    /// CSV file of inputs: the first column is time, the others have the inputs' names
+    /// CSV file of inputs, in place of the scene's of the same names: the first column is time, the others have the
+    /// inputs' names
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
-    /// Sets a variable before initialization, with a unit if it is a parameter of ours; may be repeated
+    /// Sets a variable before initialization, with a unit if it is a parameter of ours; an input has this value during
+    /// the whole run; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Setting>,
     /// Directory of the results [default: target/out]
@@ -128,12 +130,25 @@ impl Run {
         ensure!(latest > start, "the end, {latest} s, is not after the start, {start} s");
         let step = self.step.or(scene.map(|scene| scene.run.step)).or_else(|| suggested("stepSize"));
         let step = step.unwrap_or((latest - start) / 1000.0);
-        let inputs = match (&self.input, scene) {
-            (Some(file), _) => inputs::of_table(&Trajectory::read_csv(file)?)?,
-            (None, Some(scene)) => inputs::of_scene(&scene.inputs),
-            (None, None) => vec![],
-        };
+        let inputs = self.inputs(scene, &settings)?;
         Ok(Experiment { settings, inputs, start, until, step, tolerance: self.tolerance })
+    }
+
+    /// The inputs that change during the run: those of the table, and of the scene those that neither the table nor a
+    /// setting replaces.
+    fn inputs(&self, scene: Option<&SceneFile>, settings: &[Setting]) -> Result<Vec<Input>> {
+        let is_set = |input: &Input| settings.iter().any(|setting| setting.name == input.name);
+        let mut table = vec![];
+        if let Some(file) = &self.input {
+            table = inputs::of_table(&Trajectory::read_csv(file)?).with_context(|| file.display().to_string())?;
+            if let Some(Input { name, .. }) = table.iter().find(|input| is_set(input)) {
+                bail!("`{name}` is both in --set and in {}", file.display());
+            }
+        }
+        let of_scene = scene.map_or(vec![], |scene| inputs::of_scene(&scene.inputs));
+        let in_table = |input: &Input| table.iter().any(|own| own.name == input.name);
+        let left: Vec<Input> = of_scene.into_iter().filter(|input| !in_table(input) && !is_set(input)).collect();
+        Ok([left, table].concat())
     }
 
     /// What the command line sets, in SI units where it names another unit of one of our parameters.
