@@ -1,7 +1,7 @@
 //! Results of a study.
 
 use super::table::Table;
-use super::units::{significant, three_digits};
+use super::units::{self, significant};
 use crate::frame::{Column, Frame};
 use crate::realtime::quantile;
 use crate::sweep::linear::{NORMAL, deviation};
@@ -15,7 +15,7 @@ pub fn plan(plan: &Plan) -> Frame {
     plan.names().iter().enumerate().fold(runs, |frame, (place, name)| frame.reals(name.clone(), column(place)))
 }
 
-/// A number with four digits; a dash for the deviation of a single run, and for a share of a variance of 0.
+/// A number with four digits; a dash for the deviation of a single run.
 fn known(number: f64) -> String {
     if number.is_finite() { significant(number) } else { "–".into() }
 }
@@ -82,7 +82,7 @@ fn shares(linear: &Linear) -> Table {
     for (name, row) in &linear.rows {
         let Ok(parts) = linear.parts(row) else { continue };
         let variance: f64 = parts.iter().map(|part| part * part).sum();
-        let shares = parts.iter().map(|part| three_digits(100.0 * part * part / variance));
+        let shares = parts.iter().map(|part| units::known(100.0 * part * part / variance));
         table.line([name.clone()].into_iter().chain(shares).collect());
     }
     table

@@ -41,16 +41,18 @@ impl Law {
             bail!("`{name}` is not a real number and cannot be drawn")
         };
         let value = |number: &Number| number.value(parameter);
-        let between = |min: f64, max: f64| {
-            Uniform::new_inclusive(min, max).with_context(|| format!("`{name}`: {min} is not below {max}"))
+        let ordered = |min: f64, max: f64| {
+            ensure!(min <= max, "`{name}`: min = {min} is above max = {max}");
+            Ok((min, max))
         };
+        let between = |min: f64, max: f64| Uniform::new_inclusive(min, max).with_context(|| format!("`{name}`"));
         match distribution {
             Distribution::Uniform { min, max } => {
-                let (min, max) = (value(min)?, value(max)?);
+                let (min, max) = ordered(value(min)?, value(max)?)?;
                 Ok(Self { parameter, shape: Shape::Uniform(between(min, max)?), min, max })
             }
             Distribution::LogUniform { min, max } => {
-                let (min, max) = (value(min)?, value(max)?);
+                let (min, max) = ordered(value(min)?, value(max)?)?;
                 ensure!(min > 0.0, "`{name}`: a logarithm needs values above 0, not {min}");
                 Ok(Self { parameter, shape: Shape::LogUniform(between(min.ln(), max.ln())?), min, max })
             }
@@ -61,10 +63,14 @@ impl Law {
                     Number::Text(text) => quantity(text, parameter.unit())
                         .map_err(|error| anyhow!("`{name}`: deviation = \"{text}\": {error}"))?,
                 };
+                ensure!(
+                    deviation >= 0.0 && deviation.is_finite(),
+                    "`{name}`: deviation = {deviation} is not allowed: 0 or more, and finite"
+                );
                 let normal = Normal::new(value(mean)?, deviation);
                 let shape = Shape::Normal(normal.with_context(|| format!("`{name}`: deviation = {deviation}"))?);
                 let [min, max] = [min, max].map(|bound| bound.as_ref().map(value).transpose());
-                let (min, max) = (min?.unwrap_or(least).max(least), max?.unwrap_or(greatest).min(greatest));
+                let (min, max) = ordered(min?.unwrap_or(least), max?.unwrap_or(greatest))?;
                 Ok(Self { parameter, shape, min, max })
             }
         }
