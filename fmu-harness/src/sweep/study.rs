@@ -9,6 +9,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// Columns that the results have beside parameters and quantities: the number of a run, and whether it came to its end.
+const OWN_COLUMNS: [&str; 2] = ["run", "status"];
+
 /// Contents of a study file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -150,6 +153,12 @@ impl Study {
             "[random] needs `draws`, the number of draws, which must be at least 1"
         );
         ensure!(self.draws == 0 || !self.random.is_empty(), "draws = {} needs distributions in [random]", self.draws);
+        for name in self.keep.keys() {
+            ensure!(
+                !OWN_COLUMNS.contains(&name.as_str()) && Parameter::named(name).is_none(),
+                "`{name}` in [keep] needs another name, since `{name}` is a column of the results already"
+            );
+        }
         for name in self.grid.keys() {
             ensure!(!self.random.contains_key(name), "`{name}` is both in [grid] and in [random]");
         }
