@@ -168,6 +168,25 @@ fn killed_or_split_a_study_gives_the_same_and_runs_nothing_twice() {
 }
 
 #[test]
+fn what_the_budget_stopped_is_run_again() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let (study, plan) =
+        study(&STUDY.replace("[\"hertz\", 3]", "[\"hertz\"]").replace("count = 3", "count = 2")).expect("a plan");
+    let scenario = Scenario::find("wornpin").expect("a scene");
+    let fmu = directory.path().join("wornpin.fmu");
+    stock().package(&scenario).expect("a package").save(&fmu).expect("a file");
+    let ok = [Duration::ZERO, Duration::from_secs(60)].map(|budget| {
+        let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };
+        let journal = Journal::open(&path(directory.path(), "own"), "digest").expect("a journal");
+        sweep.run(&journal, || {}).expect("a study");
+        let frame = sweep.frame(&journal).expect("a table");
+        let peaks = frame.column("peak_force").expect("a quantity").to_vec();
+        peaks.into_iter().filter(|peak| peak.is_finite()).count()
+    });
+    assert_eq!(ok, [0, plan.len()]);
+}
+
+#[test]
 fn a_run_that_fails_stops_no_other() {
     let directory = tempfile::tempdir().expect("a directory");
     // Rigid contacts have no bristles.

@@ -25,7 +25,7 @@ from distributed import Client, Future, KilledWorker, get_worker
 from distributed.client import FutureCancelledError
 
 from .journal import Journal, Outcome, path
-from .recipe import Recipe, RunError
+from .recipe import Recipe, RunError, StoppedError
 from .results import load, save, table
 from .source import output_directory
 from .study import Plan, plan
@@ -66,9 +66,9 @@ def run(
     """Runs what the study's journal does not have yet on the client's cluster; one row a run, as `slidercrank.study`.
 
     `fmu` is the study's packaged scene, `budget` [s] the longest time for one run. A run that fails is a row that says
-    why. A client that was killed goes on from the journal, which `sweep` can go on from too. A run whose workers die
-    again and again, or one after another for reasons of their own, is a row that says so, but no line of the journal:
-    the next call tries it again. A study waits for workers: only when there is none for `patience` [s] it is a
+    why. A client that was killed goes on from the journal, which `sweep` can go on from too. A run that takes longer
+    than `budget`, or whose workers die again and again, or one after another for reasons of their own, is a row that says
+    so, but no line of the journal: the next call tries it again. A study waits for workers: only when there is none for `patience` [s] it is a
     `StudyError`.
     """
     planned = plan(study_file)
@@ -205,7 +205,7 @@ def one(shipment: Shipment, settings: dict[str, float]) -> Outcome:
     try:
         return Outcome(values=tuple(unit.run(shipment.recipe, settings, shipment.budget)))
     except RunError as error:
-        return Outcome(failed=str(error))
+        return Outcome(failed=str(error), stopped=isinstance(error, StoppedError))
 
 
 _units: dict[str, tuple[TemporaryDirectory[str], Unit]] = {}

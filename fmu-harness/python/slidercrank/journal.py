@@ -21,6 +21,8 @@ class Outcome:
 
     values: tuple[float, ...] | None = None
     failed: str | None = None
+    stopped: bool = False
+    """Whether its budget ended it: the file has no such line, so that another journal of the study runs it again."""
 
     def told(self) -> dict[str, object]:
         return {"failed": self.failed} if self.values is None else {"values": list(self.values)}
@@ -72,8 +74,9 @@ class Journal:
         return (run for run in range(count) if run not in self.outcomes)
 
     def add(self, run: int, outcome: Outcome) -> None:
-        """Adds a run, in one write."""
-        self._write({"run": run, **outcome.told()})
+        """Adds a run, in one write; one that was stopped is not written."""
+        if not outcome.stopped:
+            self._write({"run": run, **outcome.told()})
         self.outcomes[run] = outcome
 
     def _write(self, line: dict[str, object]) -> None:

@@ -20,6 +20,10 @@ class RunError(RuntimeError):
     """Why a run has no results."""
 
 
+class StoppedError(RunError):
+    """The budget that ended a run, which another budget may not."""
+
+
 Line = tuple[tuple[float, float], tuple[float, float]]
 """A straight line between two points."""
 

@@ -20,7 +20,7 @@ from fmpy.model_description import ModelVariable
 
 from .calls import Number, load
 from .quantity import ANGLE, Column, QuantityError
-from .recipe import Recipe, RunError
+from .recipe import Recipe, RunError, StoppedError
 
 STATUS = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"]
 UNWATCHED = 8
@@ -376,7 +376,7 @@ class Instance(Session):
             if turned / (turns - 1e-9) >= 1.0 or point == MOST_POINTS:
                 return
             if point % UNWATCHED == 0 and time.monotonic() - clock > budget:
-                raise RunError(f"stopped after {plain(budget)} s")
+                raise StoppedError(f"stopped after {plain(budget)} s")
 
     def _before(self, now: float, size: float) -> None:
         """What is done before a step from `now` [s] by `size` [s]."""

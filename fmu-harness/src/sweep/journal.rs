@@ -26,6 +26,9 @@ pub enum Outcome {
     Values(Vec<f64>),
     /// The error that ended it.
     Failed(String),
+    /// Its budget ended it. The file has no such line, so that another journal of the study runs it again.
+    #[serde(skip)]
+    Stopped(String),
 }
 
 /// First line of a journal.
@@ -96,15 +99,16 @@ impl Journal {
         self.locked().clone()
     }
 
-    /// Adds a run, in one write.
+    /// Adds a run, in one write; one that was stopped is not written.
     ///
     /// # Errors
     /// If it cannot be written.
     pub fn add(&self, line: &Line) -> Result<()> {
-        let text = serde_json::to_string(line)? + "\n";
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        file.write_all(text.as_bytes()).context("cannot write the journal")?;
-        drop(file);
+        if !matches!(line.outcome, Outcome::Stopped(_)) {
+            let text = serde_json::to_string(line)? + "\n";
+            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+            file.write_all(text.as_bytes()).context("cannot write the journal")?;
+        }
         self.locked().insert(line.run, line.clone());
         Ok(())
     }

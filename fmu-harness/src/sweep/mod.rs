@@ -2,7 +2,7 @@
 //! the same for any number of workers.
 //!
 //! A [`Study`] is read from a file and expanded into a [`Plan`], a table of all runs. Each finished run is one line of
-//! a [`Journal`] and is not run again. The results are compiled from the journal.
+//! a [`Journal`] and is not run again; a run that its budget stopped is. The results are compiled from the journal.
 
 pub mod distribution;
 pub mod journal;
@@ -19,10 +19,11 @@ pub use study::Study;
 use crate::frame::{Column, Frame};
 use crate::host::{Fmu, Setting};
 use crate::inputs;
-use crate::run::{Experiment, Look, Until, march};
+use crate::run::{Ending, Experiment, Look, Until, march};
 use crate::scenes::Scenario;
 use anyhow::{Context, Result, ensure};
 use journal::{Line, Outcome};
+use quantity::Quantity;
 use rayon::prelude::*;
 use serde_json::json;
 use slidercrank::scene::profile::Profile;
@@ -59,10 +60,7 @@ impl Sweep<'_> {
             || Fmu::open(self.fmu),
             |fmu, run| {
                 let fmu = fmu.as_ref().map_err(|error| anyhow::anyhow!("{error}"))?;
-                let outcome = match self.one(fmu, run) {
-                    Ok(values) => Outcome::Values(values),
-                    Err(error) => Outcome::Failed(format!("{error:#}")),
-                };
+                let outcome = self.one(fmu, run).unwrap_or_else(|error| Outcome::Failed(format!("{error:#}")));
                 journal.add(&Line { run, outcome })?;
                 tick();
                 Ok(())
@@ -70,8 +68,8 @@ impl Sweep<'_> {
         )
     }
 
-    /// The quantities of one run.
-    fn one(&self, fmu: &Fmu, run: usize) -> Result<Vec<f64>> {
+    /// The quantities of one run, or that its budget stopped it.
+    fn one(&self, fmu: &Fmu, run: usize) -> Result<Outcome> {
         let settings: Vec<Setting> =
             self.plan.row(run).map(|(name, value)| Setting { name: name.into(), value: value.to_string() }).collect();
         let own = |name: &str| self.plan.row(run).find(|(own, _)| *own == name).map(|(_, value)| value);
@@ -88,13 +86,15 @@ impl Sweep<'_> {
             tolerance: None,
         };
         let march = march(fmu, &experiment, Look::Everywhere, self.budget)?;
-        march.ending.complete(self.budget)?;
-        let trajectory = &march.trajectory;
-        self.study
-            .keep
-            .iter()
-            .map(|(name, quantity)| quantity.of(trajectory, self.study.run.transient).with_context(|| name.clone()))
-            .collect()
+        let stopped = march.ending == Ending::Stopped;
+        match march.ending.complete(self.budget) {
+            Err(why) if stopped => return Ok(Outcome::Stopped(why.to_string())),
+            ended => ended?,
+        }
+        let of = |(name, quantity): (&String, &Quantity)| {
+            quantity.of(&march.trajectory, self.study.run.transient).with_context(|| name.clone())
+        };
+        Ok(Outcome::Values(self.study.keep.iter().map(of).collect::<Result<_>>()?))
     }
 
     /// Everything that another program needs to run the plan in the same way: communication points, inputs over time or
@@ -139,13 +139,13 @@ impl Sweep<'_> {
         for (place, name) in self.study.keep.keys().enumerate() {
             let value = |line: &Line| match &line.outcome {
                 Outcome::Values(values) => values[place],
-                Outcome::Failed(_) => f64::NAN,
+                Outcome::Failed(_) | Outcome::Stopped(_) => f64::NAN,
             };
             frame = frame.reals(name.clone(), lines.values().map(value).collect::<Vec<_>>());
         }
         let status = |line: &Line| match &line.outcome {
             Outcome::Values(_) => "ok".to_owned(),
-            Outcome::Failed(why) => why.clone(),
+            Outcome::Failed(why) | Outcome::Stopped(why) => why.clone(),
         };
         frame = frame.with("status", Column::Texts(lines.values().map(status).collect()));
         frame.origin = origin(self.study, self.scenario);

@@ -132,7 +132,7 @@ impl<'a> Study<'a> {
             self.joints.iter().zip(clearances).flat_map(|(joint, own)| [*own, joint.radii(*own)[0]]).collect();
         let known = journal.lines().into_values().find_map(|line| match line.outcome {
             Outcome::Values(values) => self.read(strokes, clearances, values.strip_prefix(shape.as_slice())?),
-            Outcome::Failed(_) => None,
+            Outcome::Failed(_) | Outcome::Stopped(_) => None,
         });
         if let Some(measured) = known {
             return Ok(measured);

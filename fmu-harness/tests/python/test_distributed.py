@@ -250,3 +250,5 @@ def test_an_fmu_with_another_table_of_modes_is_refused(write, tmp_path):
 def test_a_run_that_takes_too_long_is_a_row_that_says_so(write, tmp_path, client):
     found = distributed.run(write(WORN_PIN), fmu("wornpin"), client, tmp_path, budget=0.0)
     assert (found["status"] == "stopped after 0 s").sum() == (found["status"].str.startswith("stopped")).sum() > 0
+    again = distributed.run(write(WORN_PIN), fmu("wornpin"), client, tmp_path)
+    assert (again["status"] == "ok").all()
