@@ -90,6 +90,30 @@ fn what_is_wrong_in_a_study_is_named() {
         ("position =", "run =", "`run` in [keep]"),
         ("position =", "status =", "`status` in [keep]"),
         ("position =", "\"slider.mass\" =", "`slider.mass` in [keep]"),
+        ("count = 3", "counts = 3", "unknown field `counts`, expected one of `from`, `to`, `count`, `logarithmic`"),
+        ("[\"hertz\", 3]", "\"hertz\"", "expected a list of values, or a range { from, to, count, logarithmic }"),
+        ("[\"hertz\", 3]", "[\"hertz\", true]", "joint.C.law = true is not allowed: 1 (hertz)"),
+        ("[\"hertz\", 3]", "[[3]]", "expected a number in SI units, a text with"),
+        (
+            "\"joint.C.law\" = [\"hertz\", 3]",
+            "\"rod.flexible.bending_modes\" = [1, 2.5]",
+            "bending_modes = 2.5 is not allowed: an integer, 0 to 8",
+        ),
+        ("count = 3", "count = 1", "`joint.C.clearance`: a range needs at least 2 values, not 1"),
+        (
+            "\"joint.C.clearance\" = { from = \"20 um\", to = \"80 um\"",
+            "gravity = { from = -1, to = 1",
+            "`gravity`: logarithmic spacing needs",
+        ),
+        ("step = 1e-4", "step = \"10 kg\"", "\"10 kg\": `kg` measures something else; units are s, ms"),
+        ("step = 1e-4", "step = true", "true is no number"),
+        (
+            "reduce = \"rms\"",
+            "reduce = \"rms\", at = \"90 mm\"",
+            "\"90 mm\": `mm` measures something else; units are rad",
+        ),
+        ("name = \"own\"", "name = \"my/own\"", "name = \"my/own\" is not allowed"),
+        ("name = \"own\"", "name = 'my\\own'", "is not allowed"),
         ("[grid]", "[gird]", "gird"),
         ("\"slider.mass\"", "\"joint.C.clearance\"", "both"),
         ("count = 3", "count = 100000000", "10000000"),
@@ -98,6 +122,19 @@ fn what_is_wrong_in_a_study_is_named() {
         let error = study(&STUDY.replace(from, to)).expect_err(word);
         assert!(format!("{error:#}").contains(word), "{word}: {error:#}");
     }
+}
+
+#[test]
+fn values_have_units_and_truth_values_their_names() {
+    let told = STUDY
+        .replace("step = 1e-4", "step = \"100 us\"")
+        .replace("reduce = \"rms\"", "reduce = \"rms\", at = \"90 deg\"")
+        .replace("[random]", "\"energy.audit\" = [true, false]\n[random]");
+    let (told, plan) = study(&told).expect("a plan");
+    assert_eq!((told.run.step, told.keep["position"].at), (1e-4, Some(std::f64::consts::FRAC_PI_2)));
+    let place = plan.names().iter().position(|name| name == "energy.audit").expect("a parameter");
+    assert_eq!([0, plan.len() - 1].map(|run| plan.value(run, place)), [1.0, 0.0]);
+    assert_eq!((told.keep["peak_force"].at, plan.len()), (None, 24));
 }
 
 #[test]

@@ -49,10 +49,10 @@ impl Range {
     pub fn new(name: &str, from: f64, to: f64, count: usize, logarithmic: bool) -> Result<Self> {
         let parameter = Parameter::named(name).with_context(|| format!("there is no parameter `{name}`"))?;
         ensure!(matches!(parameter.kind, Kind::Real { .. }), "`{name}` is not a real number");
-        ensure!(count >= 2, "a range needs at least 2 values, not {count}");
+        ensure!(count >= 2, "`{name}`: a range needs at least 2 values, not {count}");
         ensure!(
             !logarithmic || (from > 0.0 && to > 0.0),
-            "logarithmic spacing needs values above 0, not {from} and {to}"
+            "`{name}`: logarithmic spacing needs values above 0, not {from} and {to}"
         );
         parameter.admit(from)?;
         parameter.admit(to)?;

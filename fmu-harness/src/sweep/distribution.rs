@@ -1,11 +1,10 @@
 //! Distributions in SI units: random values, mean and standard deviation.
 
 use super::study::{Distribution, Number};
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, Normal, Uniform};
 use slidercrank::scene::parameter::{Kind, Parameter};
-use slidercrank::scene::units::quantity;
 
 /// Number of draws outside a truncated range after which the range counts as empty.
 const TRIES: usize = 10_000;
@@ -58,11 +57,7 @@ impl Law {
             }
             Distribution::Normal { mean, deviation, min, max } => {
                 // A deviation has the parameter's unit, but not its bounds.
-                let deviation = match deviation {
-                    Number::Plain(deviation) => *deviation,
-                    Number::Text(text) => quantity(text, parameter.unit())
-                        .map_err(|error| anyhow!("`{name}`: deviation = \"{text}\": {error}"))?,
-                };
+                let deviation = deviation.in_unit(parameter.unit()).with_context(|| format!("`{name}`: deviation"))?;
                 ensure!(
                     deviation >= 0.0 && deviation.is_finite(),
                     "`{name}`: deviation = {deviation} is not allowed: 0 or more, and finite"

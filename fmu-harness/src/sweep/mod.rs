@@ -7,6 +7,7 @@
 pub mod distribution;
 pub mod journal;
 pub mod linear;
+mod literal;
 pub mod plan;
 pub mod quantity;
 pub mod study;

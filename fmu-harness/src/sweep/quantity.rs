@@ -1,5 +1,6 @@
 //! One number of a run: an output, reduced over time, or over its values at a crank angle.
 
+use super::literal::radians;
 use crate::run::ANGLE;
 use crate::trajectory::Trajectory;
 use anyhow::{Result, anyhow, ensure};
@@ -16,6 +17,7 @@ pub struct Quantity {
     /// The reduction of many values to one.
     pub reduce: Reduction,
     /// [rad] If set, only the values at this crank angle count, interpolated between communication points.
+    #[serde(default, deserialize_with = "radians")]
     pub at: Option<f64>,
 }
 

@@ -1,11 +1,13 @@
 //! Study files: a scene, values of parameters, and the quantities to keep of each run.
 
+use super::literal::seconds;
 use super::quantity::Quantity;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use serde::{Deserialize, Serialize};
 use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::units;
 use std::collections::BTreeMap;
+use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -60,22 +62,23 @@ pub struct Run {
     #[serde(default)]
     pub transient: f64,
     /// [s] Communication step.
+    #[serde(deserialize_with = "seconds")]
     pub step: f64,
 }
 
-/// A number in SI units, or a string with a unit.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(untagged)]
+/// A value of a parameter.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Number {
     /// A number in SI units.
     Plain(f64),
-    /// A number with a unit, such as `"20 um"`.
+    /// A number with a unit, such as `"20 um"`, or an item of a list.
     Text(String),
+    /// A truth value.
+    Boolean(bool),
 }
 
 /// Values of one parameter.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(untagged)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     /// A list.
     List(Vec<Number>),
@@ -147,6 +150,11 @@ impl Study {
             "run.transient = {transient}: it must be at least 0 and below run.turns"
         );
         ensure!(step > 0.0 && step <= 1.0, "run.step = {step} s: it must be above 0 and at most 1 s");
+        ensure!(
+            !self.name.is_empty() && !self.name.contains(['/', '\\']),
+            "name = \"{}\" is not allowed: it is part of the names of files, and not empty, without / and \\",
+            self.name
+        );
         ensure!(!self.keep.is_empty(), "[keep] is empty: a study must keep at least one quantity");
         ensure!(
             self.random.is_empty() || self.draws > 0,
@@ -184,24 +192,53 @@ pub fn parameter(name: &str) -> Result<&'static Parameter> {
 }
 
 impl Number {
+    /// A number in this SI unit.
+    ///
+    /// # Errors
+    /// If it is no number, or has a wrong unit.
+    pub fn in_unit(&self, unit: &str) -> Result<f64> {
+        match self {
+            Self::Plain(value) => Ok(*value),
+            Self::Text(text) => units::quantity(text, unit)
+                .map_err(|error| anyhow!("{self}: {error}; units are {}", units::alternatives(unit).join(", "))),
+            Self::Boolean(_) => bail!("{self} is no number"),
+        }
+    }
+
     /// The value of a parameter in SI units.
     ///
     /// # Errors
     /// If the unit is wrong, or if the parameter cannot have this value.
     pub fn value(&self, parameter: &Parameter) -> Result<f64> {
-        let value = match self {
-            Self::Plain(value) => *value,
-            Self::Text(text) => match parameter.kind {
-                Kind::Real { unit, .. } => units::quantity(text, unit).with_context(|| parameter.name.to_owned())?,
-                Kind::Enumeration { items, .. } => match items.iter().find(|(name, _)| name == text) {
-                    Some((_, value)) => f64::from(*value),
-                    None => bail!("{} = \"{text}\" is not allowed: {}", parameter.name, parameter.allowed()),
-                },
-                _ => bail!("{} = \"{text}\" is not allowed: {}", parameter.name, parameter.allowed()),
-            },
+        let (name, kind) = (parameter.name, &parameter.kind);
+        let found = match (self, kind) {
+            (Self::Plain(value), _) => Some(*value),
+            (Self::Text(_), Kind::Real { unit, .. }) => Some(self.in_unit(unit).with_context(|| name.to_owned())?),
+            (Self::Text(text), Kind::Enumeration { items, .. }) => {
+                items.iter().find(|(name, _)| name == text).map(|(_, value)| f64::from(*value))
+            }
+            (Self::Boolean(value), Kind::Boolean { .. }) => Some(f64::from(u8::from(*value))),
+            _ => None,
         };
+        let value = found.with_context(|| format!("{name} = {self} is not allowed: {}", parameter.allowed()))?;
+        let is_integer = matches!(kind, Kind::Integer { .. });
+        ensure!(
+            !is_integer || value.fract() == 0.0,
+            "{name} = {value} is not allowed: an integer, {}",
+            parameter.allowed()
+        );
         parameter.admit(value)?;
         Ok(value)
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Plain(value) => write!(f, "{value}"),
+            Self::Text(text) => write!(f, "\"{text}\""),
+            Self::Boolean(value) => write!(f, "{value}"),
+        }
     }
 }
 
