@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 ANGLE = "crank.angle"
 """The output that counts turns."""
+TIME = "time"
+"""[s] The communication points, beside the outputs."""
 
 Column = NDArray[numpy.float64]
 
@@ -54,6 +56,31 @@ REDUCTIONS = {
 """How many values become one."""
 
 
+def weighted(values: Column, weights: Column) -> float:
+    whole = total(weights)
+    return total(weights * values) / whole if whole else math.nan
+
+
+def weighted_deviation(values: Column, weights: Column) -> float:
+    off = values - weighted(values, weights)
+    return math.sqrt(weighted(off * off, weights))
+
+
+OVER_TIME: dict[str, Callable[[Column, Column], float]] = {
+    "mean": weighted,
+    "rms": lambda values, weights: math.sqrt(weighted(values * values, weights)),
+    "deviation": weighted_deviation,
+}
+"""Those of values that stand for some time each."""
+
+
+def weights_of(times: Column) -> Column:
+    """[s] The time that each of these instants stands for, as in the trapezoidal rule: half of the intervals beside it."""
+    ends = numpy.concatenate([times[:1], times, times[-1:]])
+    weights: Column = (ends[2:] - ends[:-2]) / 2.0
+    return weights
+
+
 def _one(values: Column, place: int, share: float = 1.0) -> Column:
     shares = numpy.zeros(len(values))
     shares[place] = share
@@ -76,6 +103,15 @@ SHARES: dict[str, Callable[[Column], Column]] = {
     "last": lambda values: _one(values, -1),
 }
 """Derivatives of each reduction by the values."""
+
+SHARES_OVER_TIME: dict[str, Callable[[Column, Column], Column]] = {
+    "mean": lambda values, weights: weights / total(weights),
+    "rms": lambda values, weights: weights * values / (total(weights) * OVER_TIME["rms"](values, weights)),
+    "deviation": lambda values, weights: weights
+    * (values - weighted(values, weights))
+    / (total(weights) * weighted_deviation(values, weights)),
+}
+"""Derivatives of those of values that stand for some time each."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +137,10 @@ class Quantity:
         values, first = self._values(columns), self._first(columns, transient)
         angles, values = columns[ANGLE][first:], values[first:]
         with numpy.errstate(all="ignore"):
-            found = REDUCTIONS[self.reduce](values if self.at is None else passages(angles, values, self.at))
+            if self.at is None and self.reduce in OVER_TIME:
+                found = OVER_TIME[self.reduce](values, weights_of(columns[TIME][first:]))
+            else:
+                found = REDUCTIONS[self.reduce](values if self.at is None else passages(angles, values, self.at))
         if not math.isfinite(found):
             shown = "NaN" if math.isnan(found) else str(found)
             raise QuantityError(f"{self.of} of {len(values)} values is {shown}")
@@ -115,7 +154,11 @@ class Quantity:
             angles, by_angles = columns[ANGLE][first:], slopes[ANGLE][first:]
             by = passage_slopes(angles, values, by_angles, by, self.at)
             values = passages(angles, values, self.at)
-        found: Column = SHARES[self.reduce](values) @ by
+        if self.at is None and self.reduce in OVER_TIME:
+            shares = SHARES_OVER_TIME[self.reduce](values, weights_of(columns[TIME][first:]))
+        else:
+            shares = SHARES[self.reduce](values)
+        found: Column = shares @ by
         if not numpy.isfinite(found).all():
             raise QuantityError(f"{self.of} has no finite derivatives")
         return found

@@ -19,7 +19,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelVariable
 
 from .calls import Number, load
-from .quantity import ANGLE, Column, QuantityError
+from .quantity import ANGLE, TIME, Column, QuantityError
 from .recipe import Recipe, RunError, StoppedError
 
 STATUS = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"]
@@ -344,6 +344,8 @@ class Instance(Session):
         self.selections = [select(kind, group) for kind, group in groups.items() if group]
         self.angle = select(self.calls.real, [unit.outputs[ANGLE]])
         self.angle_now = 0.0
+        self.times = [0.0]
+        """[s] The communication points."""
         self.inputs = self._references(own.name for own in recipe.inputs)
         self.values, self.set_real = (ctypes.c_double * len(recipe.inputs))(), self.calls.access("Set", self.calls.real)
         self.wants_angle = any(own.wants_angle for own in recipe.inputs)
@@ -368,6 +370,7 @@ class Instance(Session):
             except FMICallException as error:
                 raise RunError(self._answer(self._stepping(now, then - now), error)) from error
             self._record()
+            self.times.append(then)
             turned = abs(real[0] - start) / math.tau
             if then >= latest and turned < turns:
                 made = f"the crank has made {turned:.3f} of {plain(turns)} turns by t = {plain(then)} s"
@@ -383,7 +386,8 @@ class Instance(Session):
 
     def columns(self) -> dict[str, Column]:
         """What was recorded."""
-        return {name: column for selection in self.selections for name, column in selection.columns().items()}
+        outputs = {name: column for selection in self.selections for name, column in selection.columns().items()}
+        return {TIME: numpy.array(self.times), **outputs}
 
     def _apply_inputs(self, now: float) -> None:
         if not self.values:

@@ -18,7 +18,8 @@ use std::time::Duration;
 /// Finished runs are recorded in sweep-NAME.jsonl and are not run again, so that a study that was killed continues. A
 /// run that fails does not stop the others, and one that takes longer than its budget is run again when the command is
 /// repeated. Results do not depend on the number of workers. Writes sweep-NAME.parquet, .csv and a summary,
-/// sweep-NAME.md: mean, standard deviation, quantiles and a confidence interval of the mean for each quantity.
+/// sweep-NAME.md: mean, standard deviation, quantiles and, of random draws, a confidence interval of the mean for
+/// each quantity.
 #[derive(Args)]
 pub struct Sweep {
     /// Study: a .toml file; examples are in fmu-harness/studies/

@@ -64,6 +64,6 @@ impl Response {
             machine.advance_turned(start + TAU * sample as f64 / SAMPLES as f64)?;
             values.push(self.output.value(&machine.outputs()));
         }
-        Ok(self.reduce.of(&values))
+        Ok(self.reduce.over(&values, &vec![1.0; values.len()]))
     }
 }

@@ -23,6 +23,7 @@ pub mod response;
 pub mod say;
 pub mod sensitivity;
 pub mod ssp;
+mod student;
 pub mod study;
 pub mod summary;
 pub mod table;

@@ -1,10 +1,10 @@
 //! Results of a study.
 
+use super::student::student;
 use super::table::Table;
 use super::units::{self, significant};
 use crate::frame::{Column, Frame};
-use crate::realtime::quantile;
-use crate::sweep::linear::{NORMAL, deviation};
+use crate::sweep::linear::deviation;
 use crate::sweep::quantity::Reduction;
 use crate::sweep::{Linear, Plan, Study};
 
@@ -20,6 +20,15 @@ fn known(number: f64) -> String {
     if number.is_finite() { significant(number) } else { "–".into() }
 }
 
+/// Quantile `share` of numbers in ascending order, on the straight line between the two beside it (type 7 of Hyndman and
+/// Fan, The American Statistician 50, 1996); NaN of no numbers.
+fn quantile(numbers: &[f64], share: f64) -> f64 {
+    let place = share * numbers.len().saturating_sub(1) as f64;
+    let at = |place: f64| numbers.get(place as usize).copied().unwrap_or(f64::NAN);
+    let (before, after) = (at(place.floor()), at(place.ceil()));
+    before + place.fract() * (after - before)
+}
+
 /// Statistics of each quantity over all runs that did not fail.
 pub fn summary(study: &Study, frame: &Frame) -> Table {
     let mut table = Table::default();
@@ -29,16 +38,19 @@ pub fn summary(study: &Study, frame: &Frame) -> Table {
         let mut kept: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
         kept.sort_by(f64::total_cmp);
         let (mean, deviation) = (Reduction::Mean.of(&kept), Reduction::Deviation.of(&kept));
-        let half = NORMAL * deviation / (kept.len() as f64).sqrt();
+        // The runs of a grid are no sample: their mean has no confidence interval.
+        let count = if study.is_sample() { kept.len() as f64 } else { f64::NAN };
+        let half = student(count - 1.0) * deviation / count.sqrt();
         let [least, low, median, high, greatest] = [0.0, 0.05, 0.5, 0.95, 1.0].map(|share| quantile(&kept, share));
-        let numbers = [mean, half, deviation, least, low, median, high, greatest].map(known);
-        let [mean, half, deviation, least, low, median, high, greatest] = numbers;
+        let half = if half.is_finite() { format!("± {}", significant(half)) } else { known(half) };
+        let numbers = [mean, deviation, least, low, median, high, greatest].map(known);
+        let [mean, deviation, least, low, median, high, greatest] = numbers;
         let runs = kept.len().to_string();
         if kept.is_empty() {
             table.gap(vec![name.clone(), runs], "no run came to its end");
             continue;
         }
-        table.row([name, &runs, &mean, &format!("± {half}"), &deviation, &least, &low, &median, &high, &greatest]);
+        table.row([name, &runs, &mean, &half, &deviation, &least, &low, &median, &high, &greatest]);
     }
     table
 }
@@ -104,5 +116,30 @@ pub fn failures(frame: &Frame) -> String {
     match failed.first() {
         None => format!("all {} runs came to their end", status.len()),
         Some((run, why)) => format!("{} of {} runs failed; run {run}: {why}", failed.len(), status.len()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_few_drawn_runs_have_a_wider_interval_and_those_of_a_grid_have_none() {
+        let text = |parameters: &str| {
+            format!(
+                "name = 'own'\nscene = 'wornpin'\n{parameters}\n[run]\nturns = 1\nstep = 1e-4\n\
+                 [keep]\nv = {{ of = 'slider.v', reduce = 'last' }}"
+            )
+        };
+        let drawn = text("draws = 4\nrandom.gravity = { uniform = { min = 1, max = 2 } }");
+        let frame = Frame::default().reals("v", [4.0, 1.0, 3.0, 2.0, f64::NAN]);
+        for (text, half) in [(drawn, "± 2.052"), (text("grid.gravity = [1, 2]"), "–")] {
+            let study: Study = toml::from_str(&text).expect("a study");
+            let table = summary(&study, &frame);
+            let row = &table.lines()[1];
+            // Mean, its interval and the deviation; then least, 5 %, median, 95 % and greatest.
+            assert_eq!(row[1..], ["4", "2.500", half, "1.291", "1.000", "1.150", "2.500", "3.850", "4.000"]);
+        }
+        assert!(quantile(&[], 0.5).is_nan() && quantile(&[7.0], 0.95) == 7.0);
     }
 }

@@ -120,6 +120,14 @@ impl Wanted {
         Ok(Self { text: name.into(), of: differentiable(of)?, at: at.map(At::Angle), reduce: *reduce })
     }
 
+    /// Reduces its values: at a crank angle those of a sample, else of instants that stand for equal times.
+    fn value(&self, values: &[f64]) -> f64 {
+        match self.at {
+            Some(_) => self.reduce.of(values),
+            None => self.reduce.over(values, &vec![1.0; values.len()]),
+        }
+    }
+
     /// What outputs, their rates and their derivatives at a time [s] say about it; with `at_angle` its derivatives are those
     /// at a constant crank angle.
     fn reading(
@@ -249,7 +257,7 @@ impl Experiment<'_> {
             let time = readings.last().map_or(0.0, |reading| reading.time);
             let values: Vec<f64> = readings.iter().map(|reading| reading.value).collect();
             let slopes = readings.into_iter().map(|reading| reading.slopes).collect::<Result<Vec<_>>>();
-            let (value, slopes) = reduced(wanted.reduce, &values, slopes, count);
+            let (value, slopes) = reduced(wanted, &values, slopes, count);
             Sensitivity { wanted: wanted.clone(), value, time, slopes }
         });
         let rows = rows.collect();
@@ -272,7 +280,7 @@ impl Experiment<'_> {
         let mut machine = Machine::start(&file)?;
         let readings = self.readings(&file, window, wanted, &mut machine, |_| Ok(vec![]))?;
         let value = |(wanted, readings): (&Wanted, Vec<Reading>)| {
-            wanted.reduce.of(&readings.iter().map(|reading| reading.value).collect::<Vec<_>>())
+            wanted.value(&readings.iter().map(|reading| reading.value).collect::<Vec<_>>())
         };
         Ok(wanted.iter().zip(readings).map(value).collect())
     }
@@ -378,8 +386,8 @@ fn passages(file: &SceneFile, angle: f64, [begin, end]: [f64; 2]) -> Result<Vec<
 }
 
 /// Value and derivatives of a reduced list.
-fn reduced(reduce: Reduction, values: &[f64], slopes: Result<Vec<Vec<f64>>>, count: usize) -> (f64, Result<Vec<f64>>) {
-    let value = reduce.of(values);
+fn reduced(wanted: &Wanted, values: &[f64], slopes: Result<Vec<Vec<f64>>>, count: usize) -> (f64, Result<Vec<f64>>) {
+    let value = wanted.value(values);
     let number = values.len() as f64;
     let mean = values.iter().sum::<f64>() / number;
     let place = |key: &dyn Fn(f64) -> f64| {
@@ -387,7 +395,7 @@ fn reduced(reduce: Reduction, values: &[f64], slopes: Result<Vec<Vec<f64>>>, cou
     };
     // Each value's share of the derivative.
     let mut shares = vec![0.0; values.len()];
-    match reduce {
+    match wanted.reduce {
         Reduction::Last => *shares.last_mut().unwrap_or(&mut 0.0) = 1.0,
         Reduction::Max => shares[place(&|value| value)] = 1.0,
         Reduction::Min => shares[place(&|value| -value)] = 1.0,
@@ -402,7 +410,8 @@ fn reduced(reduce: Reduction, values: &[f64], slopes: Result<Vec<Vec<f64>>>, cou
         Reduction::Mean => shares.fill(1.0 / number),
         Reduction::Rms => shares.iter_mut().zip(values).for_each(|(share, one)| *share = one / (number * value)),
         Reduction::Deviation => {
-            shares.iter_mut().zip(values).for_each(|(share, one)| *share = (one - mean) / ((number - 1.0) * value))
+            let freedom = if wanted.at.is_some() { number - 1.0 } else { number };
+            shares.iter_mut().zip(values).for_each(|(share, one)| *share = (one - mean) / (freedom * value));
         }
     }
     let sum = |slopes: Vec<Vec<f64>>| {

@@ -21,7 +21,8 @@ pub struct Quantity {
     pub at: Option<f64>,
 }
 
-/// The reduction of many values to one. Sums run from the first to the last value.
+/// The reduction of many values to one. Sums run from the first to the last value. Over time, mean, root mean square and
+/// standard deviation are those of the function between the communication points, by the trapezoidal rule.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reduction {
@@ -37,7 +38,7 @@ pub enum Reduction {
     Mean,
     /// Root mean square.
     Rms,
-    /// Standard deviation of a sample.
+    /// Standard deviation: over time, or of a sample.
     Deviation,
     /// Last value.
     Last,
@@ -70,12 +71,19 @@ impl Quantity {
         let first = angles.iter().position(|angle| (angle - start).abs() >= TAU * transient).unwrap_or(angles.len());
         let (angles, values) = (&angles[first..], &values[first..]);
         let value = match self.at {
-            None => self.reduce.of(values),
+            None => self.reduce.over(values, &shares(&trajectory.times()[first..])),
             Some(at) => self.reduce.of(&passages(angles, values, at)),
         };
         ensure!(value.is_finite(), "{} of {} values is {value}", self.of, values.len());
         Ok(value)
     }
+}
+
+/// [s] The time that each of these instants stands for: half of the intervals on both sides, so that sums are those of the
+/// trapezoidal rule.
+fn shares(times: &[f64]) -> Vec<f64> {
+    let last = times.len().saturating_sub(1);
+    (0..times.len()).map(|i| (times[last.min(i + 1)] - times[i.saturating_sub(1)]) / 2.0).collect()
 }
 
 /// Values at the angle `at`, in either direction of rotation. A run that starts there has not passed it, one that ends there
@@ -96,6 +104,23 @@ fn passages(angles: &[f64], values: &[f64], at: f64) -> Vec<f64> {
 }
 
 impl Reduction {
+    /// Reduces values that stand for these shares of time, in any unit. The result of no time is NaN for means.
+    pub fn over(self, values: &[f64], shares: &[f64]) -> f64 {
+        let whole: f64 = shares.iter().sum();
+        let mean = |of: &dyn Fn(f64) -> f64| {
+            values.iter().zip(shares).map(|(value, share)| share * of(*value)).sum::<f64>() / whole
+        };
+        match self {
+            Self::Mean => mean(&|value| value),
+            Self::Rms => mean(&|value| value * value).sqrt(),
+            Self::Deviation => {
+                let middle = mean(&|value| value);
+                mean(&|value| (value - middle) * (value - middle)).sqrt()
+            }
+            Self::Min | Self::Max | Self::Peak | Self::Range | Self::Last => self.of(values),
+        }
+    }
+
     /// Reduces a list. The result of an empty list is NaN.
     pub fn of(self, values: &[f64]) -> f64 {
         let count = values.len() as f64;
@@ -151,6 +176,25 @@ mod tests {
         assert_eq!(Reduction::Deviation.of(&[1.0, 2.0, 6.0]), 7f64.sqrt());
         assert_eq!(Reduction::Rms.of(&[1.0, -7.0]), 5.0);
         assert!([&[][..], &[1.0]].into_iter().all(|few| Reduction::Deviation.of(few).is_nan()));
+    }
+
+    #[test]
+    fn over_whole_turns_a_sine_has_the_moments_of_its_integrals() {
+        let mut trajectory = Trajectory::new([ANGLE, "sine"].map(String::from));
+        // Eight points of a turn, both ends of three turns among them; then one more, nearer to its neighbour.
+        for i in 0..=24_i32 {
+            let turns = f64::from(i) / 8.0;
+            trajectory.push(turns, &[TAU * turns, 2.0 + (TAU * turns).cos()]);
+        }
+        let of = |trajectory: &Trajectory, reduce| {
+            Quantity { of: "sine".into(), reduce, at: None }.of(trajectory, 1.0).expect("a value")
+        };
+        let known = [(Reduction::Mean, 2.0), (Reduction::Rms, 4.5f64.sqrt()), (Reduction::Deviation, 0.5f64.sqrt())];
+        for (reduce, known) in known {
+            assert!((of(&trajectory, reduce) - known).abs() < 1e-14, "{reduce:?}");
+        }
+        trajectory.push(3.01, &[TAU * 3.01, 3.0]);
+        assert!((of(&trajectory, Reduction::Mean) - (2.0 * 2.0 + 0.01 * 3.0) / 2.01).abs() < 1e-14);
     }
 
     #[test]

@@ -173,6 +173,11 @@ impl Study {
         Ok(())
     }
 
+    /// Whether its runs are a random sample: all parameters are drawn.
+    pub fn is_sample(&self) -> bool {
+        !self.random.is_empty() && self.grid.is_empty() && self.table.is_none()
+    }
+
     /// Name of a shipped scene, or the path of a scene file.
     pub fn scene(&self) -> String {
         if self.scene.ends_with(".toml") {

@@ -5,10 +5,10 @@ import math
 import numpy
 import pytest
 
-from slidercrank.quantity import ANGLE, REDUCTIONS, Quantity, QuantityError, passages, total
+from slidercrank.quantity import ANGLE, REDUCTIONS, TIME, Quantity, QuantityError, passages, total
 
 TURNS = numpy.arange(41) / 10
-COLUMNS = {ANGLE: math.tau * TURNS, "v": TURNS * TURNS, "f.x": 3 * TURNS, "f.y": -4 * TURNS}
+COLUMNS = {TIME: TURNS, ANGLE: math.tau * TURNS, "v": TURNS * TURNS, "f.x": 3 * TURNS, "f.y": -4 * TURNS}
 
 
 def value(of, reduce, at=None, transient=0.0):
@@ -31,6 +31,16 @@ def test_a_sum_runs_from_the_first_to_the_last():
     for value in values:
         wanted += value
     assert total(values) == wanted != math.fsum(values)
+
+
+def test_over_whole_turns_a_sine_has_the_moments_of_its_integrals():
+    # Eight points of a turn, both ends of three turns among them; then one more, nearer to its neighbour.
+    turns = numpy.arange(25) / 8
+    columns = {TIME: turns, ANGLE: math.tau * turns, "sine": 2.0 + numpy.cos(math.tau * turns)}
+    for reduce, known in [("mean", 2.0), ("rms", math.sqrt(4.5)), ("deviation", math.sqrt(0.5))]:
+        assert Quantity("sine", reduce).value(columns, 1.0) == pytest.approx(known, rel=1e-14)
+    columns = {name: numpy.append(column, last) for (name, column), last in zip(columns.items(), [3.01, math.tau * 3.01, 3.0])}
+    assert Quantity("sine", "mean").value(columns, 1.0) == pytest.approx((2.0 * 2.0 + 0.01 * 3.0) / 2.01, rel=1e-14)
 
 
 def test_a_vector_counts_by_its_length():
@@ -60,7 +70,8 @@ def test_slopes_are_those_of_differences(of, reduce, at):
     base = {"v": random.standard_normal(41), "f.x": random.standard_normal(41), "f.y": random.standard_normal(41)}
     base[ANGLE] = math.tau * TURNS + 0.01
     slopes = {name: random.standard_normal((41, 2)) for name in base}
-    moved = lambda place, size: {name: base[name] + size * slopes[name][:, place] for name in base}
+    moved = lambda place, size: {name: base[name] + size * slopes[name][:, place] for name in slopes} | {TIME: TURNS}
+    base[TIME] = TURNS
     own = Quantity(of, reduce, at)
     found = own.slope(base, slopes, 0.55)
     for place in range(2):
