@@ -155,6 +155,15 @@ fn a_setting_or_a_column_takes_the_place_of_one_input_and_leaves_the_others() {
 }
 
 #[test]
+fn a_run_of_too_many_communication_points_is_refused_before_it_starts() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    for (option, number) in [("--step", "1e-12"), ("--turns", "1e9"), ("--stop", "1e6")] {
+        let found = wrong(&["run", "--scene", "ideal", option, number], folder.path());
+        assert!(found.is_some_and(|text| text.contains("more than 20000000 communication points")), "{option}");
+    }
+}
+
+#[test]
 fn a_reader_that_goes_away_takes_nothing_with_it() {
     let folder = tempfile::tempdir().expect("a temporary directory");
     let arguments = ["sensitivity", "--scene", "wornpin", "--turns", "0.05", "--of", "slider.v", "--to", "rod.length"];

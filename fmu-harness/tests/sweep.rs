@@ -1,6 +1,7 @@
 //! Studies: what is run, once, whatever kills or splits them.
 
 use crate::program::stock;
+use fmu_harness::frame::{Column, Frame};
 use fmu_harness::scenes::Scenario;
 use fmu_harness::sweep::journal::path;
 use fmu_harness::sweep::{Journal, Plan, Study, Sweep};
@@ -43,6 +44,21 @@ fn study(text: &str) -> anyhow::Result<(Study, Plan)> {
     let study = Study::read(&write(directory.path(), text))?;
     let plan = Plan::of(&study)?;
     Ok((study, plan))
+}
+
+/// The scene of the study, and its package in a directory.
+fn packaged(directory: &Path) -> (Scenario, PathBuf) {
+    let scenario = Scenario::find("wornpin").expect("a scene");
+    let fmu = directory.join("wornpin.fmu");
+    stock().package(&scenario).expect("a package").save(&fmu).expect("a file");
+    (scenario, fmu)
+}
+
+/// What became of each run.
+fn statuses(frame: &Frame) -> Vec<String> {
+    let status = frame.columns().iter().find(|(name, _)| name == "status").map(|(_, column)| column.clone());
+    let Some(Column::Texts(status)) = status else { unreachable!("a status") };
+    status
 }
 
 #[test]
@@ -172,9 +188,7 @@ fn the_shipped_studies_can_be_planned() {
 fn killed_or_split_a_study_gives_the_same_and_runs_nothing_twice() {
     let directory = tempfile::tempdir().expect("a directory");
     let (study, plan) = study(STUDY).expect("a plan");
-    let scenario = Scenario::find("wornpin").expect("a scene");
-    let fmu = directory.path().join("wornpin.fmu");
-    stock().package(&scenario).expect("a package").save(&fmu).expect("a file");
+    let (scenario, fmu) = packaged(directory.path());
     let budget = Duration::from_secs(60);
     let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };
     let file = path(directory.path(), "own");
@@ -209,18 +223,27 @@ fn what_the_budget_stopped_is_run_again() {
     let directory = tempfile::tempdir().expect("a directory");
     let (study, plan) =
         study(&STUDY.replace("[\"hertz\", 3]", "[\"hertz\"]").replace("count = 3", "count = 2")).expect("a plan");
-    let scenario = Scenario::find("wornpin").expect("a scene");
-    let fmu = directory.path().join("wornpin.fmu");
-    stock().package(&scenario).expect("a package").save(&fmu).expect("a file");
+    let (scenario, fmu) = packaged(directory.path());
     let ok = [Duration::ZERO, Duration::from_secs(60)].map(|budget| {
         let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };
         let journal = Journal::open(&path(directory.path(), "own"), "digest").expect("a journal");
         sweep.run(&journal, || {}).expect("a study");
         let frame = sweep.frame(&journal).expect("a table");
-        let peaks = frame.column("peak_force").expect("a quantity").to_vec();
-        peaks.into_iter().filter(|peak| peak.is_finite()).count()
+        statuses(&frame).iter().filter(|status| *status == "ok").count()
     });
     assert_eq!(ok, [0, plan.len()]);
+}
+
+#[test]
+fn a_run_of_too_many_communication_points_fails_at_once() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let (study, plan) = study(&STUDY.replace("step = 1e-4", "step = 1e-12")).expect("a plan");
+    let (scenario, fmu) = packaged(directory.path());
+    let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget: Duration::MAX };
+    let journal = Journal::open(&path(directory.path(), "own"), "digest").expect("a journal");
+    sweep.run(&journal, || {}).expect("a study");
+    let status = statuses(&sweep.frame(&journal).expect("a table"));
+    assert!(status.iter().all(|status| status.contains("more than 20000000 communication points")), "{status:?}");
 }
 
 #[test]
@@ -232,15 +255,12 @@ fn a_run_that_fails_stops_no_other() {
         "\"solver.method\" = [\"verner7\", \"moreau\"]\n\"joint.C.friction.law\" = [\"lugre\"]\n\"joint.C.friction.static_coefficient\" = [0.2]\n[random]",
     );
     let (study, plan) = study(&text).expect("a plan");
-    let scenario = Scenario::find("wornpin").expect("a scene");
-    let fmu = directory.path().join("wornpin.fmu");
-    stock().package(&scenario).expect("a package").save(&fmu).expect("a file");
+    let (scenario, fmu) = packaged(directory.path());
     let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget: Duration::from_secs(60) };
     let journal = Journal::open(&path(directory.path(), "own"), "digest").expect("a journal");
     sweep.run(&journal, || {}).expect("a study");
     let frame = sweep.frame(&journal).expect("a table");
-    let status = frame.columns().iter().find(|(name, _)| name == "status").map(|(_, column)| column.clone());
-    let Some(fmu_harness::frame::Column::Texts(status)) = status else { unreachable!("a status") };
+    let status = statuses(&frame);
     let failed = status.iter().filter(|status| status.contains("moreau")).count();
     assert_eq!((failed, status.iter().filter(|status| *status == "ok").count()), (6, 6), "{status:?}");
 }

@@ -21,6 +21,8 @@ pub const ANGLE: &str = "crank.angle";
 pub const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
 /// A run with more communication points than this counts as a mistake.
 const MOST_POINTS: usize = 20_000_000;
+/// A remainder of a millionth of a step is the rounding error of an integer quotient.
+const SLIVER: f64 = 1e-6;
 
 /// The end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,12 +103,11 @@ pub fn run(
     log: impl Fn(&LogLine) + Send + Sync + 'static,
     progress: impl Fn(f64),
 ) -> Result<Recording> {
-    ensure!(experiment.step > 0.0, "the communication step is {} s; it must be above 0", experiment.step);
     let mut runner = Runner::start(fmu, experiment, Arc::new(Log::new(log)), true)?;
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
     let mut stepping = Duration::ZERO;
-    for point in 1..=MOST_POINTS {
-        let Some((from, to)) = experiment.interval(point) else { break };
+    for point in 1.. {
+        let Some((from, to)) = experiment.interval(point)? else { break };
         runner.apply_inputs(from)?;
         let before = Instant::now();
         runner.step(from, to)?;
@@ -119,7 +120,6 @@ pub fn run(
         if share >= 1.0 {
             break;
         }
-        ensure!(point < MOST_POINTS, "{MOST_POINTS} communication points were not enough");
     }
     let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
     progress(1.0);
@@ -133,12 +133,54 @@ impl Experiment {
     /// The interval that ends at communication point number `point`, or `None` past the end. Points are integer
     /// multiples of the step, so that rounding errors do not add up. The last interval is shorter if the end requires
     /// it.
-    pub fn interval(&self, point: usize) -> Option<(f64, f64)> {
+    ///
+    /// # Errors
+    /// If a run cannot have so many points.
+    pub fn interval(&self, point: usize) -> Result<Option<(f64, f64)>> {
         let (Until::Time(end) | Until::Turns { latest: end, .. }) = self.until;
         let at = |point: usize| self.start + point as f64 * self.step;
         let (from, to) = (at(point - 1), at(point));
-        // A remainder of a millionth of a step is the rounding error of an integer quotient.
-        let sliver = 1e-6 * self.step;
-        (from < end - sliver).then_some((from, if to > end - sliver { end } else { to }))
+        let sliver = SLIVER * self.step;
+        if from >= end - sliver {
+            return Ok(None);
+        }
+        ensure!(point <= MOST_POINTS, too_many(self.step));
+        Ok(Some((from, if to > end - sliver { end } else { to })))
+    }
+}
+
+/// Refuses to run so many seconds with this communication step [s].
+///
+/// # Errors
+/// If the step is not above 0, or there are too many communication points.
+pub fn afford(span: f64, step: f64) -> Result<()> {
+    ensure!(step > 0.0, "the communication step is {step} s; it must be above 0");
+    ensure!(span <= (MOST_POINTS as f64 + SLIVER) * step, too_many(step));
+    Ok(())
+}
+
+fn too_many(step: f64) -> String {
+    format!("with a communication step of {step} s the run has more than {MOST_POINTS} communication points")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_has_no_more_communication_points_than_it_may() {
+        for (points, enough) in [(MOST_POINTS, true), (MOST_POINTS + 1, false)] {
+            let (start, step) = (0.5, 1e-5);
+            let latest = start + points as f64 * step;
+            let until = Until::Turns { turns: 1.0, latest };
+            let experiment = Experiment { settings: vec![], inputs: vec![], start, until, step, tolerance: None };
+            assert_eq!(
+                experiment.interval(points).map(|found| found.map(|(_, to)| to)).ok(),
+                enough.then_some(Some(latest))
+            );
+            assert_eq!(experiment.interval(points + 1).ok(), Some(None));
+            assert_eq!(afford(latest - start, step).is_ok(), enough);
+        }
+        assert!([0.0, -1e-3, f64::NAN].into_iter().all(|step| afford(1.0, step).is_err()));
     }
 }

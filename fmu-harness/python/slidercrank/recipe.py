@@ -8,12 +8,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy
+
 from .quantity import Quantity
 
 SPEED = "crank.speed_start"
 """Parameter that says how long turns may take."""
 SLIVER = 1e-6
 """Share of a step that is what remains of a quotient that was meant to be whole."""
+MOST_POINTS = 20_000_000
+"""A run with more communication points than this counts as a mistake."""
 
 
 class RunError(RuntimeError):
@@ -130,7 +134,10 @@ class Recipe:
         speed = abs(settings.get(SPEED, self.speed))
         if not speed > 0.0:
             raise RunError(f"{SPEED} = 0 rad/s: turns cannot be counted if the crank does not turn")
-        return self.slow * self.turns * math.tau / speed
+        span = self.turns * math.tau / speed
+        if span > (MOST_POINTS + SLIVER) * self.step:
+            raise self._too_many()
+        return self.slow * span
 
     def intervals(self, latest: float) -> Iterator[tuple[float, float]]:
         """[s] Ends of the communication steps: whole multiples of the step, the last one shortened to end in time."""
@@ -138,5 +145,16 @@ class Recipe:
         point = 0
         while point * self.step < latest - sliver:
             point += 1
+            if point > MOST_POINTS:
+                raise self._too_many()
             to = point * self.step
             yield (point - 1) * self.step, latest if to > latest - sliver else to
+
+    def _too_many(self) -> RunError:
+        points = f"more than {MOST_POINTS} communication points"
+        return RunError(f"with a communication step of {plain(self.step)} s the run has {points}")
+
+
+def plain(number: float) -> str:
+    """A number in the fewest digits, without an exponent."""
+    return numpy.format_float_positional(number, trim="-")

@@ -20,13 +20,11 @@ from fmpy.model_description import ModelVariable
 
 from .calls import Number, load
 from .quantity import ANGLE, TIME, Column, QuantityError
-from .recipe import Recipe, RunError, StoppedError
+from .recipe import Recipe, RunError, StoppedError, plain
 
 STATUS = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"]
 UNWATCHED = 8
 """Steps between two looks at the clock."""
-MOST_POINTS = 20_000_000
-"""More communication points than this end a run."""
 
 _loading = threading.Lock()  # FMPy changes the working directory while it loads a library
 
@@ -376,7 +374,7 @@ class Instance(Session):
                 made = f"the crank has made {turned:.3f} of {plain(turns)} turns by t = {plain(then)} s"
                 raise RunError(f"{made}; give a stop time instead")
             # A billionth of a turn is what rounding leaves of a whole number of them.
-            if turned / (turns - 1e-9) >= 1.0 or point == MOST_POINTS:
+            if turned / (turns - 1e-9) >= 1.0:
                 return
             if point % UNWATCHED == 0 and time.monotonic() - clock > budget:
                 raise StoppedError(f"stopped after {plain(budget)} s")
@@ -449,8 +447,3 @@ class Estimated(Session):
 
 def _pointer(array: numpy.ndarray | None) -> ctypes.c_void_p:
     return ctypes.c_void_p(None if array is None else array.ctypes.data)
-
-
-def plain(number: float) -> str:
-    """A number in the fewest digits, without an exponent."""
-    return numpy.format_float_positional(number, trim="-")

@@ -6,7 +6,7 @@ use crate::inputs::{self, Input};
 use crate::package::MODES;
 use crate::report::figure::{self, Pair};
 use crate::report::summary;
-use crate::run::{ANGLE, Experiment, JOINTS, Recording, Until, ideal_joints, run};
+use crate::run::{ANGLE, Experiment, JOINTS, Recording, Until, afford, ideal_joints, run};
 use crate::scenes::Scenario;
 use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
@@ -121,15 +121,19 @@ impl Run {
             ensure!(turns > 0.0, "turns must be above 0, not {turns}");
         }
         let settings = self.settings();
-        let until = match (end, start_speed(fmu, &settings)) {
-            (End::Time(stop), _) => Until::Time(stop),
-            (End::Turns(turns), Some(speed)) => Until::Turns { turns, latest: start + PATIENCE * turns * TAU / speed },
+        let (until, span) = match (end, start_speed(fmu, &settings)) {
+            (End::Time(stop), _) => (Until::Time(stop), stop - start),
+            (End::Turns(turns), Some(speed)) => {
+                let span = turns * TAU / speed;
+                (Until::Turns { turns, latest: start + PATIENCE * span }, span)
+            }
             (End::Turns(_), None) => bail!("without `{SPEED}` the length of a turn is unknown; give a --stop time"),
         };
         let (Until::Time(latest) | Until::Turns { latest, .. }) = until;
         ensure!(latest > start, "the end, {latest} s, is not after the start, {start} s");
         let step = self.step.or(scene.map(|scene| scene.run.step)).or_else(|| suggested("stepSize"));
         let step = step.unwrap_or((latest - start) / 1000.0);
+        afford(span, step)?;
         let inputs = self.inputs(scene, &settings)?;
         Ok(Experiment { settings, inputs, start, until, step, tolerance: self.tolerance })
     }

@@ -179,7 +179,7 @@ impl<'a> Bench<'a> {
 
     fn step(&mut self) -> Result<Step> {
         self.point += 1;
-        let (from, to) = self.experiment.interval(self.point).context("the run has reached its end")?;
+        let (from, to) = self.experiment.interval(self.point)?.context("the run has reached its end")?;
         self.runner.apply_inputs(from)?;
         let (cpu, wall) = (ThreadTime::now(), Instant::now());
         self.runner.step(from, to)?;

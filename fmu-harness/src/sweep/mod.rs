@@ -20,7 +20,7 @@ pub use study::Study;
 use crate::frame::{Column, Frame};
 use crate::host::{Fmu, Setting};
 use crate::inputs;
-use crate::run::{Ending, Experiment, Look, Until, march};
+use crate::run::{Ending, Experiment, Look, Until, afford, march};
 use crate::scenes::Scenario;
 use anyhow::{Context, Result, ensure};
 use journal::{Line, Outcome};
@@ -78,11 +78,13 @@ impl Sweep<'_> {
         let speed = own("crank.speed_start").unwrap_or(scene.crank.speed_start).abs();
         let turns = self.study.run.turns;
         ensure!(speed > 0.0, "crank.speed_start = 0 rad/s: turns cannot be counted if the crank does not turn");
+        let span = turns * TAU / speed;
+        afford(span, self.study.run.step)?;
         let experiment = Experiment {
             settings,
             inputs: inputs::of_scene(&self.scenario.file.inputs),
             start: 0.0,
-            until: Until::Turns { turns, latest: SLOW * turns * TAU / speed },
+            until: Until::Turns { turns, latest: SLOW * span },
             step: self.study.run.step,
             tolerance: None,
         };

@@ -11,7 +11,7 @@ pub mod sectors;
 use crate::accuracy::farthest;
 use crate::host::{Fmu, Setting};
 use crate::inputs;
-use crate::run::{Ending, Experiment, Look, Until, march};
+use crate::run::{Ending, Experiment, Look, Until, afford, march};
 use crate::scenes::Scenario;
 use crate::sweep::journal::{Journal, Line, Outcome};
 use crate::sweep::plan::digest;
@@ -154,12 +154,14 @@ impl<'a> Study<'a> {
         }
         let turn = TAU / file.scene.crank.speed_start.abs();
         let all = (transient + turns) as f64;
+        let step = file.run.step.min(turn / POINTS);
+        afford(all * turn, step)?;
         let experiment = Experiment {
             settings,
             inputs: inputs::of_scene(&file.inputs),
             start: 0.0,
             until: Until::Turns { turns: all, latest: SLOW * all * turn },
-            step: file.run.step.min(turn / POINTS),
+            step,
             tolerance: None,
         };
         let march = march(self.fmu, &experiment, Look::Everywhere, budget)?;

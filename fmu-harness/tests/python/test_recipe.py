@@ -58,3 +58,7 @@ def test_a_plan_has_the_runs_and_what_they_have_in_common(write):
     assert recipe.latest({"crank.speed_start": -math.tau}) == pytest.approx(11.0)
     with pytest.raises(RunError, match="turns cannot be counted"):
         recipe.latest({"crank.speed_start": 0.0})
+    # 20 million steps at the speed of the start, and one more.
+    recipe.latest({"crank.speed_start": 1.1 * math.tau / 2000.0})
+    with pytest.raises(RunError, match="step of 0.0001 s the run has more than 20000000 communication points"):
+        recipe.latest({"crank.speed_start": 1.1 * math.tau / 2000.0001})

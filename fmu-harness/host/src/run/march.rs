@@ -1,6 +1,6 @@
 //! Runs that end early without an error: results, cost, and the reason of the end.
 
-use super::{Experiment, MOST_POINTS, Runner, Until};
+use super::{Experiment, Runner, Until};
 use crate::host::{Fmu, Log};
 use crate::trajectory::Trajectory;
 use anyhow::{Result, bail};
@@ -24,7 +24,7 @@ pub enum Ending {
     Reached,
     /// It took longer than its budget.
     Stopped,
-    /// The FMU could not go on; with its message.
+    /// The FMU could not go on, or there are too many communication points; with the message.
     Failed(String),
 }
 
@@ -66,8 +66,15 @@ pub fn march(fmu: &Fmu, experiment: &Experiment, look: Look, budget: Duration) -
     let mut reached = experiment.start;
     let mut ending = Ending::Reached;
     let (clock, start) = (Instant::now(), ThreadTime::now());
-    for point in 1..=MOST_POINTS {
-        let Some((from, to)) = experiment.interval(point) else { break };
+    for point in 1.. {
+        let (from, to) = match experiment.interval(point) {
+            Ok(Some(interval)) => interval,
+            Ok(None) => break,
+            Err(error) => {
+                ending = Ending::Failed(error.to_string());
+                break;
+            }
+        };
         let stepped = runner.apply_inputs(from).and_then(|()| runner.step(from, to));
         if let Err(error) = stepped {
             ending = Ending::Failed(error.to_string());
