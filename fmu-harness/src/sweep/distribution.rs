@@ -1,6 +1,7 @@
 //! Distributions in SI units: random values, mean and standard deviation.
 
-use super::study::{Distribution, Number};
+use super::study::Distribution;
+use super::values::Number;
 use anyhow::{Context, Result, bail, ensure};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, Normal, Uniform};

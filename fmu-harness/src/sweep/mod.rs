@@ -7,10 +7,10 @@
 pub mod distribution;
 pub mod journal;
 pub mod linear;
-mod literal;
 pub mod plan;
 pub mod quantity;
 pub mod study;
+pub mod values;
 
 pub use journal::Journal;
 pub use linear::Linear;

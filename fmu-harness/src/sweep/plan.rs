@@ -2,7 +2,8 @@
 //! draw.
 
 use super::distribution::Law;
-use super::study::{Number, Study, Values, parameter};
+use super::study::{Study, parameter};
+use super::values::{Number, Values};
 use anyhow::{Context, Result, ensure};
 use hmac_sha256::Hash;
 use rand::SeedableRng;

@@ -1,6 +1,6 @@
 //! One number of a run: an output, reduced over time, or over its values at a crank angle.
 
-use super::literal::radians;
+use super::values::radians;
 use crate::run::ANGLE;
 use crate::trajectory::Trajectory;
 use anyhow::{Result, anyhow, ensure};

@@ -1,13 +1,11 @@
 //! Study files: a scene, values of parameters, and the quantities to keep of each run.
 
-use super::literal::seconds;
 use super::quantity::Quantity;
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use super::values::{Number, Values, seconds};
+use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
-use slidercrank::scene::parameter::{Kind, Parameter};
-use slidercrank::scene::units;
+use slidercrank::scene::parameter::Parameter;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -64,37 +62,6 @@ pub struct Run {
     /// [s] Communication step.
     #[serde(deserialize_with = "seconds")]
     pub step: f64,
-}
-
-/// A value of a parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Number {
-    /// A number in SI units.
-    Plain(f64),
-    /// A number with a unit, such as `"20 um"`, or an item of a list.
-    Text(String),
-    /// A truth value.
-    Boolean(bool),
-}
-
-/// Values of one parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Values {
-    /// A list.
-    List(Vec<Number>),
-    /// Evenly spaced values.
-    Range(Range),
-}
-
-/// Evenly spaced values, with both ends.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Range {
-    from: Number,
-    to: Number,
-    count: usize,
-    #[serde(default)]
-    logarithmic: bool,
 }
 
 /// The distribution of a parameter.
@@ -194,87 +161,4 @@ impl Study {
 /// If there is no such parameter.
 pub fn parameter(name: &str) -> Result<&'static Parameter> {
     Parameter::named(name).with_context(|| format!("there is no parameter `{name}`"))
-}
-
-impl Number {
-    /// A number in this SI unit.
-    ///
-    /// # Errors
-    /// If it is no number, or has a wrong unit.
-    pub fn in_unit(&self, unit: &str) -> Result<f64> {
-        match self {
-            Self::Plain(value) => Ok(*value),
-            Self::Text(text) => units::quantity(text, unit)
-                .map_err(|error| anyhow!("{self}: {error}; units are {}", units::alternatives(unit).join(", "))),
-            Self::Boolean(_) => bail!("{self} is no number"),
-        }
-    }
-
-    /// The value of a parameter in SI units.
-    ///
-    /// # Errors
-    /// If the unit is wrong, or if the parameter cannot have this value.
-    pub fn value(&self, parameter: &Parameter) -> Result<f64> {
-        let (name, kind) = (parameter.name, &parameter.kind);
-        let found = match (self, kind) {
-            (Self::Plain(value), _) => Some(*value),
-            (Self::Text(_), Kind::Real { unit, .. }) => Some(self.in_unit(unit).with_context(|| name.to_owned())?),
-            (Self::Text(text), Kind::Enumeration { items, .. }) => {
-                items.iter().find(|(name, _)| name == text).map(|(_, value)| f64::from(*value))
-            }
-            (Self::Boolean(value), Kind::Boolean { .. }) => Some(f64::from(u8::from(*value))),
-            _ => None,
-        };
-        let value = found.with_context(|| format!("{name} = {self} is not allowed: {}", parameter.allowed()))?;
-        let is_integer = matches!(kind, Kind::Integer { .. });
-        ensure!(
-            !is_integer || value.fract() == 0.0,
-            "{name} = {value} is not allowed: an integer, {}",
-            parameter.allowed()
-        );
-        parameter.admit(value)?;
-        Ok(value)
-    }
-}
-
-impl fmt::Display for Number {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Plain(value) => write!(f, "{value}"),
-            Self::Text(text) => write!(f, "\"{text}\""),
-            Self::Boolean(value) => write!(f, "{value}"),
-        }
-    }
-}
-
-impl Values {
-    /// Number of values.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::List(numbers) => numbers.len(),
-            Self::Range(Range { count, .. }) => *count,
-        }
-    }
-
-    /// Whether there is no value.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// All values in SI units.
-    ///
-    /// # Errors
-    /// As [`Number::value`].
-    pub fn list(&self, parameter: &Parameter) -> Result<Vec<f64>> {
-        match self {
-            Self::List(numbers) => {
-                ensure!(!numbers.is_empty(), "`{}` has no values", parameter.name);
-                numbers.iter().map(|number| number.value(parameter)).collect()
-            }
-            Self::Range(Range { from, to, count, logarithmic }) => {
-                let (from, to) = (from.value(parameter)?, to.value(parameter)?);
-                Ok(crate::dynamics::bifurcation::Range::new(parameter.name, from, to, *count, *logarithmic)?.values)
-            }
-        }
-    }
 }
