@@ -148,8 +148,7 @@ impl ReturnMap for Oscillator {
         let mut tangents = Tangents::new(self, state, DMatrix::identity(3, 3), none, vec![1.0; 3], TOLERANCE);
         let mut halfway = start;
         for turn in 1..=turns {
-            integrator
-                .advance_watched(self, turn as f64, &mut |integrator| tangents.follow(self, integrator))?;
+            integrator.advance_watched(self, turn as f64, &mut |integrator| tangents.follow(self, integrator))?;
             integrator.truncate(self, turn as f64);
             tangents.shorten(self, &integrator);
             if turn == turns / 2 {

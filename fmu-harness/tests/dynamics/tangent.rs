@@ -48,7 +48,7 @@ impl TangentFlow for Tangent {
         let Self { integrator, tangents, .. } = self;
         integrator.advance_watched(&Lorenz, time, &mut |integrator| tangents.follow(&Lorenz, integrator))?;
         integrator.truncate(&Lorenz, time);
-        tangents.shorten(&Lorenz, &integrator);
+        tangents.shorten(&Lorenz, integrator);
         self.time = time;
         Ok(())
     }
