@@ -103,6 +103,7 @@ pub fn run(
     log: impl Fn(&LogLine) + Send + Sync + 'static,
     progress: impl Fn(f64),
 ) -> Result<Recording> {
+    experiment.afford()?;
     let mut runner = Runner::start(fmu, experiment, Arc::new(Log::new(log)), true)?;
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
     let mut stepping = Duration::ZERO;
@@ -130,6 +131,15 @@ pub fn run(
 }
 
 impl Experiment {
+    /// Refuses too many communication points, where the end is known beforehand.
+    fn afford(&self) -> Result<()> {
+        match self.until {
+            Until::Time(end) => afford(end - self.start, self.step),
+            // How long its turns take is known when they are made.
+            Until::Turns { .. } => afford(0.0, self.step),
+        }
+    }
+
     /// The interval that ends at communication point number `point`, or `None` past the end. Points are integer
     /// multiples of the step, so that rounding errors do not add up. The last interval is shorter if the end requires
     /// it.

@@ -62,6 +62,7 @@ const UNWATCHED: usize = 8;
 /// # Errors
 /// If the run cannot start. What happens later is reported as its ending.
 pub fn march(fmu: &Fmu, experiment: &Experiment, look: Look, budget: Duration) -> Result<March> {
+    experiment.afford()?;
     let mut runner = Runner::start(fmu, experiment, Arc::new(Log::new(|_| {})), true)?;
     let mut reached = experiment.start;
     let mut ending = Ending::Reached;

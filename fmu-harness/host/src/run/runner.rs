@@ -1,6 +1,6 @@
 //! One instance, with the variables to set and read at every communication point.
 
-use super::{ANGLE, Experiment, Until, afford};
+use super::{ANGLE, Experiment, Until};
 use crate::host::{Fmu, HostError, Kind, Log, Selection, Setting, Slave, Stepping, Value, Variable};
 use crate::inputs::Input;
 use crate::trajectory::Trajectory;
@@ -24,13 +24,7 @@ pub struct Runner<'a> {
 
 impl<'a> Runner<'a> {
     /// Instantiates, sets, initializes and records the first row. With `logging` the FMU logs why it refuses a call.
-    ///
-    /// # Errors
-    /// If the FMU refuses it, or there are too many communication points.
     pub fn start(fmu: &'a Fmu, experiment: &'a Experiment, log: Arc<Log>, logging: bool) -> Result<Self> {
-        if let Until::Time(end) = experiment.until {
-            afford(end - experiment.start, experiment.step)?;
-        }
         let description = fmu.description();
         let reference = |input: &Input| input_reference(description.variable(&input.name)?);
         let inputs = experiment.inputs.iter().map(reference).collect::<Result<Vec<u32>>>()?;
