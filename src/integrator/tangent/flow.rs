@@ -1,9 +1,9 @@
 //! The variational equation in a part of an accepted step.
 //!
 //! Collocation at Radau's nodes has order 7 and is L-stable: one method serves smooth and stiff motions, and what decays
-//! within a part is gone at its end, whether the part resolves it or not. The stages are
-//! found by fixed-point iteration, and by elimination where that does not contract or where there are many directions. A
-//! part is halved until the coefficients of its Legendre polynomials, extrapolated geometrically, promise the tolerance.
+//! within a part is gone at its end, whether the part resolves it or not. The stages are found by fixed-point iteration, and
+//! by elimination where that does not contract or where there are many directions. A part is halved until the coefficients
+//! of its Legendre polynomials, extrapolated geometrically, promise the tolerance.
 //!
 //! Rates of positions are velocities, so that only the other rows of the Jacobian, those of forced states, are
 //! multiplied, and only their stages are unknowns: with v at the start and the lengths L_i of the part in time at the
