@@ -3,7 +3,7 @@
 use crate::program::stock;
 use fmu_harness::frame::{Column, Frame};
 use fmu_harness::scenes::Scenario;
-use fmu_harness::sweep::journal::path;
+use fmu_harness::sweep::journal::{Line, Outcome, path};
 use fmu_harness::sweep::{Journal, Plan, Study, Sweep};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -216,6 +216,21 @@ fn killed_or_split_a_study_gives_the_same_and_runs_nothing_twice() {
     assert_eq!(again, 7);
     assert_eq!(second, first);
     assert_eq!(run(1).0, 0);
+}
+
+#[test]
+fn a_journal_whose_lines_are_none_of_the_study_s_is_refused() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let (study, plan) = study(STUDY).expect("a plan");
+    let (scenario, fmu) = packaged(directory.path());
+    let sweep = Sweep { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget: Duration::MAX };
+    let kept = study.keep.len();
+    for (name, run, values) in [("short", 3, kept - 1), ("long", 3, kept + 1), ("beyond", plan.len(), kept)] {
+        let journal = Journal::open(&path(directory.path(), name), "digest").expect("a journal");
+        journal.add(&Line { run, outcome: Outcome::Values(vec![0.0; values]) }).expect("a line");
+        let error = sweep.run(&journal, || {}).expect_err("a damaged journal").to_string();
+        assert!(error.contains(&format!("line of run {run}")), "{error}");
+    }
 }
 
 #[test]

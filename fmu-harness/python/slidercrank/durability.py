@@ -15,6 +15,8 @@ import rainflow
 
 JOINTS = ("A", "B", "C", "T")
 TURN = 2.0 * numpy.pi
+ROUNDING = 1e-9
+"""Share of a turn by which a sample may miss the end of a stroke that it stands for."""
 
 
 def force(run: pandas.DataFrame, joint: str) -> pandas.Series:
@@ -68,7 +70,7 @@ def strokes(run: pandas.DataFrame, of: Iterable[str]) -> pandas.DataFrame:
     outputs = list(of)
     angle = run["crank.angle"].to_numpy()
     turned = numpy.abs(angle - angle[0]) / TURN
-    number = pandas.Series(numpy.floor(turned).astype(int), index=run.index, name="stroke")
-    whole = int(numpy.floor(turned[-1]))
+    passed = numpy.floor(turned + ROUNDING).astype(int)
+    number, whole = pandas.Series(passed, index=run.index, name="stroke"), passed[-1]
     grouped = run.loc[number < whole, outputs].groupby(number[number < whole])
     return grouped.agg(["min", "mean", "max"])

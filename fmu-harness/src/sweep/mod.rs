@@ -54,8 +54,18 @@ impl Sweep<'_> {
     /// Runs all runs that the journal does not contain, and adds them to it.
     ///
     /// # Errors
-    /// If the FMU cannot be opened or the journal cannot be written. A run that fails is a line of the journal.
+    /// If the FMU cannot be opened, or the journal cannot be written or has lines that are none of the study's. A run that
+    /// fails is a line of the journal.
     pub fn run(&self, journal: &Journal, tick: impl Fn() + Sync) -> Result<()> {
+        let (runs, kept) = (self.plan.len(), self.study.keep.len());
+        for Line { run, outcome } in journal.lines().values() {
+            let whole = !matches!(outcome, Outcome::Values(values) if values.len() != kept);
+            ensure!(
+                whole && *run < runs,
+                "the journal is damaged in the line of run {run}: the study has runs 0 to {} with {kept} values each",
+                runs - 1
+            );
+        }
         let open: Vec<usize> = (0..self.plan.len()).filter(|run| !journal.has(*run)).collect();
         open.into_par_iter().try_for_each_init(
             || Fmu::open(self.fmu),

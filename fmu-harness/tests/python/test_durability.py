@@ -56,3 +56,11 @@ def test_strokes_of_the_worn_pin_have_its_extremes():
     # What is found within the steps is never below what is seen at communication points.
     assert (table["joint.C.force.peak", "max"] >= table["force", "max"]).all()
     assert (table["force", "max"] > 0.99 * table["joint.C.force.peak", "max"]).all()
+
+
+def test_a_run_of_whole_turns_has_all_its_strokes():
+    # The sum of 200 steps a turn misses the end of most turns by rounding.
+    for turns in range(1, 31):
+        angle = math.pi + math.tau * 5.0 * (0.001 * numpy.arange(200 * turns + 1))
+        run = pandas.DataFrame({"crank.angle": angle, "slider.x": numpy.cos(angle)})
+        assert list(strokes(run, ["slider.x"]).index) == list(range(turns))
