@@ -319,9 +319,7 @@ fn derivatives_by_start_values_are_differences() {
 
 #[test]
 fn what_is_zero_but_for_rounding_has_a_derivative_by_start_values() {
-    let path = format!("{}/../fmu-harness/scenes/seed.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(&path).expect("a shipped scene");
-    let mut scene = read(&text, &path).expect("a sound scene").scene;
+    let mut scene = read(include_str!("../../fmu-harness/scenes/seed.toml"), "seed.toml").expect("a sound scene").scene;
     // Between journals in the middle of their bearings no force turns the rod.
     scene.crank.angle_start = 1.1;
     let states = exchange(&scene).expect("model exchange").states.len() as u32;

@@ -67,9 +67,9 @@ def run(
 
     `fmu` is the study's packaged scene, `budget` [s] the longest time for one run. A run that fails is a row that says
     why. A client that was killed goes on from the journal, which `sweep` can go on from too. A run that takes longer
-    than `budget`, or whose workers die again and again, or one after another for reasons of their own, is a row that says
-    so, but no line of the journal: the next call tries it again. A study waits for workers: only when there is none for `patience` [s] it is a
-    `StudyError`.
+    than `budget`, or whose workers die again and again, or one after another for reasons of their own, is a row that
+    says so, but no line of the journal: the next call tries it again. A study waits for workers: only when there is
+    none for `patience` [s] it is a `StudyError`.
     """
     planned = plan(study_file)
     file = Path(fmu)

@@ -54,16 +54,24 @@ impl Response {
         let mut values = Vec::with_capacity(turns * SAMPLES);
         let of_extremes = matches!(self.reduce, Reduction::Max | Reduction::Min | Reduction::Peak | Reduction::Range);
         for sample in 1..=turns * SAMPLES {
-            let (from, next) = (machine.time(), TAU / SAMPLES as f64 / machine.outputs().crank.speed.abs());
-            if of_extremes && next < SLOWEST * machine.turn() / SAMPLES as f64 {
-                for part in 1..BETWEEN {
-                    machine.advance(from + next * part as f64 / BETWEEN as f64)?;
-                    values.push(self.output.value(&machine.outputs()));
-                }
+            if of_extremes {
+                self.sample_on(machine, &mut values)?;
             }
             machine.advance_turned(start + TAU * sample as f64 / SAMPLES as f64)?;
             values.push(self.output.value(&machine.outputs()));
         }
-        Ok(self.reduce.over(&values, &vec![1.0; values.len()]))
+        Ok(self.reduce.over_equal_times(&values))
+    }
+
+    /// Adds the values at the instants between a sample and the next one, unless the crank nearly stands still.
+    fn sample_on(&self, machine: &mut Machine, values: &mut Vec<f64>) -> Result<()> {
+        let (from, apart) = (machine.time(), TAU / SAMPLES as f64 / machine.outputs().crank.speed.abs());
+        if apart < SLOWEST * machine.turn() / SAMPLES as f64 {
+            for part in 1..BETWEEN {
+                machine.advance(from + apart * part as f64 / BETWEEN as f64)?;
+                values.push(self.output.value(&machine.outputs()));
+            }
+        }
+        Ok(())
     }
 }

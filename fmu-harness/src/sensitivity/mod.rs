@@ -124,7 +124,7 @@ impl Wanted {
     fn value(&self, values: &[f64]) -> f64 {
         match self.at {
             Some(_) => self.reduce.of(values),
-            None => self.reduce.over(values, &vec![1.0; values.len()]),
+            None => self.reduce.over_equal_times(values),
         }
     }
 
@@ -270,13 +270,12 @@ impl Experiment<'_> {
     /// # Errors
     /// If the scene cannot run.
     pub fn values(&self, wanted: &[Wanted]) -> Result<Vec<f64>> {
-        self.values_beside(self, wanted)
+        self.values_within(self.window(&self.accurate())?, wanted)
     }
 
-    /// The quantities of a neighbour of `timed`, by whose start speed turns are timed.
-    fn values_beside(&self, timed: &Self, wanted: &[Wanted]) -> Result<Vec<f64>> {
+    /// The quantities alone within a window [s].
+    fn values_within(&self, window: [f64; 2], wanted: &[Wanted]) -> Result<Vec<f64>> {
         let file = self.accurate();
-        let window = if self.counted { self.window(&file)? } else { timed.window(timed.file)? };
         let mut machine = Machine::start(&file)?;
         let readings = self.readings(&file, window, wanted, &mut machine, |_| Ok(vec![]))?;
         let value = |(wanted, readings): (&Wanted, Vec<Reading>)| {
@@ -291,8 +290,8 @@ impl Experiment<'_> {
         file
     }
 
-    /// Runs `machine` and reads each quantity at each of its instants within the window [s], in order. `derivatives` gives those of the outputs at
-    /// the time reached.
+    /// Runs `machine` and reads each quantity at each of its instants within the window [s], in order. `derivatives` gives
+    /// those of the outputs at the time reached.
     fn readings<S: Simulated>(
         &self,
         file: &SceneFile,
@@ -430,11 +429,14 @@ fn reduced(wanted: &Wanted, values: &[f64], slopes: Result<Vec<Vec<f64>>>, count
 pub fn differences(of: &Experiment<'_>, wanted: &[Wanted], parameter: &'static Parameter) -> Result<Vec<f64>> {
     let value = parameter.value(&of.file.scene);
     let unit = if value == 0.0 { 1.0 } else { value.abs() };
+    // The scene's own start speed times the turns of its neighbours, too.
+    let window = if of.counted { None } else { Some(of.window(of.file)?) };
     let at = |change: f64| -> Result<Vec<f64>> {
         let mut file = of.file.clone();
         parameter.write(&mut file.scene, value + change)?;
         file.scene.check()?;
-        Experiment { file: &file, ..*of }.values_beside(of, wanted)
+        let neighbour = Experiment { file: &file, ..*of };
+        window.map_or_else(|| neighbour.values(wanted), |window| neighbour.values_within(window, wanted))
     };
     let mut slopes: Vec<Vec<f64>> = vec![];
     for decade in 2..12 {

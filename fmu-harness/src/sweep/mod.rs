@@ -59,14 +59,16 @@ impl Sweep<'_> {
     pub fn run(&self, journal: &Journal, tick: impl Fn() + Sync) -> Result<()> {
         let (runs, kept) = (self.plan.len(), self.study.keep.len());
         for Line { run, outcome } in journal.lines().values() {
-            let whole = !matches!(outcome, Outcome::Values(values) if values.len() != kept);
+            let fits = match outcome {
+                Outcome::Values(values) => values.len() == kept,
+                Outcome::Failed(_) | Outcome::Stopped(_) => true,
+            };
             ensure!(
-                whole && *run < runs,
-                "the journal is damaged in the line of run {run}: the study has runs 0 to {} with {kept} values each",
-                runs - 1
+                fits && *run < runs,
+                "the journal is damaged in the line of run {run}: the study has {runs} runs, from 0 on, with {kept} values each"
             );
         }
-        let open: Vec<usize> = (0..self.plan.len()).filter(|run| !journal.has(*run)).collect();
+        let open: Vec<usize> = (0..runs).filter(|run| !journal.has(*run)).collect();
         open.into_par_iter().try_for_each_init(
             || Fmu::open(self.fmu),
             |fmu, run| {
