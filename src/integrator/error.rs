@@ -50,6 +50,13 @@ pub enum IntegrationError {
         /// Number of closed contacts.
         contacts: usize,
     },
+    /// A step leaves a rigid contact deeper in penetration than its play is wide.
+    TooDeep {
+        /// [s] Time reached.
+        time: f64,
+        /// Index of the contact.
+        contact: usize,
+    },
 }
 
 impl IntegrationError {
@@ -67,7 +74,8 @@ impl IntegrationError {
             | Self::EventsAccumulate { time, .. }
             | Self::DeadEnd { time, .. }
             | Self::TooMuchWork { time, .. }
-            | Self::Complementarity { time, .. } => time,
+            | Self::Complementarity { time, .. }
+            | Self::TooDeep { time, .. } => time,
         }
     }
 }
@@ -92,6 +100,9 @@ impl fmt::Display for IntegrationError {
             }
             Self::Complementarity { contacts, .. } => {
                 write!(f, "no impulses satisfy the laws of {contacts} closed contacts at once")
+            }
+            Self::TooDeep { contact, .. } => {
+                write!(f, "the step is too long for contact {contact}, whose penetration exceeds its clearance")
             }
         }
     }

@@ -6,13 +6,15 @@ use super::system::System;
 /// Maximum number of states of a system with rigid contacts.
 pub const MAX_RIGID_CONTACT_STATES: usize = 20;
 
-/// Restitution and friction of a rigid contact.
+/// Restitution, friction and play of a rigid contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactLaw {
     /// Newton's coefficient of restitution e_N.
     pub restitution: f64,
     /// Coulomb's coefficient of friction μ.
     pub friction: f64,
+    /// [m] Width of the play that the contact bounds. A step that ends deeper than that has lost the contact.
+    pub clearance: f64,
 }
 
 /// Gaps and relative velocities of all contacts.

@@ -32,21 +32,22 @@ pub struct Clearances {
     pub bristles: Vec<usize>,
     /// For each contact, the index of its bristles among the bristle states.
     bristle: [Option<usize>; CONTACTS],
-    /// Restitution and friction of rigid contacts.
+    /// Restitution, friction and clearance of rigid contacts.
     pub(super) laws: [ContactLaw; CONTACTS],
 }
 
-/// Restitution and friction coefficient of every contact of a scene; of a friction law, the (kinetic) coefficient is
+/// Restitution, friction coefficient and clearance of every contact of a scene; of a friction law, the (kinetic) coefficient is
 /// taken.
 fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
-    let law = |contact: &Contact| ContactLaw {
+    let law = |contact: &Contact, clearance: f64| ContactLaw {
         restitution: contact.restitution,
         friction: if contact.friction.law == FrictionLaw::None { 0.0 } else { contact.friction.coefficient },
+        clearance,
     };
     let joint = &scene.joint;
-    let mut laws = [law(&joint.t.contact); CONTACTS];
+    let mut laws = [law(&joint.t.contact, joint.t.clearance); CONTACTS];
     for (place, joint) in laws.iter_mut().zip([&joint.a, &joint.b, &joint.c]) {
-        *place = law(&joint.contact);
+        *place = law(&joint.contact, joint.clearance);
     }
     laws
 }

@@ -294,6 +294,10 @@ fn failure(error: IntegrationError) -> SimulationError {
     let cause = match error {
         IntegrationError::DeadEnd { .. } => DEAD_END.to_owned(),
         IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
+        IntegrationError::TooDeep { contact, .. } => {
+            let contact = contacts::subject(contact);
+            format!("a step ends with {contact} deeper in penetration than its clearance; solver.step is too long")
+        }
         _ => error.to_string(),
     };
     let dead_end = matches!(error, IntegrationError::DeadEnd { .. });

@@ -15,9 +15,11 @@ struct Ball {
     /// What a unit impulse does to its velocity.
     response: f64,
     lost: f64,
+    clearance: f64,
 }
 
-const BALL: Ball = Ball { weight: 10.0, restitution: 0.5, floors: 1, response: 1.0, lost: f64::INFINITY };
+const BALL: Ball =
+    Ball { weight: 10.0, restitution: 0.5, floors: 1, response: 1.0, lost: f64::INFINITY, clearance: 0.1 };
 
 impl Ode for Ball {
     type Discrete = ();
@@ -55,7 +57,7 @@ impl Events for Ball {
 
 impl Unilateral for Ball {
     fn contact_laws(&self) -> [ContactLaw; MAX_CONTACTS] {
-        [ContactLaw { restitution: self.restitution, friction: 0.0 }; MAX_CONTACTS]
+        [ContactLaw { restitution: self.restitution, friction: 0.0, clearance: self.clearance }; MAX_CONTACTS]
     }
 
     fn contacts(&self, _: f64, y: &[f64]) -> Relative {
@@ -119,6 +121,22 @@ fn a_contact_that_no_impulse_moves_is_an_error_with_the_state_intact() {
     assert!((height - (0.2 - 5.0 * t * t)).abs() < 1e-12 && (speed + 10.0 * t).abs() < 1e-12, "{height}, {speed}");
     // And it gives up again where it gave up before.
     assert_eq!(run.advance(&ball, 1.0), Err(error));
+}
+
+#[test]
+fn a_step_that_ends_deeper_than_the_clearance_is_an_error_with_the_state_intact() {
+    // Of all steps on the way down, the one that notices the floor goes deepest: up to half a step's fall.
+    let speed = 1.0;
+    for (clearance, fits) in [(0.6 * speed * STEP, true), (1e-3 * speed * STEP, false)] {
+        let ball = Ball { weight: 0.0, restitution: 0.0, clearance, ..BALL };
+        let mut run = Moreau::start(SETTINGS, 0.0, &[10.25 * STEP, -speed], ());
+        let advanced = run.advance(&ball, 30.0 * STEP);
+        assert_eq!(advanced.is_ok(), fits, "{advanced:?}");
+        let Err(error) = advanced else { continue };
+        let time = run.state().front().t;
+        assert_eq!(error, IntegrationError::TooDeep { time, contact: 0 });
+        assert_eq!(run.state().front().y, [10.25 * STEP - time * speed, -speed]);
+    }
 }
 
 #[test]

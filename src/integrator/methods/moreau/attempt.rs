@@ -57,8 +57,13 @@ fn through_contacts<D: Copy>(
         impulses = found;
         y = closed.after(midpoint, &better, &impulses);
     }
+    let end = midpoint.end(&y);
+    let gaps = system.contacts(midpoint.start.t + midpoint.h, midpoint.of(&end)).gap;
+    if let Some(contact) = closed.lost(&gaps) {
+        return Err(IntegrationError::TooDeep { time: midpoint.start.t, contact });
+    }
     let mut made = AttemptedStep {
-        y: midpoint.end(&y),
+        y: end,
         impulses: Impulses::none(midpoint.t, midpoint.state()),
         evaluations: 3 + closed.responses(),
     };
@@ -66,6 +71,6 @@ fn through_contacts<D: Copy>(
         made.impulses.forces[contact] = impulse.map(|impulse| impulse / midpoint.h);
         made.impulses.closed[contact] = impulse[NORMAL] > 0.0;
     }
-    closed.correct_penetration(system, midpoint, &impulses, &mut made.y);
+    closed.correct_penetration(system, midpoint, &impulses, &gaps, &mut made.y);
     Ok(made)
 }

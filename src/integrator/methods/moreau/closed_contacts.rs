@@ -19,6 +19,8 @@ pub struct ClosedContacts {
     /// M⁻¹·W: changes of all velocities by a unit impulse in each direction of each closed contact.
     response: [[State; 2]; MAX_CONTACTS],
     restitution: [f64; MAX_CONTACTS],
+    /// [m] Clearances.
+    clearance: [f64; MAX_CONTACTS],
     /// [m/s] (h/2)·Ẇᵀu: relative velocity γ at the step's end less that at its middle, for the same u.
     transport: Pairs,
     /// [m/s] γ_A: relative velocity at the step's start.
@@ -36,6 +38,7 @@ impl ClosedContacts {
             touching: ActiveContacts::default(),
             response: [[[0.0; MAX_RIGID_CONTACT_STATES]; 2]; MAX_CONTACTS],
             restitution: [0.0; MAX_CONTACTS],
+            clearance: [0.0; MAX_CONTACTS],
             transport: Pairs::default(),
             approach: Pairs::default(),
             departure: Pairs::default(),
@@ -69,8 +72,8 @@ impl ClosedContacts {
         let still = velocities(system, midpoint, &[0.0; MAX_RIGID_CONTACT_STATES]);
         let count = self.count();
         for (slot, &contact) in self.contacts.iter().enumerate().take(count) {
-            let ContactLaw { restitution, friction } = laws[contact];
-            self.restitution[slot] = restitution;
+            let ContactLaw { restitution, friction, clearance } = laws[contact];
+            (self.restitution[slot], self.clearance[slot]) = (restitution, clearance);
             self.transport[slot] = [NORMAL, TANGENTIAL].map(|part| there[contact][part] - here[contact][part]);
             self.touching.friction[slot] = friction;
             for part in self.parts(slot) {
@@ -146,16 +149,22 @@ impl ClosedContacts {
         y
     }
 
-    /// Corrects part of the excess penetration of lasting contacts at the end of the step, `y`. A jam, in which no
+    /// A contact whose penetration exceeds its clearance at the end of the step: the step has lost it.
+    pub fn lost(&self, gaps: &[f64; MAX_CONTACTS]) -> Option<usize> {
+        let mut closed = self.contacts.iter().zip(&self.clearance).take(self.count());
+        closed.find(|(contact, clearance)| gaps[**contact] < -**clearance).map(|(contact, _)| *contact)
+    }
+
+    /// Corrects part of the excess penetration of lasting contacts at the end of the step, `y`, with its `gaps` [m]. A jam, in which no
     /// correction exists, is left as it is.
     pub fn correct_penetration<D: Copy>(
         &self,
         system: &dyn Unilateral<Discrete = D>,
         midpoint: &Midpoint<'_, D>,
         impulses: &Pairs,
+        gaps: &[f64; MAX_CONTACTS],
         y: &mut State,
     ) {
-        let gaps = system.contacts(midpoint.start.t + midpoint.h, midpoint.of(y)).gap;
         let mut corrections = self.touching.clone();
         corrections.friction = [0.0; MAX_CONTACTS];
         let mut any_corrected = false;

@@ -29,7 +29,8 @@
 //! Penetration: an impact penetrates as far as the bodies approach in a step, h·|γ_NA|. In a lasting contact, every
 //! step corrects a tenth of the penetration that exceeds h·|γ_N| of the step, by the shift of positions with the least
 //! kinetic norm. The penetration that an impact leaves decays, and the rest is of order h². Contacts that separate are
-//! not corrected, because that would add energy.
+//! not corrected, because that would add energy. A step that ends deeper in penetration than the clearance has lost the
+//! contact, whose surfaces are curved or have another opposite, and is refused.
 //!
 //! Newton restitution with friction can add energy if an impact reverses the sliding and restitution is near 1 (T. R.
 //! Kane, D. A. Levinson, Dynamics: Theory and Applications, McGraw-Hill 1985). Without friction and with equal
