@@ -78,6 +78,7 @@ def run(
     data = file.read_bytes()
     shipment = Shipment(data, hashlib.sha256(data).hexdigest(), replace(planned.recipe, origin={}), budget)
     with Journal(path(into, planned.recipe.name), planned.recipe.digest) as journal:
+        journal.check(len(planned.runs), len(planned.recipe.keep))
         lost = Hand(client, planned, shipment, journal, patience).out()
         results = table(planned, {**journal.outcomes, **lost})
     found = into / f"sweep-{planned.recipe.name}.parquet"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+import operator
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 
 class JournalError(RuntimeError):
@@ -23,6 +25,11 @@ class Outcome:
     failed: str | None = None
     stopped: bool = False
     """Whether its budget ended it: the file has no such line, so that another journal of the study runs it again."""
+
+    @classmethod
+    def of(cls, line: dict[str, Any]) -> Outcome:
+        """The outcome in a line of the file, which has either quantities or why there are none."""
+        return cls(failed=str(line["failed"])) if "failed" in line else cls(tuple(map(float, line["values"])))
 
     def told(self) -> dict[str, object]:
         return {"failed": self.failed} if self.values is None else {"values": list(self.values)}
@@ -46,9 +53,7 @@ class Journal:
                 if number == 1:
                     known = line.get("digest")
                 else:
-                    values = line.get("values")
-                    outcome = Outcome(tuple(map(float, values)) if values is not None else None, line.get("failed"))
-                    self.outcomes[int(line["run"])] = outcome
+                    self.outcomes[operator.index(line["run"])] = Outcome.of(line)
             except (ValueError, KeyError, TypeError, AttributeError) as error:
                 if number > 1:
                     raise JournalError(f"{file}, line {number} is damaged") from error
@@ -68,6 +73,14 @@ class Journal:
 
     def __len__(self) -> int:
         return len(self.outcomes)
+
+    def check(self, runs: int, kept: int) -> None:
+        """Refuses lines that are none of a study with so many runs, which keeps so many quantities."""
+        for run, outcome in self.outcomes.items():
+            fits = outcome.values is None or len(outcome.values) == kept
+            if not fits or not 0 <= run < runs:
+                study = f"the study has {runs} runs, from 0 on, with {kept} values each"
+                raise JournalError(f"the journal is damaged in the line of run {run}: {study}")
 
     def open_runs(self, count: int) -> Iterator[int]:
         """Numbers below `count` that are not finished."""

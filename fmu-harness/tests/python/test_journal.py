@@ -36,9 +36,21 @@ def test_another_study_s_journal_is_left_alone(tmp_path):
     before = file.read_bytes()
     with pytest.raises(JournalError, match="another study"):
         Journal(file, "another")
-    file.write_bytes(before + b"{}\n")
-    with pytest.raises(JournalError, match="line 3 is damaged"):
-        Journal(file, "one")
+    for damaged in (b"{}", b'{"run":1}', b'{"run":1.5,"values":[1.0]}', b'{"run":1,"values":["one"]}', b"[1]"):
+        file.write_bytes(before + damaged + b"\n")
+        with pytest.raises(JournalError, match="line 3 is damaged"):
+            Journal(file, "one")
+
+
+@pytest.mark.parametrize(("run", "values"), [(4, (1.0,)), (-1, (1.0,)), (1, ()), (1, (1.0, 2.0))])
+def test_lines_that_are_none_of_the_study_s_are_refused(tmp_path, run, values):
+    with Journal(path(tmp_path, "own"), "digest") as journal:
+        journal.add(0, OUTCOMES[0])
+        journal.add(1, OUTCOMES[1])
+        journal.check(4, 1)
+        journal.add(run, Outcome(values))
+        with pytest.raises(JournalError, match=f"damaged in the line of run {run}: the study has 4 runs"):
+            journal.check(4, 1)
 
 
 def test_sweep_believes_the_lines_that_are_written_here_and_runs_the_others(write, tmp_path):
