@@ -9,6 +9,7 @@ mod hosted;
 mod interval;
 mod linearization;
 mod motion;
+mod names;
 mod observation;
 mod phase;
 mod record;
@@ -37,6 +38,7 @@ use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use motion::Motion;
+use names::Names;
 
 /// A mechanism at a communication point.
 ///
@@ -45,6 +47,7 @@ use motion::Motion;
 /// - Inputs are not checked: the caller must keep them finite.
 pub struct Simulation {
     motion: Box<dyn Motion>,
+    names: Names,
     time: f64,
     /// As the scene has it.
     tolerance: f64,
@@ -64,10 +67,6 @@ struct Allowance {
     most: u64,
 }
 
-/// Message for the only dead end of a mechanism's equations of motion.
-const DEAD_END: &str =
-    "the rod stands across the guide, where the slider may continue to either side of the change point";
-
 impl Simulation {
     /// Assembles the mechanism of a scene and sets it to its start pose. The time is 0 there.
     ///
@@ -77,7 +76,8 @@ impl Simulation {
         scene.check_method().map_err(|error| SimulationError::Scene(error.to_string()))?;
         let (motion, tolerance) = (start::start(scene, inputs)?, scene.solver.tolerance);
         let (work_limit, allowance) = (settings::settings(scene).effort, Allowance::default());
-        Ok(Self { motion, time: 0.0, tolerance, side: Side::After, work_limit, allowance })
+        let names = Names::of(scene);
+        Ok(Self { motion, names, time: 0.0, tolerance, side: Side::After, work_limit, allowance })
     }
 
     /// [s] The communication point reached, relative to the start.
@@ -174,7 +174,7 @@ impl Simulation {
     /// Sets the time to that of the error, and converts the error.
     fn failed(&mut self, error: IntegrationError) -> SimulationError {
         self.time = self.time.max(error.time());
-        failure(error)
+        self.names.explain(error)
     }
 
     /// Outputs at the communication point.
@@ -287,19 +287,4 @@ impl Simulation {
 fn with_settings(mut outputs: Outputs, tolerance: f64) -> Outputs {
     (outputs.solver.tolerance_used, outputs.solver.portable_used) = (tolerance, PORTABLE);
     outputs
-}
-
-/// An integrator's error as a simulation's.
-fn failure(error: IntegrationError) -> SimulationError {
-    let cause = match error {
-        IntegrationError::DeadEnd { .. } => DEAD_END.to_owned(),
-        IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
-        IntegrationError::TooDeep { contact, .. } => {
-            let contact = contacts::subject(contact);
-            format!("a step ends with {contact} deeper in penetration than its clearance; solver.step is too long")
-        }
-        _ => error.to_string(),
-    };
-    let dead_end = matches!(error, IntegrationError::DeadEnd { .. });
-    SimulationError::Integration { time: error.time(), cause, dead_end }
 }

@@ -8,6 +8,7 @@ mod claims;
 mod deadline;
 mod ends;
 mod law;
+mod long_steps;
 mod regressions;
 mod rounding;
 mod run;

@@ -13,13 +13,14 @@ mod varied;
 pub use crate::integrator::tangent::Grazing;
 pub use seed::Seed;
 
+use super::assemble;
 use super::error::SimulationError;
 use super::motion::Motion;
+use super::names::Names;
 use super::phase::{Phase, PhaseScales};
 use super::run::Run;
 use super::side::Side;
 use super::start::pose;
-use super::{assemble, failure};
 use crate::integrator::tangent::Tangents;
 use crate::integrator::{Reader, Snapshot, SolverState};
 use crate::model::drive::InputSignal;
@@ -35,6 +36,7 @@ use varied::Varied;
 /// A simulation with the tangent of its motion.
 pub struct Variation {
     run: Run,
+    names: Names,
     time: f64,
     scales: PhaseScales,
     seeds: Vec<Seed>,
@@ -130,7 +132,17 @@ impl Variation {
                 tolerance,
             )
         };
-        Ok(Self { run, time: 0.0, scales, seeds: seeds.to_vec(), neighbours, tangents, followed: false, tolerance })
+        Ok(Self {
+            run,
+            names: Names::of(scene),
+            time: 0.0,
+            scales,
+            seeds: seeds.to_vec(),
+            neighbours,
+            tangents,
+            followed: false,
+            tolerance,
+        })
     }
 
     /// Begins the tangent at the communication point, where nothing depends on parameters yet.
@@ -183,7 +195,7 @@ impl Variation {
             Ok(()) => self.time = time,
             Err(error) => {
                 self.time = self.time.max(error.time());
-                return Err(failure(error));
+                return Err(self.names.explain(error));
             }
         }
         Ok(())

@@ -1,0 +1,55 @@
+//! Errors of the integrator in the words of a scene.
+
+use super::contacts::{subject, subject_of_event};
+use super::error::SimulationError;
+use crate::integrator::IntegrationError;
+use crate::model::coordinates::{event_count, state_variables};
+use crate::scene::Scene;
+
+/// Message for the only dead end of a mechanism's equations of motion.
+const DEAD_END: &str =
+    "the rod stands across the guide, where the slider may continue to either side of the change point";
+
+/// What the integrator's numbers of states and events stand for.
+pub struct Names {
+    states: Vec<String>,
+    events: Vec<String>,
+}
+
+impl Names {
+    /// Those of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            states: state_variables(scene).into_iter().map(|state| state.name).collect(),
+            events: (0..event_count(scene)).map(|event| subject_of_event(scene, event)).collect(),
+        }
+    }
+
+    /// The simulation's error for one of the integrator.
+    pub fn explain(&self, error: IntegrationError) -> SimulationError {
+        let state = |place: usize| self.states.get(place).map_or("a state", String::as_str);
+        let subject_of = |event: usize| self.events.get(event).map_or("a contact", String::as_str);
+        let cause = match error {
+            IntegrationError::StepUnderflow { step, component, .. } => {
+                format!("a step of {step:.1e} s no longer moves time; the error of {} is the largest", state(component))
+            }
+            IntegrationError::NotFinite { component, .. } => {
+                format!("the rate of {} is not finite, or too large to continue", state(component))
+            }
+            IntegrationError::EventsAccumulate { event, .. } => {
+                format!("events accumulate at {}", subject_of(event))
+            }
+            IntegrationError::TooDeep { contact, .. } => {
+                format!(
+                    "a step ends with {} deeper in penetration than its clearance; solver.step is too long",
+                    subject(contact)
+                )
+            }
+            IntegrationError::DeadEnd { .. } => DEAD_END.to_owned(),
+            IntegrationError::TooMuchWork { .. } => format!("{error}; see solver.max_evaluations"),
+            IntegrationError::Complementarity { .. } => error.to_string(),
+        };
+        let dead_end = matches!(error, IntegrationError::DeadEnd { .. });
+        SimulationError::Integration { time: error.time(), cause, dead_end }
+    }
+}
