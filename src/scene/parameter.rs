@@ -172,20 +172,23 @@ impl Parameter {
         Ok(())
     }
 
-    /// The allowed values in words: `1e-9 to 0.1 m`, `1 (ideal), 2 (clearance)`, `true or false`.
+    /// The allowed values in words: `1e-9 to 0.1 m`, `an integer, 0 to 8`, `1 (ideal), 2 (clearance)`, `true or false`.
     pub fn allowed(&self) -> String {
         match self.kind {
-            Kind::Real { unit, min, max, .. } => {
-                let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-                format!("{} to {}{unit}", number(min), number(max))
-            }
-            Kind::Integer { min, max, .. } => format!("{min} to {max}"),
+            Kind::Real { unit, min, max, .. } => format!("{} to {}", number(min), with_unit(max, unit)),
+            Kind::Integer { min, max, .. } => format!("an integer, {min} to {max}"),
             Kind::Boolean { .. } => "true or false".to_owned(),
             Kind::Enumeration { items, .. } => {
                 items.iter().map(|(name, value)| format!("{value} ({name})")).collect::<Vec<_>>().join(", ")
             }
         }
     }
+}
+
+/// A number with its unit, if it has one.
+pub(super) fn with_unit(value: f64, unit: &str) -> String {
+    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    format!("{}{unit}", number(value))
 }
 
 #[cfg(test)]
@@ -201,7 +204,7 @@ mod tests {
         assert_eq!(allowed("joint.C.clearance"), "1e-9 to 0.1 m");
         assert_eq!(allowed("joint.C.young.bearing"), "1000 to 1e14 Pa");
         assert_eq!(allowed("joint.C.ratio_limit"), "-1e9 to 1e9");
-        assert_eq!(allowed("rod.flexible.bending_modes"), "0 to 8");
+        assert_eq!(allowed("rod.flexible.bending_modes"), "an integer, 0 to 8");
         assert_eq!(allowed("energy.audit"), "true or false");
         assert_eq!(allowed("joint.T.surface"), "1 (corner), 2 (foundation)");
         for parameter in PARAMETERS {

@@ -19,14 +19,13 @@
 
 use super::data::Scene;
 use super::error::SceneError;
-use super::parameter::{Kind, PARAMETERS, Parameter};
+use super::parameter::{Kind, PARAMETERS, Parameter, with_unit};
 use super::problem::{Fault, Problem, ReadError, nearest, position};
 use super::profile::{Profile, Profiles};
 pub use super::read_table::Files;
 use super::read_value::{Value, integer, number, source};
 use super::run::{End, Run};
 use super::{read_profile, read_table};
-use crate::model_description::number::number as shown;
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
@@ -149,7 +148,7 @@ impl<'i> Reader<'i> {
             legal.then_some(number).ok_or_else(|| Fault::Value {
                 key: path.to_owned(),
                 found: source(reader.text, value),
-                allowed: format!("above 0, at most {} {unit}", shown(MAX_DURATION)),
+                allowed: format!("above 0, at most {}", with_unit(MAX_DURATION, unit)),
             })
         };
         match path {
@@ -199,7 +198,7 @@ impl<'i> Reader<'i> {
                 let integer = integer(value).ok_or_else(|| Fault::Type {
                     key: key(),
                     found: found(),
-                    wanted: format!("an integer, {allowed}"),
+                    wanted: allowed.clone(),
                 })?;
                 (integer, allowed)
             }

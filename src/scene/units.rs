@@ -78,6 +78,8 @@ const COMPOUNDS: &[&str] = &["mm2", "cm2", "mm4", "cm4", "g/cm3", "N/mm2", "N/mm
 pub enum UnitError {
     /// The text does not begin with a number.
     NoNumber,
+    /// The number is too large.
+    Overflow,
     /// The text has no unit.
     NoUnit,
     /// The unit contains an unknown symbol.
@@ -90,6 +92,7 @@ impl fmt::Display for UnitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoNumber => f.write_str("no number before the unit"),
+            Self::Overflow => f.write_str("the number is beyond 1.8e308"),
             Self::NoUnit => f.write_str("no unit; a number in SI units stands without quotation marks"),
             Self::Unknown(symbol) => write!(f, "unknown unit `{symbol}`"),
             Self::Dimension(unit) => write!(f, "`{unit}` measures something else"),
@@ -102,6 +105,9 @@ impl std::error::Error for UnitError {}
 /// The number in SI units of a text such as `50 mm`; `wanted` is the SI unit.
 pub fn quantity(text: &str, wanted: &str) -> Result<f64, UnitError> {
     let (number, unit) = split(text).ok_or(UnitError::NoNumber)?;
+    if !number.is_finite() {
+        return Err(UnitError::Overflow);
+    }
     if unit.is_empty() {
         return Err(UnitError::NoUnit);
     }
@@ -124,12 +130,13 @@ pub fn alternatives(unit: &str) -> Vec<&str> {
     std::iter::once(unit).chain(others).chain(COMPOUNDS.iter().copied().filter(fits)).collect()
 }
 
-/// The longest finite number at the beginning of a text, and the rest of the text.
+/// The longest number in digits at the beginning of a text, and the rest of the text.
 fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
-    ends.filter_map(|end| Some((text[..end].trim_end().parse().ok()?, text[end..].trim_start())))
-        .find(|(number, _): &(f64, _)| number.is_finite())
+    let mut starts = ends.map(|end| (text[..end].trim_end(), text[end..].trim_start()));
+    let in_digits = |number: &str| number.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+    starts.find_map(|(number, rest)| Some((number.parse().ok().filter(|_| in_digits(number))?, rest)))
 }
 
 /// Dimension and factor to SI of a unit.
@@ -221,6 +228,7 @@ mod tests {
         let unknown = |unit: &str| Err(UnitError::Unknown(unit.into()));
         assert_eq!(quantity("mm", "m"), Err(UnitError::NoNumber));
         assert_eq!(quantity("inf mm", "m"), Err(UnitError::NoNumber));
+        assert_eq!(quantity("1e400 mm", "m"), Err(UnitError::Overflow));
         assert_eq!(quantity("50", "m"), Err(UnitError::NoUnit));
         assert_eq!(quantity("50 furlong", "m"), unknown("furlong"));
         assert_eq!(quantity("50 mm7", "m"), unknown("mm7"));

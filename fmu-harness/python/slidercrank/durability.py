@@ -27,12 +27,15 @@ def force(run: pandas.DataFrame, joint: str) -> pandas.Series:
 
 def cycles(series: pandas.Series) -> pandas.DataFrame:
     """Rainflow cycles of a series over time: range and mean in its unit, count (0.5 or 1), first and last time."""
+    if not numpy.isfinite(series).all():
+        raise ValueError(f"{series.name} has values that are no finite numbers")
     time = series.index.to_numpy()
     found = [
         (span, mean, count, time[first], time[last])
         for span, mean, count, first, last in rainflow.extract_cycles(series.to_numpy())
+        if span > 0.0
     ]
-    return pandas.DataFrame(found, columns=["range", "mean", "count", "from", "to"])
+    return pandas.DataFrame(found, columns=["range", "mean", "count", "from", "to"], dtype=float)
 
 
 def equivalent(counted: pandas.DataFrame, exponent: float, repetitions: float = 1.0) -> float:

@@ -125,8 +125,11 @@ def starts(fmu: str | Path, settings: Mapping[str, float]) -> Callable[[str], fl
 
 def bottom_dead_centre(start: Callable[[str], float]) -> float:
     """[rad] The crank's angle where crank and rod are in line and the slider is farthest."""
-    height = start("guide.offset") - start("slider.centre.y")
-    return math.asin(height / (start("crank.length") + start("rod.length")))
+    height, reach = start("guide.offset") - start("slider.centre.y"), start("crank.length") + start("rod.length")
+    if abs(height) > reach:
+        far = f"{abs(height):.6g} m from the crank's axis"
+        raise ValueError(f"crank and rod, {reach:.6g} m long, do not reach the slider's pin, {far}")
+    return math.asin(height / reach)
 
 
 @dataclass(frozen=True)

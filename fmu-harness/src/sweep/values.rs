@@ -70,12 +70,6 @@ impl Number {
             _ => None,
         };
         let value = found.with_context(|| format!("{name} = {self} is not allowed: {}", parameter.allowed()))?;
-        let is_integer = matches!(kind, Kind::Integer { .. });
-        ensure!(
-            !is_integer || value.fract() == 0.0,
-            "{name} = {value} is not allowed: an integer, {}",
-            parameter.allowed()
-        );
         parameter.admit(value)?;
         Ok(value)
     }

@@ -67,9 +67,7 @@ fn what_is_wrong_with_a_file_is_said_in_one_sentence() {
     let whole = fs::read(&good).expect("read");
     fs::write(&good, &whole[..whole.len() / 2]).expect("written");
     assert!(complaint(Fmu::open(&good)).contains("decay.fmu: not a complete ZIP archive"));
-    assert!(
-        complaint(Fmu::open(Path::new("/none.fmu"))).starts_with("/none.fmu: not a complete ZIP archive: No such file")
-    );
+    assert!(complaint(Fmu::open(Path::new("/none.fmu"))).starts_with("/none.fmu: No such file"));
 
     let mut flipped = whole.clone();
     flipped[whole.len() / 2] ^= 0xff;

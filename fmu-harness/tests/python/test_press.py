@@ -9,7 +9,7 @@ import pytest
 
 from slidercrank import plan, plots, study
 from slidercrank.placements import placements
-from slidercrank.press import Scene, at_bottom_dead_centre, curve, parallelism, readings, stack_up, unloaded
+from slidercrank.press import Scene, at_bottom_dead_centre, bottom_dead_centre, curve, parallelism, readings, stack_up, unloaded
 from slidercrank.source import home
 
 from conftest import fmu
@@ -178,3 +178,10 @@ def test_a_figure_of_placements_tells_every_value(ma_qian):
         assert numpy.array_equal(axes.get_images()[0].get_array().ravel(), values)
         assert [text.get_text() for text in axes.texts] == [f"{value:.3g}" for value in values]
         assert axes.get_images()[0].get_clim() == (table["peak_force_C"].min(), table["peak_force_C"].max())
+
+
+def test_a_guide_out_of_reach_has_no_dead_centre():
+    lengths = {"guide.offset": 0.8, "slider.centre.y": 0.0, "crank.length": 0.1, "rod.length": 0.5}
+    with pytest.raises(ValueError, match="0.6 m long, do not reach the slider's pin, 0.8 m"):
+        bottom_dead_centre(lengths.__getitem__)
+    assert bottom_dead_centre({**lengths, "guide.offset": 0.3}.__getitem__) == pytest.approx(math.pi / 6)

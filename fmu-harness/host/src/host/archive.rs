@@ -26,8 +26,8 @@ pub struct Archive {
 impl Archive {
     /// Opens the file and checks every entry's name and method.
     pub fn open(file: &Path) -> Result<Self, HostError> {
-        let torn = |error: &dyn std::fmt::Display| HostError::Archive { file: file.into(), cause: error.to_string() };
-        let zip = ZipArchive::new(File::open(file).map_err(|error| torn(&error))?).map_err(|error| torn(&error))?;
+        let opened = File::open(file).map_err(|cause| HostError::File { file: file.into(), cause })?;
+        let zip = ZipArchive::new(opened).map_err(|error| torn(file, &error))?;
         let mut archive = Self { file: file.into(), zip };
         (0..archive.zip.len()).try_for_each(|index| archive.check(index))?;
         Ok(archive)

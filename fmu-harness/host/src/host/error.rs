@@ -6,7 +6,15 @@ use thiserror::Error;
 /// An FMU cannot be opened or loaded, or a call failed.
 #[derive(Debug, Error)]
 pub enum HostError {
-    /// The file cannot be read or is not an archive.
+    /// The file cannot be opened.
+    #[error("{}: {cause}", file.display())]
+    File {
+        /// The FMU.
+        file: PathBuf,
+        /// Message of the operating system.
+        cause: std::io::Error,
+    },
+    /// The file cannot be read to its end or is not an archive.
     #[error("{}: not a complete ZIP archive: {cause}", file.display())]
     Archive {
         /// The FMU.
