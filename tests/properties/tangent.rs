@@ -149,7 +149,7 @@ fn four_plays() {
         &["joint.A.clearance", "guide.offset", "rod.length", "crank.length"],
     );
     check_to(
-        1e-5,
+        2e-5,
         "press",
         &shipped("press"),
         3e-3,
@@ -196,10 +196,11 @@ fn play_in_the_guide() {
     faces.joint.t.surface = Surface::Foundation;
     // The step of another method in one of two neighbours would be the larger part of their difference.
     faces.solver.method = Method::Verner7;
+    faces.solver.tolerance = 1e-12;
     // Where a face lies flat, neighbours must be near for the first order, and their differences drown in rounding. At the
     // first landing there is no tilt.
     for from in [2e-3, 7e-3] {
-        check_to(1e-5, "faces", &faces, from, 1e-3, &["joint.T.clearance"]);
+        check_to(2e-5, "faces", &faces, from, 1e-3, &["joint.T.clearance"]);
     }
 }
 

@@ -43,6 +43,7 @@ cases! {
     jammed: [Energy(1e-7), Depth(2.0), Work(5_000_000), Also(special::is_jammed)]
     jumps: [Energy(1e-8), Depth(2.0), Work(300_000), Also(special::jumps_count)]
     longsteps: [Energy(1e-6), Depth(2.0), Work(20_000_000), Also(special::any_step_will_do)]
+    loose_main_bearing: [Depth(2.0), Work(3_000), Also(special::touches_are_noticed)]
     nanosteps: [Energy(1e-7), Depth(2.0), Work(700), Also(special::any_step_will_do)]
     nearly_equal: [Energy(1e-5), Work(30_000), Also(special::goes_round)]
     oil_blows: [Energy(1e-6), Work(2_000_000)]
