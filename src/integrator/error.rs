@@ -50,6 +50,13 @@ pub enum IntegrationError {
         /// Number of closed contacts.
         contacts: usize,
     },
+    /// The motion has left the range in which the equations hold.
+    OutOfRange {
+        /// [s] Time reached.
+        time: f64,
+        /// Index of the event function that is too high.
+        event: usize,
+    },
     /// A step leaves a rigid contact deeper in penetration than its play is wide.
     TooDeep {
         /// [s] Time reached.
@@ -75,6 +82,7 @@ impl IntegrationError {
             | Self::DeadEnd { time, .. }
             | Self::TooMuchWork { time, .. }
             | Self::Complementarity { time, .. }
+            | Self::OutOfRange { time, .. }
             | Self::TooDeep { time, .. } => time,
         }
     }
@@ -100,6 +108,9 @@ impl fmt::Display for IntegrationError {
             }
             Self::Complementarity { contacts, .. } => {
                 write!(f, "no impulses satisfy the laws of {contacts} closed contacts at once")
+            }
+            Self::OutOfRange { event, .. } => {
+                write!(f, "the equations do not hold where event function {event} is so high")
             }
             Self::TooDeep { contact, .. } => {
                 write!(f, "the step is too long for contact {contact}, whose penetration exceeds its clearance")

@@ -204,6 +204,10 @@ impl<D: Copy> Integrator<D> {
             event_location::settle(&mut self.stepper, system)?;
             self.step(system)?;
             watch(self);
+            let events = self.stepper.events.iter().zip(system.highest_events()).take(system.event_count());
+            if let Some(event) = events.map(|(event, highest)| event.value > *highest).position(|beyond| beyond) {
+                return Err(IntegrationError::OutOfRange { time: self.state().front().t, event });
+            }
             stalled_steps = if self.state().front().t > front { 0 } else { stalled_steps + 1 };
             if stalled_steps == event_location::MAX_EVENTS_AT_ONE_TIME {
                 let events = &self.stepper.events[..system.event_count()];

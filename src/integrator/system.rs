@@ -185,6 +185,11 @@ pub trait Events: Ode {
         false
     }
 
+    /// Values of the event functions above which the equations do not hold: a motion ends there.
+    fn highest_events(&self) -> &[f64; MAX_EVENTS] {
+        &[f64::INFINITY; MAX_EVENTS]
+    }
+
     /// [unit of the event functions] An error of `tolerance` times this is just tolerable in an event function.
     fn event_scale(&self) -> f64 {
         1.0

@@ -1,6 +1,7 @@
 //! The model of a scene: its mechanism, with the interfaces of the integrator and the simulation.
 
 use super::bristles::bristled_contacts;
+use super::clearances::deepest_journals;
 use super::compiled::Compiled;
 use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
@@ -18,8 +19,8 @@ use super::state::{CONTACTS, Conditions, Contacts, Evaluation, Pose};
 use super::unilateral::StepForces;
 use crate::integrator::complementarity::MAX_CONTACTS;
 use crate::integrator::{
-    ContactLaw, Discontinuities, EventFunctions, Events, Impulses, Jacobian, Linearizable, MAX_STATES, Ode, Relative,
-    Reset, SeveralInstants, StateLayout, Tableau, Triggered, Unilateral,
+    ContactLaw, Discontinuities, EventFunctions, Events, Impulses, Jacobian, Linearizable, MAX_EVENTS, MAX_STATES, Ode,
+    Relative, Reset, SeveralInstants, StateLayout, Tableau, Triggered, Unilateral,
 };
 use crate::math::F64x8;
 use crate::scene::Scene;
@@ -36,6 +37,7 @@ pub struct Model {
     scales: Vec<f64>,
     longest_step: f64,
     event_scale: f64,
+    highest_events: [f64; MAX_EVENTS],
 }
 
 impl Model {
@@ -73,6 +75,7 @@ impl Model {
                 && (mechanism.rod.is_none() || ROWS_WITH_MODES),
             scales,
             longest_step: scale.longest_step,
+            highest_events: deepest_journals(scene),
             event_scale: if structure.closed { IdealMechanism::CHANGE_POINT_SCALE } else { scale.length },
             mechanism,
         }
@@ -172,6 +175,10 @@ impl Events for Model {
 
     fn is_dead_end(&self, _: usize) -> bool {
         self.mechanism.structure.closed
+    }
+
+    fn highest_events(&self) -> &[f64; MAX_EVENTS] {
+        &self.highest_events
     }
 
     fn event_scale(&self) -> f64 {

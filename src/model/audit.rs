@@ -27,8 +27,8 @@ use super::start::StartPose;
 use super::state::{CONTACTS, Conditions, Contacts, Evaluation, Pose};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use crate::integrator::{
-    Discontinuities, EventFunctions, Events, Jacobian, Linearizable, MAX_STATES, Ode, Reset, SeveralInstants,
-    StateLayout, Triggered, Unilateral,
+    Discontinuities, EventFunctions, Events, Jacobian, Linearizable, MAX_EVENTS, MAX_STATES, Ode, Reset,
+    SeveralInstants, StateLayout, Triggered, Unilateral,
 };
 use crate::math::Real;
 use crate::scene::Scene;
@@ -234,6 +234,10 @@ impl Events for Audited {
 
     fn discontinuities(&self, conditions: &Conditions, t: f64, y: &[f64], functions: &mut Discontinuities) {
         self.model.discontinuities(conditions, t, &y[..self.first()], functions);
+    }
+
+    fn highest_events(&self) -> &[f64; MAX_EVENTS] {
+        self.model.highest_events()
     }
 
     fn event_scale(&self) -> f64 {

@@ -17,7 +17,7 @@ use super::state::{CONTACTS, Conditions, Contacts, Pose};
 use super::structure::{CRANK, ROD, SLIDER};
 use super::touches::Touches;
 use crate::integrator::{ContactLaw, Discontinuities, EventFunctions, MAX_EVENTS, Reset, Triggered};
-use crate::scene::{Contact, FrictionLaw, Scene};
+use crate::scene::{Contact, FrictionLaw, JointModel, Scene};
 
 /// The joints of a scene with their contact parameters.
 #[derive(Clone, Debug)]
@@ -50,6 +50,18 @@ fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
         *place = law(&joint.contact, joint.clearance);
     }
     laws
+}
+
+/// [m] Penetrations of journals at which their centres reach the bearings' surface, in the order of the event functions. No
+/// contact law holds there. The event function of an open contact is its gap, which is at most the clearance.
+pub fn deepest_journals(scene: &Scene) -> [f64; MAX_EVENTS] {
+    let joint = &scene.joint;
+    let with_play = [&joint.a, &joint.b, &joint.c].into_iter().filter(|joint| joint.model == JointModel::Clearance);
+    let mut deepest = [f64::INFINITY; MAX_EVENTS];
+    for (place, joint) in deepest.iter_mut().zip(with_play) {
+        *place = (joint.radius - joint.clearance).max(joint.clearance);
+    }
+    deepest
 }
 
 impl Clearances {

@@ -39,6 +39,12 @@ impl Names {
             IntegrationError::EventsAccumulate { event, .. } => {
                 format!("events accumulate at {}", subject_of(event))
             }
+            IntegrationError::OutOfRange { event, .. } => {
+                format!(
+                    "{} is so deep in penetration that the journal's centre lies outside its bearing",
+                    subject_of(event)
+                )
+            }
             IntegrationError::TooDeep { contact, .. } => {
                 format!(
                     "a step ends with {} deeper in penetration than its clearance; solver.step is too long",
