@@ -1,6 +1,8 @@
 //! Inputs and outputs of the mechanism, as named in the FMU's interface. Their layout is that of C: two builds of the library
 //! exchange these values.
 
+use crate::scene::profile::{Profile, Profiles};
+use crate::scene::read::SceneFile;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
@@ -12,6 +14,26 @@ pub struct Inputs<R = f64> {
     pub crank_torque: R,
     /// [N] Force on the slider along +x at its pin centre.
     pub slider_load: R,
+}
+
+impl Inputs {
+    /// The inputs of a scene at its start.
+    pub fn at_start(file: &SceneFile) -> Self {
+        let Profiles { crank_torque, slider_load } = &file.inputs;
+        let value = |profile: &Profile| profile.value(0.0, file.scene.crank.angle_start);
+        Self { crank_torque: value(crank_torque), slider_load: value(slider_load) }
+    }
+
+    /// The values of profiles at the start of a step between two times [s], where the crank moves on from `crank`, and the
+    /// slopes of their chords.
+    pub fn chords(profiles: &Profiles, step: [f64; 2], crank: &CrankOutputs) -> [Self; 2] {
+        let Profiles { crank_torque, slider_load } = profiles;
+        let [torque, load] = [crank_torque, slider_load].map(|profile| profile.chord(step, crank.angle, crank.speed));
+        [
+            Self { crank_torque: torque.value, slider_load: load.value },
+            Self { crank_torque: torque.slope, slider_load: load.slope },
+        ]
+    }
 }
 
 /// Outputs at one instant.

@@ -57,6 +57,15 @@ impl ProfileArgument {
     }
 }
 
+/// A straight line over a communication step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chord {
+    /// Value at the start of the step.
+    pub value: f64,
+    /// [1/s] Slope.
+    pub slope: f64,
+}
+
 impl Default for Profile {
     fn default() -> Self {
         Self::Constant(0.0)
@@ -75,16 +84,22 @@ impl Profile {
         }
     }
 
-    /// Time derivative at a time [s], a crank angle [rad] and a crank speed [rad/s]; at a point, the derivative of the
-    /// segment behind it.
-    pub fn rate(&self, time: f64, crank_angle: f64, crank_speed: f64) -> f64 {
-        let abscissa_rate = match self {
-            Self::Constant(_) => return 0.0,
-            Self::Points { against: ProfileArgument::Time, .. } => 1.0,
-            Self::Points { against: ProfileArgument::CrankAngle, .. } => crank_speed,
-        };
-        let (_, [from, to]) = self.segment(time, crank_angle);
-        slope(from, to) * abscissa_rate
+    /// The chord over a step between two times [s], at whose start the crank has an angle [rad] and a speed [rad/s], at
+    /// which it turns on. Between equal values its slope is exactly 0.
+    pub fn chord(&self, [from, to]: [f64; 2], crank_angle: f64, crank_speed: f64) -> Chord {
+        let (value, step) = (self.value(from, crank_angle), to - from);
+        Chord { value, slope: (self.value(to, crank_angle + crank_speed * step) - value) / step }
+    }
+
+    /// [1/rad] Slope over the crank angle at an angle [rad]; at a point, that of the segment behind it. 0 over time.
+    pub fn slope_over_angle(&self, crank_angle: f64) -> f64 {
+        match self {
+            Self::Points { against: ProfileArgument::CrankAngle, .. } => {
+                let (_, [from, to]) = self.segment(0.0, crank_angle);
+                slope(from, to)
+            }
+            _ => 0.0,
+        }
     }
 
     /// The argument, and the ends of the segment that contains it; a segment of constant value has equal ends.
@@ -128,8 +143,7 @@ mod tests {
         let profile = over(ProfileArgument::Time);
         let values = [0.0, 1.0, 2.0, 3.0, 3.5, 4.0, 9.0].map(|time| profile.value(time, 0.0));
         assert_eq!(values, [10.0, 10.0, 20.0, 30.0, 15.0, 0.0, 0.0]);
-        let rates = [0.0, 1.0, 3.0, 9.0].map(|time| profile.rate(time, 0.0, 7.0));
-        assert_eq!(rates, [0.0, 10.0, -30.0, 0.0]);
+        assert_eq!(profile.slope_over_angle(2.0), 0.0);
     }
 
     #[test]
@@ -145,6 +159,20 @@ mod tests {
             let middle = (4.0 + TAU + 1.0) / 2.0;
             assert!(near(value(middle), 5.0));
         }
-        assert_eq!(profile.rate(0.0, 2.0, 7.0), 70.0);
+        let slopes = [2.0, 3.0, 2.0 - TAU].map(|angle| profile.slope_over_angle(angle));
+        assert_eq!(slopes, [10.0, -30.0, 10.0]);
+    }
+
+    #[test]
+    fn a_chord_joins_the_values_at_both_ends_of_a_step() {
+        let [time, angle] = [ProfileArgument::Time, ProfileArgument::CrankAngle].map(over);
+        // Past the corner at 3, where the tangent would end at 35.
+        assert_eq!(time.chord([2.5, 3.5], 0.0, 9.0), Chord { value: 25.0, slope: -10.0 });
+        assert_eq!(angle.chord([7.0, 7.5], 2.5, 2.0), Chord { value: 25.0, slope: -20.0 });
+        // Backwards, and level.
+        assert_eq!(angle.chord([7.0, 7.5], 3.5, -2.0), Chord { value: 15.0, slope: 20.0 });
+        assert_eq!(time.chord([5.0, 6.0], 0.0, 9.0), Chord { value: 0.0, slope: 0.0 });
+        assert_eq!(angle.chord([0.0, 0.3], 2.0, 0.0), Chord { value: 20.0, slope: 0.0 });
+        assert_eq!(Profile::Constant(0.1).chord([0.0, 0.3], 2.0, 5.0), Chord { value: 0.1, slope: 0.0 });
     }
 }

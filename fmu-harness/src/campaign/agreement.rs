@@ -3,7 +3,6 @@
 //! Two runs of a chaotic motion diverge sooner or later. A run must stay near the reference at least for as long as
 //! another method stays near it at the same tolerance.
 
-use super::trial::inputs;
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::{JointModel, Method, Scene};
@@ -30,19 +29,20 @@ pub fn parts(file: &SceneFile) -> Option<String> {
     for (method, tolerance) in ways {
         let mut file = file.clone();
         (file.scene.solver.method, file.scene.solver.tolerance) = (method, tolerance);
-        let start = inputs(&file, 0.0, file.scene.crank.angle_start);
-        runs.push((Simulation::start(&file.scene, start).ok()?, file));
+        runs.push((Simulation::start(&file.scene, Inputs::at_start(&file)).ok()?, file));
     }
     let turn = std::f64::consts::TAU / scene.crank.speed_start.abs();
     let points = (f64::min(TURNS * turn, file.run.stop(scene)) / file.run.step) as usize;
     let mut worst_of_peer = 0.0_f64;
     for point in 1..=points {
+        let time = file.run.step * point as f64;
         let mut outputs = vec![];
         for (simulation, file) in &mut runs {
-            let angle = simulation.outputs().crank.angle;
-            simulation.set_inputs(inputs(file, simulation.time(), angle), Inputs::default());
+            let crank = simulation.outputs().crank;
+            let [inputs, rates] = Inputs::chords(&file.inputs, [simulation.time(), time], &crank);
+            simulation.set_inputs(inputs, rates);
             // A run that ends early is judged elsewhere.
-            simulation.advance_to(file.run.step * point as f64).ok()?;
+            simulation.advance_to(time).ok()?;
             outputs.push(simulation.outputs());
         }
         let [own, peer] = [0, 1].map(|run| distance(scene, &outputs[run], &outputs[2]));
@@ -51,7 +51,6 @@ pub fn parts(file: &SceneFile) -> Option<String> {
             return None;
         }
         if own > FACTOR * worst_of_peer.max(scene.solver.tolerance) {
-            let time = file.run.step * point as f64;
             return Some(format!(
                 "{own:.1e} clearances from the reference, where {} has been {worst_of_peer:.1e}, at {time:e} s",
                 PEER.name()

@@ -4,7 +4,6 @@
 //! Under a load such a contact is far stiffer than its own motion requires. Bristles and high modes of a rod are stiff,
 //! too.
 
-use super::trial::inputs;
 use nalgebra::DMatrix;
 use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::read::SceneFile;
@@ -34,14 +33,17 @@ impl Stiffness {
     /// Analyses the first part of a scene's run. The result is empty if the run cannot start.
     pub fn of(file: &SceneFile) -> Self {
         let mut seen = Self::default();
-        let start = inputs(file, 0.0, file.scene.crank.angle_start);
-        let Ok(mut simulation) = Simulation::start(&file.scene, start) else { return seen };
+        let Ok(mut simulation) = Simulation::start(&file.scene, Inputs::at_start(file)) else {
+            return seen;
+        };
         let points = (file.run.stop(&file.scene) / file.run.step).round().max(1.0) as usize;
         let mut looks = 0.0;
         for point in 1..=points {
             let Outputs { crank, solver, .. } = simulation.outputs();
-            simulation.set_inputs(inputs(file, simulation.time(), crank.angle), Inputs::default());
-            let stepped = simulation.advance_to(file.run.stop(&file.scene) * (point as f64 / points as f64));
+            let time = file.run.stop(&file.scene) * (point as f64 / points as f64);
+            let [inputs, rates] = Inputs::chords(&file.inputs, [simulation.time(), time], &crank);
+            simulation.set_inputs(inputs, rates);
+            let stepped = simulation.advance_to(time);
             if stepped.is_err() || solver.evaluations > EVALUATIONS {
                 break;
             }

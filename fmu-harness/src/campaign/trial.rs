@@ -5,7 +5,7 @@
 //! same bits; if the energy is audited and the method has a tolerance, the energy balance closes.
 
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
-use slidercrank::model::signals::{Inputs, Outputs};
+use slidercrank::model::signals::{CrankOutputs, Inputs, Outputs};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::{Method, Scene};
 use slidercrank::simulation::{Simulation, SimulationError, Snapshot, System};
@@ -114,13 +114,13 @@ struct Trial<'a> {
 struct Saved {
     snapshot: Snapshot,
     point: usize,
-    angle: f64,
+    crank: CrankOutputs,
     after: Vec<String>,
 }
 
 impl<'a> Trial<'a> {
     fn run(file: &'a SceneFile, terms: Terms, cost: &mut Cost) -> Result<(), Stop> {
-        let inputs = inputs(file, 0.0, file.scene.crank.angle_start);
+        let inputs = Inputs::at_start(file);
         let simulation = Simulation::start(&file.scene, inputs).map_err(Stop::Ended)?;
         let mut trial = Self { file, simulation, inputs, outputs: Outputs::default(), residual: 0.0, turned_over: 0.0 };
         trial.look(0)?;
@@ -129,8 +129,8 @@ impl<'a> Trial<'a> {
         let mut saved: Option<Saved> = None;
         for point in 1..=points {
             if point > save_at && saved.is_none() {
-                let (snapshot, angle) = (trial.simulation.snapshot(), trial.outputs.crank.angle);
-                saved = Some(Saved { snapshot, point, angle, after: vec![] });
+                let (snapshot, crank) = (trial.simulation.snapshot(), trial.outputs.crank);
+                saved = Some(Saved { snapshot, point, crank, after: vec![] });
             }
             let stepped = trial.step(point, points);
             cost.evaluations = trial.outputs.solver.evaluations;
@@ -162,9 +162,11 @@ impl<'a> Trial<'a> {
 
     /// Advances to a communication point and checks the results, also after an error.
     fn step(&mut self, point: usize, points: usize) -> Result<(), Stop> {
-        self.inputs = inputs(self.file, self.simulation.time(), self.outputs.crank.angle);
-        self.simulation.set_inputs(self.inputs, Inputs::default());
-        let end = self.simulation.advance_to(self.time(point, points));
+        let time = self.time(point, points);
+        let [inputs, rates] = Inputs::chords(&self.file.inputs, [self.simulation.time(), time], &self.outputs.crank);
+        self.simulation.set_inputs(inputs, rates);
+        self.inputs = inputs;
+        let end = self.simulation.advance_to(time);
         match end {
             Ok(()) => self.look(point),
             Err(error) => {
@@ -229,17 +231,19 @@ impl<'a> Trial<'a> {
         let Ok(mut again) = Simulation::restore(scene, &saved.snapshot) else {
             return Err(self.failed("a saved state cannot be restored".into()));
         };
-        let mut angle = saved.angle;
+        let mut crank = saved.crank;
         for (i, wanted) in saved.after.iter().enumerate() {
-            again.set_inputs(inputs(self.file, again.time(), angle), Inputs::default());
-            if let Err(error) = again.advance_to(self.time(saved.point + i, points)) {
+            let time = self.time(saved.point + i, points);
+            let [inputs, rates] = Inputs::chords(&self.file.inputs, [again.time(), time], &crank);
+            again.set_inputs(inputs, rates);
+            if let Err(error) = again.advance_to(time) {
                 return Err(self.failed(format!("a restored run fails: {error}")));
             }
             let outputs = again.outputs();
             if format!("{outputs:?}") != *wanted {
                 return Err(self.failed("a restored run differs from the original run".into()));
             }
-            angle = outputs.crank.angle;
+            crank = outputs.crank;
         }
         Ok(())
     }
@@ -276,12 +280,4 @@ fn reals(outputs: &Outputs) -> impl Iterator<Item = (&'static str, f64)> {
         Access::RealOutput(get) => Some((variable.name, get(outputs))),
         _ => None,
     })
-}
-
-/// The inputs at a communication point, which are held until the next one.
-pub fn inputs(file: &SceneFile, time: f64, crank_angle: f64) -> Inputs {
-    Inputs {
-        crank_torque: file.inputs.crank_torque.value(time, crank_angle),
-        slider_load: file.inputs.slider_load.value(time, crank_angle),
-    }
 }

@@ -27,8 +27,8 @@ pub trait Simulated {
     fn outputs(&mut self) -> Outputs;
     /// First time derivatives of the real outputs at the time reached.
     fn output_rates(&mut self) -> Outputs;
-    /// Sets the inputs to those of the profiles at the time reached.
-    fn apply(&mut self, inputs: &Profiles);
+    /// Sets the inputs to the chords of the profiles from the time reached to `until` [s].
+    fn apply(&mut self, inputs: &Profiles, until: f64);
     /// The point of phase space at the time reached.
     fn phase(&mut self) -> Phase;
     /// Continues from another point of phase space.
@@ -42,6 +42,8 @@ pub struct Machine<S = Simulation> {
     inputs: Profiles,
     /// [s] Time between two updates of changing inputs.
     step: Option<f64>,
+    /// [s] Where the present lines of the inputs end.
+    next_look: f64,
     scales: PhaseScales,
 }
 
@@ -51,7 +53,7 @@ impl Machine {
     /// # Errors
     /// If it cannot start, or its crank does not turn.
     pub fn start(file: &SceneFile) -> Result<Self> {
-        let simulation = Simulation::start(&file.scene, start_values(file))?;
+        let simulation = Simulation::start(&file.scene, Inputs::at_start(file))?;
         let scales = simulation.phase_scales();
         Self::of(file, simulation, scales)
     }
@@ -63,12 +65,13 @@ impl Machine {
     /// If it cannot go on.
     pub fn advance_to_event(&mut self, time: f64) -> Result<bool> {
         while self.time() < time {
-            let look = self.next_look();
-            if self.simulation.advance_to_event(look.min(time))? {
-                return Ok(true);
-            }
-            if look <= time {
+            let look = self.next_look;
+            let event = self.simulation.advance_to_event(look.min(time))?;
+            if self.time() >= look {
                 self.look();
+            }
+            if event {
+                return Ok(true);
             }
         }
         Ok(false)
@@ -88,7 +91,10 @@ impl<S: Simulated> Machine<S> {
         );
         let changes = |profile: &Profile| !matches!(profile, Profile::Constant(_));
         let step = (changes(&inputs.crank_torque) || changes(&inputs.slider_load)).then_some(run.step);
-        Ok(Self { simulation, scene: scene.clone(), inputs: inputs.clone(), step, scales })
+        let (scene, inputs) = (scene.clone(), inputs.clone());
+        let mut machine = Self { simulation, scene, inputs, step, next_look: f64::INFINITY, scales };
+        machine.look();
+        Ok(machine)
     }
 
     /// Its scene.
@@ -158,19 +164,21 @@ impl<S: Simulated> Machine<S> {
         if self.scene.drive.mode == DriveMode::Speed {
             phase.time = other.turned() / self.scene.crank.speed_start.abs();
         }
-        self.simulation.place(&phase);
+        self.go_on_from(&phase);
+    }
+
+    /// Continues from a point of phase space, under the inputs there.
+    pub(super) fn go_on_from(&mut self, phase: &Phase) {
+        self.simulation.place(phase);
         self.look();
     }
 
-    /// [s] The next time at which inputs are renewed, whatever times are asked for.
-    fn next_look(&self) -> f64 {
-        self.step.map_or(f64::INFINITY, |step| ((self.time() / step + 1e-6).floor() + 1.0) * step)
-    }
-
-    /// Sets the inputs to their current values.
-    fn look(&mut self) {
-        if self.step.is_some() {
-            self.simulation.apply(&self.inputs);
+    /// Sets the inputs to straight lines from the time reached to the next multiple of the step, whatever times are asked
+    /// for.
+    pub(super) fn look(&mut self) {
+        if let Some(step) = self.step {
+            self.next_look = ((self.time() / step + 1e-6).floor() + 1.0) * step;
+            self.simulation.apply(&self.inputs, self.next_look);
         }
     }
 }
@@ -192,9 +200,10 @@ impl Simulated for Simulation {
         self.output_rates()
     }
 
-    fn apply(&mut self, inputs: &Profiles) {
-        let angle = self.outputs().crank.angle;
-        self.set_inputs(values(inputs, self.time(), angle), Inputs::default());
+    fn apply(&mut self, inputs: &Profiles, until: f64) {
+        let crank = self.outputs().crank;
+        let [values, rates] = Inputs::chords(inputs, [self.time(), until], &crank);
+        self.set_inputs(values, rates);
     }
 
     fn phase(&mut self) -> Phase {
@@ -204,11 +213,6 @@ impl Simulated for Simulation {
     fn place(&mut self, phase: &Phase) {
         self.place(phase);
     }
-}
-
-/// The inputs of a scene at its start.
-pub fn start_values(file: &SceneFile) -> Inputs {
-    values(&file.inputs, 0.0, file.scene.crank.angle_start)
 }
 
 /// Name and clearance [m] of every joint that has clearance.
@@ -224,12 +228,6 @@ pub fn clearances(scene: &Scene) -> Vec<(char, f64)> {
     there.map(|(name, _, clearance)| (name, clearance)).collect()
 }
 
-/// The inputs at a time [s] and a crank angle [rad].
-pub fn values(profiles: &Profiles, time: f64, angle: f64) -> Inputs {
-    let Profiles { crank_torque, slider_load } = profiles;
-    Inputs { crank_torque: crank_torque.value(time, angle), slider_load: slider_load.value(time, angle) }
-}
-
 impl<S: Simulated> Flow for Machine<S> {
     fn time(&self) -> f64 {
         self.simulation.time()
@@ -237,7 +235,7 @@ impl<S: Simulated> Flow for Machine<S> {
 
     fn advance(&mut self, time: f64) -> Result<()> {
         while self.time() < time {
-            let look = self.next_look();
+            let look = self.next_look;
             self.simulation.advance_to(look.min(time)).with_context(|| format!("after {} s", self.time()))?;
             if look <= time {
                 self.look();
@@ -262,7 +260,7 @@ impl<S: Simulated> Flow for Machine<S> {
     fn place(&mut self, point: &Point) {
         let (states, speeds) = point.coordinates.split_at(self.scales.states.len());
         let mut speeds = speeds.iter().map(|speed| speed * self.scales.approach);
-        self.simulation.place(&Phase {
+        self.go_on_from(&Phase {
             time: point.time,
             states: states.iter().zip(&self.scales.states).map(|(state, scale)| state * scale).collect(),
             approach: point.modes.iter().map(|closed| closed.then(|| speeds.next()).flatten()).collect(),

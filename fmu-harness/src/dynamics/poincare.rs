@@ -8,7 +8,7 @@
 //! A contact that never opens keeps the approach speed of its last touch, whatever the motion is. That number is no
 //! unknown: there is a periodic motion for each.
 
-use super::machine::{Simulated, start_values};
+use super::machine::Simulated;
 use super::orbit::{Orbit, Return, ReturnMap, multipliers};
 use super::response::Response;
 use super::section::Visit;
@@ -17,6 +17,7 @@ use super::{Flow, Machine};
 use anyhow::{Result, ensure};
 use nalgebra::{DMatrix, DVector};
 use slidercrank::model::coordinates::state_variables;
+use slidercrank::model::signals::Inputs;
 use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::profile::{Profile, ProfileArgument};
 use slidercrank::scene::read::SceneFile;
@@ -61,7 +62,7 @@ impl<'a> PoincareMap<'a> {
         let mut seeds = all_states(file)?;
         seeds.extend((0..CONTACTS).map(Seed::Approach));
         seeds.push(Seed::Parameter(parameter));
-        let scales = Simulation::start(&file.scene, start_values(file))?.phase_scales();
+        let scales = Simulation::start(&file.scene, Inputs::at_start(file))?.phase_scales();
         let scales = scales.states.into_iter().chain([scales.approach; CONTACTS]).collect();
         Ok(Self { file, parameter, section, crank_angle, seeds, scales })
     }
@@ -84,7 +85,7 @@ impl<'a> PoincareMap<'a> {
     /// If it cannot run.
     pub fn response(&self, orbit: &Orbit, response: &Response) -> Result<f64> {
         let mut machine = Machine::start(&self.file(orbit.value)?)?;
-        machine.simulation.place(&orbit.phase);
+        machine.go_on_from(&orbit.phase);
         response.of(&mut machine, orbit.turns)
     }
 
@@ -149,7 +150,7 @@ impl ReturnMap for PoincareMap<'_> {
         let (scene, states) = (&file.scene, phase.states.len());
         let mut machine = Machine::with_tangent(&file, &self.seeds)?;
         let phase = self.placed(scene, phase);
-        machine.simulation.place(&phase);
+        machine.go_on_from(&phase);
         let events = machine.outputs().solver.events;
         let before = self.rates(&mut machine, states);
         let (mut visits, mut halfway) = (vec![], phase.clone());

@@ -1,13 +1,13 @@
 //! A running mechanism with the tangent of its motion.
 
 use super::Machine;
-use super::machine::{Simulated, start_values, values};
+use super::machine::Simulated;
 use anyhow::{Context, Result};
 use nalgebra::DMatrix;
-use slidercrank::model::coordinates::state_variables;
-use slidercrank::model::signals::{Inputs, Outputs};
+use slidercrank::model::coordinates::{Role, state_variables};
+use slidercrank::model::signals::{CrankOutputs, Inputs, Outputs};
 use slidercrank::scene::Scene;
-use slidercrank::scene::profile::Profiles;
+use slidercrank::scene::profile::{Profile, Profiles};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::Phase;
 use slidercrank::simulation::step_map::grazed;
@@ -16,8 +16,8 @@ use slidercrank::simulation::variation::{Seed, Variation};
 /// A simulation with its tangent, whose inputs may follow the crank angle.
 pub struct Tangent {
     variation: Variation,
-    /// Place of the crank angle among the states, if it is one.
-    crank_angle: Option<usize>,
+    /// Places of the crank's angle and speed among the states, if they are states.
+    crank: Option<[usize; 2]>,
     scene: Scene,
 }
 
@@ -27,11 +27,14 @@ impl Machine<Tangent> {
     /// # Errors
     /// If it cannot start or has no tangent.
     pub fn with_tangent(file: &SceneFile, seeds: &[Seed]) -> Result<Self> {
-        let variation = Variation::start(&file.scene, start_values(file), seeds)?;
-        let crank_angle = state_variables(&file.scene).iter().position(|state| state.name.ends_with("crank.angle"));
+        let variation = Variation::start(&file.scene, Inputs::at_start(file), seeds)?;
+        let crank = state_variables(&file.scene).iter().enumerate().find_map(|(place, state)| match state.role {
+            Role::Position(rate) if state.name.ends_with("crank.angle") => Some([place, rate]),
+            _ => None,
+        });
         let scales = variation.phase_scales().clone();
         let scene = file.scene.clone();
-        Self::of(file, Tangent { variation, crank_angle, scene }, scales)
+        Self::of(file, Tangent { variation, crank, scene }, scales)
     }
 
     /// The simulation with its tangent.
@@ -70,6 +73,8 @@ impl Machine<Tangent> {
             }
         }
         self.simulation.variation.set_directions(all);
+        // Inputs that follow the crank depend on the new directions.
+        self.look();
     }
 
     /// Row and scale of each number of phase space.
@@ -94,6 +99,27 @@ impl Tangent {
     fn directions(&mut self) -> Result<DMatrix<f64>> {
         Ok(self.variation.directions().map_err(|grazing| grazed(&self.scene, grazing))?)
     }
+
+    /// Derivatives of the crank's angle and speed by each seed; 0 where the first order has ended.
+    fn crank_derivatives(&mut self) -> Vec<[f64; 2]> {
+        let time = self.time();
+        let directions = self.crank.map(|places| (places, self.variation.directions().ok()));
+        let of_seed = |(column, seed): (usize, &Seed)| match (&directions, seed) {
+            (Some((places, Some(directions))), _) => places.map(|place| directions[(place, column)]),
+            // With a prescribed speed, angle = angle_start + speed_start·t.
+            (None, Seed::Parameter(parameter)) if parameter.name == "crank.angle_start" => [1.0, 0.0],
+            (None, Seed::Parameter(parameter)) if parameter.name == "crank.speed_start" => [time, 1.0],
+            _ => [0.0; 2],
+        };
+        self.variation.seeds().iter().enumerate().map(of_seed).collect()
+    }
+}
+
+/// Derivatives of a chord's value and slope over a step between two times [s] by the angle and the speed of the crank.
+fn chord_derivatives(profile: &Profile, [from, to]: [f64; 2], crank: &CrankOutputs) -> [[f64; 2]; 2] {
+    let step = to - from;
+    let [before, after] = [0.0, step].map(|passed| profile.slope_over_angle(crank.angle + crank.speed * passed));
+    [[before, 0.0], [(after - before) / step, after]]
 }
 
 impl Simulated for Tangent {
@@ -113,18 +139,18 @@ impl Simulated for Tangent {
         self.variation.output_rates()
     }
 
-    fn apply(&mut self, inputs: &Profiles) {
-        let (time, angle) = (self.time(), self.outputs().crank.angle);
+    fn apply(&mut self, inputs: &Profiles, until: f64) {
+        let (step, crank) = ([self.time(), until], self.outputs().crank);
         let Profiles { crank_torque, slider_load } = inputs;
-        // Per radian of the crank, at constant time.
-        let slope = |profile: &slidercrank::scene::profile::Profile| {
-            profile.rate(time, angle, 1.0) - profile.rate(time, angle, 0.0)
-        };
-        let (torque, load) = (slope(crank_torque), slope(slider_load));
-        let angles = self.crank_angle.zip(self.variation.directions().ok());
-        self.variation.set_dependent_inputs(values(inputs, time, angle), |seed| {
-            let turned = angles.as_ref().map_or(0.0, |(place, directions)| directions[(*place, seed)]);
-            Inputs { crank_torque: torque * turned, slider_load: load * turned }
+        let [torque, load] = [crank_torque, slider_load].map(|profile| chord_derivatives(profile, step, &crank));
+        let moved = self.crank_derivatives();
+        let [values, rates] = Inputs::chords(inputs, step, &crank);
+        self.variation.set_dependent_inputs(values, rates, |seed| {
+            let [turned, faster] = moved[seed];
+            [0, 1].map(|order| Inputs {
+                crank_torque: torque[order][0] * turned + torque[order][1] * faster,
+                slider_load: load[order][0] * turned + load[order][1] * faster,
+            })
         });
     }
 
@@ -143,6 +169,6 @@ impl Simulated for Tangent {
 /// If the scene cannot start.
 pub fn all_states(file: &SceneFile) -> Result<Vec<Seed>> {
     let simulation =
-        slidercrank::simulation::Simulation::start(&file.scene, start_values(file)).context("the scene")?;
+        slidercrank::simulation::Simulation::start(&file.scene, Inputs::at_start(file)).context("the scene")?;
     Ok((0..simulation.phase_scales().states.len()).map(Seed::State).collect())
 }

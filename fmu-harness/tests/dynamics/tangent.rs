@@ -14,7 +14,9 @@ use nalgebra::DMatrix;
 use slidercrank::integrator::methods::named;
 use slidercrank::integrator::tangent::{Crossing, Tangents, Variational};
 use slidercrank::integrator::{Integrator, Settings, System, WorkLimit};
+use slidercrank::scene::DriveMode;
 use slidercrank::scene::parameter::Parameter;
+use slidercrank::scene::profile::{Profile, ProfileArgument};
 use slidercrank::scene::read::SceneFile;
 
 impl Variational for Lorenz {
@@ -164,6 +166,24 @@ fn sensitivities_are_the_differences_of_neighbouring_runs() {
     let wanted = ["accuracy.position@50deg", "joint.C.force:peak", "slider.v:mean", "joint.C.force.x:range"];
     let found = assert_differences(&file, &wanted, ["joint.C.clearance", "slider.mass"], 1e-3);
     assert!(found.growth > 0.0 && found.reach.iter().all(|reach| *reach > 0.0));
+}
+
+/// Between the communication points the inputs follow the crank, and forces and accelerations follow the inputs at once.
+#[test]
+fn inputs_over_the_crank_angle_have_their_share_in_every_derivative() {
+    let over = |points: &[[f64; 2]]| Profile::Points { against: ProfileArgument::CrankAngle, points: points.into() };
+    for (name, mode) in
+        ["ideal", "wornpin"].into_iter().flat_map(|name| [DriveMode::Speed, DriveMode::Torque].map(|mode| (name, mode)))
+    {
+        let mut file = Scenario::find(name).expect("a shipped scene").file;
+        file.scene.drive.mode = mode;
+        file.inputs.slider_load = over(&[[0.2, 0.0], [0.6, -3000.0], [0.9, -500.0], [1.3, -4000.0]]);
+        file.inputs.crank_torque = over(&[[0.1, 0.0], [0.5, 80.0], [1.4, 20.0]]);
+        file.run.step = 5e-5;
+        let wanted = ["slider.a", "joint.C.force.x", "drive.torque", "slider.v"];
+        assert_differences(&file, &wanted, ["crank.speed_start", "crank.angle_start"], 1e-5);
+        assert_differences(&file, &["joint.C.force.x@40deg", "slider.a@40deg"], ["slider.mass", "crank.length"], 1e-5);
+    }
 }
 
 #[test]

@@ -77,6 +77,11 @@ impl<D: Copy> Tangents<D> {
         self.grazing = None;
     }
 
+    /// The shares of each direction (in columns) in each parameter (in rows).
+    pub fn shares(&self) -> &DMatrix<f64> {
+        &self.parameters
+    }
+
     /// Replaces the share of each direction in one parameter, from the front on.
     ///
     /// # Panics

@@ -40,7 +40,7 @@ pub struct Variation {
     time: f64,
     scales: PhaseScales,
     seeds: Vec<Seed>,
-    /// Those of the parameters among the seeds, then those of torque and load.
+    /// Those of the parameters among the seeds, then those of torque and load and of their slopes.
     neighbours: Vec<Neighbours>,
     tangents: Tangents<Conditions>,
     /// Whether the tangent has followed the last step, which may also lie before where it began.
@@ -117,6 +117,7 @@ impl Variation {
             }
         }
         neighbours.extend([Seed::CrankTorque, Seed::SliderLoad].map(Neighbours::of_input));
+        neighbours.extend([Seed::CrankTorque, Seed::SliderLoad].map(Neighbours::of_slope));
         let tolerance = scene.solver.tolerance.min(LOOSEST);
         let scales = run.phase_scales();
         let tangents = {
@@ -208,16 +209,25 @@ impl Variation {
         self.shorten();
     }
 
-    /// Sets inputs that depend on the motion from the communication point on: `slopes` are their derivatives by each
-    /// seed, where the seed is not the input itself.
-    pub fn set_dependent_inputs(&mut self, inputs: Inputs, slopes: impl Fn(usize) -> Inputs) {
-        self.set_inputs(inputs, Inputs::default());
+    /// Sets inputs and rates that depend on the motion from the communication point on: `slopes` are the derivatives of both
+    /// by each seed, where the seed is not the input itself.
+    pub fn set_dependent_inputs(&mut self, inputs: Inputs, rates: Inputs, slopes: impl Fn(usize) -> [Inputs; 2]) {
+        self.set_inputs(inputs, rates);
         self.phase();
         let own = shares(&self.seeds, &self.neighbours);
-        let (torque, load) = (own.nrows() - 2, own.nrows() - 1);
-        let columns = 0..self.seeds.len();
-        self.tangents.set_shares(torque, columns.clone().map(|seed| own[(torque, seed)] + slopes(seed).crank_torque));
-        self.tangents.set_shares(load, columns.map(|seed| own[(load, seed)] + slopes(seed).slider_load));
+        let columns: Vec<[Inputs; 2]> = (0..self.seeds.len()).map(slopes).collect();
+        // Lines that go on to the bit have begun at an earlier communication point.
+        let passed = self.time - self.run.parts().2.state().front().discrete.inputs.at;
+        let gets: [&dyn Fn(&[Inputs; 2]) -> f64; 4] = [
+            &|[inputs, rates]| inputs.crank_torque - passed * rates.crank_torque,
+            &|[inputs, rates]| inputs.slider_load - passed * rates.slider_load,
+            &|[_, rates]| rates.crank_torque,
+            &|[_, rates]| rates.slider_load,
+        ];
+        for (row, get) in (own.nrows() - gets.len()..).zip(gets) {
+            let own = own.row(row);
+            self.tangents.set_shares(row, columns.iter().zip(own.iter()).map(|(slopes, own)| own + get(slopes)));
+        }
     }
 
     /// Follows the last step if it has become shorter.
@@ -293,17 +303,19 @@ impl Variation {
         let time = self.time;
         let (model, observer, integrator) = self.run.parts();
         let (y, conditions) = integrator.state_at(model, time);
-        let columns = directions.column_iter().zip(&self.seeds);
+        let columns = directions.column_iter().zip(&self.seeds).zip(self.tangents.shares().column_iter());
         Ok(columns
-            .map(|(direction, seed)| {
+            .map(|((direction, seed), shares)| {
                 let direction = direction.as_slice();
-                match self.neighbours.iter().find(|neighbours| neighbours.is_of(seed)) {
-                    Some(of) => of.output_derivative(model, observer, &conditions, time, y, direction),
-                    None => {
-                        let line = Line { model, conditions: &conditions, t: time, y, direction, levels: None };
-                        line.fitted().outputs(observer)
-                    }
+                let states = Line { model, conditions: &conditions, t: time, y, direction, levels: None };
+                let mut moved = match self.neighbours.iter().find(|neighbours| neighbours.is_of(seed)) {
+                    Some(of) => of.output_derivative(states, observer),
+                    None => states.fitted().outputs(observer),
+                };
+                for (of, share) in self.neighbours.iter().zip(&shares).filter(|(_, share)| **share != 0.0) {
+                    of.add_input(&states, observer, *share, &mut moved);
                 }
+                moved
             })
             .collect())
     }

@@ -25,11 +25,13 @@ use crate::simulation::observation::observe;
 /// What the neighbours differ in.
 enum Of {
     Parameter(Box<Levels>),
-    /// Outputs and rates are affine in the inputs.
+    /// Outputs and rates are affine in the inputs, …
     Input(Seed),
+    /// … and in the slopes of their lines, with the time since the communication point as a factor.
+    Slope(Seed),
 }
 
-/// Neighbours of a mechanism along one parameter or input.
+/// Neighbours of a mechanism along one parameter or input, or along the slope of an input.
 pub struct Neighbours(Of);
 
 impl Neighbours {
@@ -44,6 +46,11 @@ impl Neighbours {
     /// Neighbours along an input.
     pub fn of_input(seed: Seed) -> Self {
         Self(Of::Input(seed))
+    }
+
+    /// Neighbours along the slope of an input.
+    pub fn of_slope(seed: Seed) -> Self {
+        Self(Of::Slope(seed))
     }
 
     /// Whether the neighbours lie along this seed.
@@ -77,11 +84,11 @@ impl Neighbours {
         slopes: &mut [f64],
     ) {
         match &self.0 {
-            Of::Input(seed) => {
+            Of::Input(seed) | Of::Slope(seed) => {
                 let n = slopes.len();
                 slopes.fill(0.0);
                 let mut rates = [0.0; MAX_STATES];
-                for (conditions, share) in under(conditions, t, seed) {
+                for (conditions, share) in self.under(conditions, t, seed) {
                     model.rates(&conditions, t, y, &mut rates[..n]);
                     add_multiple(slopes, share, &rates);
                 }
@@ -96,26 +103,23 @@ impl Neighbours {
         }
     }
 
-    /// Derivatives of the outputs by the parameter or input while the state moves in this direction, below which those of
-    /// approach speeds stand.
-    pub fn output_derivative(
-        &self,
-        model: &dyn MechanismModel,
-        observer: &Observer,
-        conditions: &Conditions,
-        t: f64,
-        y: &[f64],
-        direction: &[f64],
-    ) -> Outputs {
-        let states = Line { model, conditions, t, y, direction, levels: None };
+    /// Adds to `moved` the outputs' derivatives by the input or its slope at the state of a line, times its share.
+    #[inline(never)]
+    pub fn add_input(&self, at: &Line<'_>, observer: &Observer, share: f64, moved: &mut Outputs) {
+        let (Of::Input(seed) | Of::Slope(seed)) = &self.0 else { return };
+        let Line { model, t, y, .. } = *at;
+        let terms = self.under(at.conditions, t, seed);
+        let effect = sum(terms.map(|(conditions, weight)| (observe(model, observer, &conditions, t, y), weight)));
+        *moved = plus(moved, &effect, share);
+    }
+
+    /// Derivatives of the outputs along a line of states, below which those of approach speeds stand, and along the parameter
+    /// with it, if these are neighbours along one.
+    pub fn output_derivative(&self, states: Line<'_>, observer: &Observer) -> Outputs {
         match &self.0 {
-            Of::Input(seed) => {
-                let terms = under(conditions, t, seed);
-                let terms = terms.map(|(conditions, share)| (observe(model, observer, &conditions, t, y), share));
-                plus(&states.fitted().outputs(observer), &sum(terms), 1.0)
-            }
+            Of::Input(_) | Of::Slope(_) => states.fitted().outputs(observer),
             Of::Parameter(levels) => {
-                let mut changed = [0.0; DIRECTION];
+                let (mut changed, direction) = ([0.0; DIRECTION], states.direction);
                 let fitted = Line { levels: Some(levels), ..states }.best(&mut changed);
                 // What the line's direction lacks is a direction of the states.
                 let mut rest = [0.0; DIRECTION];
@@ -125,6 +129,23 @@ impl Neighbours {
                 plus(&rest.fitted().outputs(observer), &fitted.outputs(observer), 1.0)
             }
         }
+    }
+
+    /// Conditions under two values of an input, with their weights in a difference by the input or its slope.
+    #[inline(never)]
+    fn under(&self, conditions: &Conditions, t: f64, seed: &Seed) -> [(Conditions, f64); 2] {
+        let here = conditions.inputs.at(t);
+        let size = here.crank_torque.abs().max(here.slider_load.abs()).max(1.0);
+        let factor = if matches!(self.0, Of::Slope(_)) { t - conditions.inputs.at } else { 1.0 };
+        [size, -size].map(|change| {
+            let mut conditions = *conditions;
+            let value = &mut conditions.inputs.value;
+            match seed {
+                Seed::CrankTorque => value.crank_torque += change,
+                _ => value.slider_load += change,
+            }
+            (conditions, factor * 0.5 / change)
+        })
     }
 
     /// Derivatives of the penetration and of the approach speed of every contact of `model` at constant state, where its
@@ -156,19 +177,4 @@ impl Neighbours {
 #[inline(never)]
 fn difference(values: [f64; CENTRAL.len()]) -> f64 {
     values.iter().zip(CENTRAL).map(|(value, (_, weight))| weight * value).sum()
-}
-
-/// Conditions under two values of an input, with their weights in a difference.
-fn under(conditions: &Conditions, t: f64, seed: &Seed) -> [(Conditions, f64); 2] {
-    let here = conditions.inputs.at(t);
-    let size = here.crank_torque.abs().max(here.slider_load.abs()).max(1.0);
-    [size, -size].map(|change| {
-        let mut conditions = *conditions;
-        let value = &mut conditions.inputs.value;
-        match seed {
-            Seed::CrankTorque => value.crank_torque += change,
-            _ => value.slider_load += change,
-        }
-        (conditions, 0.5 / change)
-    })
 }
