@@ -17,6 +17,8 @@ use std::time::{Duration, Instant};
 
 /// The output that counts turns.
 pub const ANGLE: &str = "crank.angle";
+/// The output at whose rate the angle moves on.
+pub const SPEED: &str = "crank.speed";
 /// The joints.
 pub const JOINTS: [&str; 4] = ["A", "B", "C", "T"];
 /// A run with more communication points than this counts as a mistake.
@@ -109,7 +111,7 @@ pub fn run(
     let mut stepping = Duration::ZERO;
     for point in 1.. {
         let Some((from, to)) = experiment.interval(point)? else { break };
-        runner.apply_inputs(from)?;
+        runner.apply_inputs(from, to)?;
         let before = Instant::now();
         runner.step(from, to)?;
         stepping += before.elapsed();

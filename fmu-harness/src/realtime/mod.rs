@@ -180,7 +180,7 @@ impl<'a> Bench<'a> {
     fn step(&mut self) -> Result<Step> {
         self.point += 1;
         let (from, to) = self.experiment.interval(self.point)?.context("the run has reached its end")?;
-        self.runner.apply_inputs(from)?;
+        self.runner.apply_inputs(from, to)?;
         let (cpu, wall) = (ThreadTime::now(), Instant::now());
         self.runner.step(from, to)?;
         let (wall, cpu) = (wall.elapsed().as_secs_f64(), cpu.elapsed().as_secs_f64());

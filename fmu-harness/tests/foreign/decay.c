@@ -1,4 +1,5 @@
-/* A foreign FMU in few words: dx/dt = u - k*x by its exact solution, turns of an angle, and one of each type. */
+/* A foreign FMU in few words: dx/dt = u - k*x by its exact solution, u straight over each step, turns of an angle, and one of
+ * each type. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@ typedef struct {
 } Callbacks;
 typedef struct {
     const Callbacks *callbacks;
-    double x, u, k, angle;
+    double x, u, slope, k, angle;
     int steps, fast, law;
 } Decay;
 
@@ -77,6 +78,13 @@ int fmi2SetReal(void *c, const unsigned *vr, size_t n, const double *values) {
     }
     return OK;
 }
+int fmi2SetRealInputDerivatives(void *c, const unsigned *vr, size_t n, const int *order, const double *values) {
+    for (size_t i = 0; i < n; i++) {
+        if (vr[i] != 1 || order[i] != 1) return complain(c, "no such slope");
+        ((Decay *)c)->slope = values[i];
+    }
+    return OK;
+}
 int fmi2GetInteger(void *c, const unsigned *vr, size_t n, int *values) {
     for (size_t i = 0; i < n; i++) values[i] = vr[i] == 0 ? ((Decay *)c)->steps : ((Decay *)c)->law;
     return OK;
@@ -96,8 +104,9 @@ int fmi2SetString(void *c, const unsigned *vr, size_t n, const char *const *valu
 int fmi2DoStep(void *c, double time, double step, int never_back) {
     Decay *d = c;
     if (time > 1e3) return complain(d, "too late");
-    double level = d->law == 2 ? 0 : d->u / d->k;
-    d->x = level + (d->x - level) * exp(-d->k * step);
+    double slope = d->law == 2 ? 0 : d->slope / d->k, level = d->law == 2 ? 0 : (d->u - slope) / d->k;
+    d->x = level + slope * step + (d->x - level) * exp(-d->k * step);
+    d->u += d->slope * step;
     d->angle += 10 * step;
     d->steps += 1;
     return OK;

@@ -5,7 +5,8 @@ use fmu_harness::host::{Fmu, Kind, PLATFORM, Setting};
 use fmu_harness::inputs::Input;
 use fmu_harness::package::archive::Part;
 use fmu_harness::run::{Experiment, Until, run};
-use slidercrank::scene::profile::Profile;
+use slidercrank::scene::profile::{Profile, ProfileArgument};
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
@@ -49,6 +50,35 @@ fn a_run_follows_the_closed_form() {
     }
     assert_eq!(trajectory.column("steps").expect("steps").last(), Some(&101.0));
     assert_eq!(trajectory.column("high").expect("high")[101], 1.0);
+}
+
+/// x at the end of ten steps with an input that rises by 1 a radian or a second.
+fn risen(xml: &str, against: ProfileArgument) -> f64 {
+    let workshop = Workshop::open();
+    let fmu = Fmu::open(&workshop.fmu(xml, "binaries/linux64/decay.so")).expect("a good FMU");
+    let mut experiment = experiment(Until::Time(0.1));
+    let profile = Profile::Points { against, points: vec![[0.0, 0.0], [TAU, TAU]] };
+    experiment.inputs = vec![Input { name: "u".into(), profile }];
+    let trajectory = run(&fmu, &experiment, |_| {}, |_| {}).expect("a run").trajectory;
+    *trajectory.column("x").expect("x").last().expect("a row")
+}
+
+#[test]
+fn inputs_follow_lines_where_the_fmu_takes_them_and_are_held_elsewhere() {
+    let near = |found: f64, exact: f64| assert!((found - exact).abs() < 100.0 * f64::EPSILON, "{found}, not {exact}");
+    // dx/dt = r·t − x from 1, and with r·t held over ten steps.
+    let line = |r: f64| -r + r * 0.1 + (1.0 + r) * (-0.1_f64).exp();
+    let held = |r: f64| {
+        (0..10).fold(1.0, |x: f64, step| {
+            let u = r * 0.01 * f64::from(step);
+            u + (x - u) * (-0.01_f64).exp()
+        })
+    };
+    let takes = XML.replace("<CoSimulation ", "<CoSimulation canInterpolateInputs=\"true\" ");
+    near(risen(XML, ProfileArgument::Time), held(1.0));
+    near(risen(&takes, ProfileArgument::Time), line(1.0));
+    // Its angle turns by 10 rad/s, which only an output `crank.speed` would say.
+    near(risen(&takes, ProfileArgument::CrankAngle), held(10.0));
 }
 
 #[test]

@@ -109,6 +109,10 @@ functions! { Functions2;
     do_step = "fmi2DoStep": fn(Component, f64, f64, Boolean) -> c_int;
 }
 
+functions! { InputDerivatives2;
+    set = "fmi2SetRealInputDerivatives": fn(Component, *const c_uint, usize, *const c_int, *const f64) -> c_int;
+}
+
 functions! { Functions3;
     get_version = "fmi3GetVersion": fn() -> *const c_char;
     instantiate = "fmi3InstantiateCoSimulation": fn(
@@ -159,6 +163,8 @@ impl Version {
 /// A loaded binary.
 pub struct Library {
     functions: Functions,
+    /// Only FMI 2.0 has such a function, and not all its binaries do.
+    input_derivatives: Option<InputDerivatives2>,
     /// Every instance holds the library, so it is unloaded after the last one.
     _library: libloading::Library,
 }
@@ -169,11 +175,18 @@ impl Library {
         // SAFETY: loading runs the FMU's initialisers, as the caller intends.
         let library = unsafe { libloading::Library::new(path) }
             .map_err(|error| HostError::Load { library: path.into(), cause: cause(&error) })?;
-        let functions = match version {
-            Version::Fmi2 => Functions::Fmi2(Functions2::find(&library, path)?),
-            Version::Fmi3 => Functions::Fmi3(Functions3::find(&library, path)?),
+        let (functions, input_derivatives) = match version {
+            Version::Fmi2 => {
+                (Functions::Fmi2(Functions2::find(&library, path)?), InputDerivatives2::find(&library, path).ok())
+            }
+            Version::Fmi3 => (Functions::Fmi3(Functions3::find(&library, path)?), None),
         };
-        Ok(Self { functions, _library: library })
+        Ok(Self { functions, input_derivatives, _library: library })
+    }
+
+    /// Whether it has fmi2SetRealInputDerivatives.
+    pub fn takes_input_derivatives(&self) -> bool {
+        self.input_derivatives.is_some()
     }
 
     /// The version of FMI, as the binary returns it.
@@ -438,6 +451,18 @@ impl Instance {
         set_real(&[f64]) = as_ptr;
         /// fmi2SetInteger, fmi3SetInt32.
         set_integer(&[i32]) = as_ptr;
+    }
+
+    /// fmi2SetRealInputDerivatives of the first order.
+    ///
+    /// # Panics
+    /// If the library has no such function.
+    pub fn set_input_derivatives(&mut self, references: &[u32], slopes: &[f64]) -> Status {
+        assert_eq!(references.len(), slopes.len(), "one slope for each reference");
+        let (n, orders) = (references.len(), vec![1; references.len()]);
+        let set = self.library.input_derivatives.as_ref().expect("the library takes slopes of inputs").set;
+        // SAFETY: a live component, and three lists of the length passed.
+        unsafe { set(self.component.as_ptr(), references.as_ptr(), n, orders.as_ptr(), slopes.as_ptr()) }.into()
     }
 
     /// fmi2GetInteger, fmi3GetInt64.

@@ -55,6 +55,12 @@ impl Fmu {
         &self.description
     }
 
+    /// Whether inputs can follow straight lines over a communication step.
+    pub fn interpolates_inputs(&self) -> bool {
+        let promised = self.description.co_simulation.as_ref().is_some_and(|of| of.flag("canInterpolateInputs"));
+        promised && self.library.takes_input_derivatives()
+    }
+
     /// Makes an instance whose log lines go to `log`.
     pub fn instantiate(&self, name: &str, log: Arc<Log>, logging: bool) -> Result<Slave<'_, Instantiated>, HostError> {
         let model = &self.description.model;
@@ -203,6 +209,14 @@ impl Slave<'_, Stepping> {
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), HostError> {
         let status = self.instance.do_step(time, step);
         self.check(status, || format!("{} from {time} s by {step} s", self.function("DoStep")))
+    }
+
+    /// Sets real inputs by reference, with their slopes [1/s] from the communication point on. The FMU must
+    /// [interpolate inputs](Fmu::interpolates_inputs).
+    pub fn set_lines(&mut self, references: &[u32], values: &[f64], slopes: &[f64]) -> Result<(), HostError> {
+        self.set_reals(references, values)?;
+        let status = self.instance.set_input_derivatives(references, slopes);
+        self.check(status, || format!("setting slopes of the reals {references:?}"))
     }
 
     /// Ends the run.

@@ -76,7 +76,7 @@ pub fn march(fmu: &Fmu, experiment: &Experiment, look: Look, budget: Duration) -
                 break;
             }
         };
-        let stepped = runner.apply_inputs(from).and_then(|()| runner.step(from, to));
+        let stepped = runner.apply_inputs(from, to).and_then(|()| runner.step(from, to));
         if let Err(error) = stepped {
             ending = Ending::Failed(error.to_string());
             break;

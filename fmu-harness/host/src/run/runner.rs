@@ -1,10 +1,11 @@
 //! One instance, with the variables to set and read at every communication point.
 
-use super::{ANGLE, Experiment, Until};
+use super::{ANGLE, Experiment, SPEED, Until};
 use crate::host::{Fmu, HostError, Kind, Log, Selection, Setting, Slave, Stepping, Value, Variable};
 use crate::inputs::Input;
 use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
+use slidercrank::scene::profile::Chord;
 use std::sync::Arc;
 
 /// A slave, with the variables to set and read at every communication point.
@@ -13,13 +14,17 @@ pub struct Runner<'a> {
     slave: Slave<'a, Stepping>,
     /// Value references of the inputs, in the order of the experiment's inputs.
     inputs: Vec<u32>,
+    /// The lines of the inputs as they were set last.
     values: Vec<f64>,
+    slopes: Vec<f64>,
+    /// Whether inputs follow straight lines over a step; otherwise they are held.
+    interpolates: bool,
     outputs: Selection,
     trajectory: Trajectory,
     /// Column of the crank's angle, and its value at the start.
     angle: Option<(usize, f64)>,
-    /// Selection of the crank's angle, if an input depends on it.
-    angle_now: Option<Selection>,
+    /// Selection of the crank's angle, if an input depends on it, and of its speed, if inputs follow lines.
+    crank: Option<Selection>,
 }
 
 impl<'a> Runner<'a> {
@@ -48,11 +53,15 @@ impl<'a> Runner<'a> {
         let slave = slave.exit_initialization()?;
         let trajectory = Trajectory::new(outputs.iter().map(|variable| variable.name.clone()));
         let outputs = Selection::new(outputs);
-        let angle_now = match wants_angle {
-            true => Some(Selection::new([description.variable(ANGLE)?])),
+        let speed = description.variables.iter().filter(is_recorded).find(|variable| variable.name == SPEED);
+        let interpolates = fmu.interpolates_inputs() && (speed.is_some() || !wants_angle);
+        let crank = match wants_angle {
+            true => Some(Selection::new([description.variable(ANGLE)?].into_iter().chain(speed))),
             false => None,
         };
-        let mut runner = Self { experiment, slave, inputs, values, outputs, trajectory, angle: None, angle_now };
+        let slopes = vec![0.0; values.len()];
+        let mut runner =
+            Self { experiment, slave, inputs, values, slopes, interpolates, outputs, trajectory, angle: None, crank };
         runner.record(experiment.start)?;
         runner.angle = angle.map(|column| (column, runner.outputs.values()[column]));
         Ok(runner)
@@ -75,22 +84,31 @@ impl<'a> Runner<'a> {
         self.slave.do_step(from, to - from)
     }
 
-    /// Sets the inputs of the interval that begins at `time`. Inputs that have not changed are not set again.
-    pub fn apply_inputs(&mut self, time: f64) -> Result<(), HostError> {
+    /// Sets the inputs of the interval between two times [s]: straight lines, where the FMU takes them, and otherwise their
+    /// values at its start. Inputs that have not changed are not set again.
+    pub fn apply_inputs(&mut self, from: f64, to: f64) -> Result<(), HostError> {
         if self.inputs.is_empty() {
             return Ok(());
         }
-        let mut angle = 0.0;
-        if let Some(selection) = &mut self.angle_now {
+        let (mut angle, mut speed) = (0.0, 0.0);
+        if let Some(selection) = &mut self.crank {
             self.slave.read(selection)?;
             angle = selection.values()[0];
+            speed = selection.values().get(1).copied().unwrap_or_default();
         }
         let mut changed = false;
-        for (value, input) in self.values.iter_mut().zip(&self.experiment.inputs) {
-            let before = std::mem::replace(value, input.profile.value(time, angle));
-            changed |= before.to_bits() != value.to_bits();
+        for ((value, slope), input) in self.values.iter_mut().zip(&mut self.slopes).zip(&self.experiment.inputs) {
+            let before = Chord { value: *value, slope: *slope };
+            let line = input.profile.chord([from, to], angle, speed);
+            (*value, *slope) = (line.value, if self.interpolates { line.slope } else { 0.0 });
+            // On a slope the value has moved on.
+            changed |= before.slope != 0.0 || before.value.to_bits() != value.to_bits() || *slope != 0.0;
         }
-        if changed { self.slave.set_reals(&self.inputs, &self.values) } else { Ok(()) }
+        match changed {
+            true if self.interpolates => self.slave.set_lines(&self.inputs, &self.values, &self.slopes),
+            true => self.slave.set_reals(&self.inputs, &self.values),
+            false => Ok(()),
+        }
     }
 
     /// Finished share of the experiment: 1 at its end.
