@@ -41,18 +41,28 @@ def idle(folder):
 
 
 class Inputs:
-    """Constant ones are set once, the others at the beginning of every step."""
+    """Constant ones are set once; the others follow straight lines, set at the beginning of every step."""
 
     def __init__(self, slave, inputs):
         self.slave = slave
-        self.angle = slave.mechanism.references(["crank.angle"])
+        self.crank = slave.mechanism.references(["crank.angle", "crank.speed"])
         self.references = slave.mechanism.references([own["name"] for own in inputs])
         self.inputs = inputs
         self.constant = all("value" in own for own in inputs)
 
     def set(self, now):
-        angle = self.slave.fmu.getReal(self.angle)[0]
-        self.slave.fmu.setReal(self.references, [self.value(own, now, angle) for own in self.inputs])
+        angle = self.slave.fmu.getReal(self.crank)[0]
+        self.slave.fmu.setReal(self.references, self.values(now, angle))
+
+    def set_lines(self, now, step):
+        angle, speed = self.slave.fmu.getReal(self.crank)
+        begin, end = self.values(now, angle), self.values(now + step, angle + speed * step)
+        self.slave.fmu.setReal(self.references, begin)
+        slopes = [(there - here) / step for here, there in zip(begin, end)]
+        self.slave.fmu.setRealInputDerivatives(self.references, [1] * len(slopes), slopes)
+
+    def values(self, now, angle):
+        return [self.value(own, now, angle) for own in self.inputs]
 
     @staticmethod
     def value(own, now, angle):
@@ -81,7 +91,7 @@ def run(slave, inputs, step, end, references, look=lambda now, values: None):
     for point in range(points(end, step)):
         now = point * step
         if not inputs.constant:
-            inputs.set(now)
+            inputs.set_lines(now, step)
         step_on(now, step)
         look(now + step, read(references))
     return time.process_time() - begin

@@ -35,6 +35,8 @@ class Calls:
     """Of each type of variables: how they are got and set, and what they are in C; real ones first."""
     real: str
     """How real ones are got and set."""
+    interpolates: bool
+    """Whether inputs can follow straight lines over a step."""
     entering: list[tuple[Any, ...]]
     """What leads into initialization mode: functions with their arguments after the component."""
     slave: Any
@@ -46,6 +48,10 @@ class Calls:
 
     def access(self, verb: str, kind: str) -> Callable[..., int]:
         """Gets or sets variables of a kind: takes the component, references, their number and values."""
+        raise NotImplementedError
+
+    def set_slopes(self, component: int | None, references: object, count: int, slopes: object) -> None:
+        """Sets slopes [1/s] of real inputs, where inputs can follow straight lines."""
         raise NotImplementedError
 
     def instantiate(self, log: Callable[..., None]) -> tuple[int | None, object]:
@@ -68,10 +74,15 @@ class Fmi2(Calls):
 
     def __init__(self, description: ModelDescription, folder: Path):
         self.slave = FMU2Slave(**_library(description, folder))
+        self.interpolates = description.coSimulation.canInterpolateInputs
         self.resources = (folder / "resources").absolute().as_uri()
 
     def access(self, verb: str, kind: str) -> Callable[..., int]:
         return self.of(verb + kind)
+
+    def set_slopes(self, component: int | None, references: object, count: int, slopes: object) -> None:
+        orders = (ctypes.c_int * count)(*([1] * count))
+        self.of("SetRealInputDerivatives")(component, references, count, orders, slopes)
 
     def instantiate(self, log: Callable[..., None]) -> tuple[int | None, object]:
         callbacks = fmi2CallbackFunctions()
@@ -95,6 +106,7 @@ class Fmi3(Calls):
         "Boolean": ("Boolean", ctypes.c_bool),
     }
     entering = [("EnterInitializationMode", False, 0.0, 0.0, False, 0.0)]
+    interpolates = False
 
     def __init__(self, description: ModelDescription, folder: Path):
         self.slave = FMU3Slave(**_library(description, folder))

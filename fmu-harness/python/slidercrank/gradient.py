@@ -3,17 +3,21 @@
 A run is a chain of steps. The FMU gives each step's Jacobian by phase, parameters and inputs (`slidercrank_step_jacobian`),
 and the derivatives of the start by parameters; the chain rule does the rest. What is differentiated is the very number that
 a run without derivatives gives, sampled at the communication points.
+
+Where an input over the crank's angle follows a line, the phase at the end of a step is differentiated as if the line had
+moved by its mean change: an error of the second order of the step, in steps with a corner of the input.
 """
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy
 from fmpy.model_description import ModelVariable
 
-from .quantity import ANGLE, QuantityError
+from .quantity import ANGLE, RATE, QuantityError
 from .recipe import Recipe, RunError
 from .unit import Instance, Unit
 
@@ -46,7 +50,8 @@ def gradient(
     """
     kept = recipe.keep[quantity]
     try:
-        outputs = [ANGLE, *(output for output in kept.outputs(unit.outputs) if output != ANGLE)]
+        crank = [ANGLE, RATE]
+        outputs = [*crank, *(output for output in kept.outputs(unit.outputs) if output not in crank)]
     except QuantityError as error:
         raise RunError(f"{quantity}: {error}") from error
     for output in outputs:
@@ -122,8 +127,28 @@ class _Chain(Instance):
     def _before(self, now: float, size: float) -> None:
         count = len(self.parameters)
         found = self.step_jacobian(size, [*self.parameters, *(own.name for own in self.turning)], self.names)
-        # Inputs over the crank's angle follow the angle, which is the first output.
-        by_angle = numpy.array([own.slope(self.angle_now) for own in self.turning])
-        direct = numpy.vstack([numpy.eye(count), numpy.outer(by_angle, self.slopes[-1][0])])
+        # Inputs over the crank's angle follow angle and speed, the first outputs.
+        turned, faster = self.slopes[-1][:2]
+        begin = end = numpy.array([numpy.multiply(own.slope(self.angle_now), turned) for own in self.turning])
+        if self.interpolates:
+            angle = self.angle_now + self.speed_now * size
+            end = numpy.array([own.slope(angle) * (turned + size * faster) for own in self.turning])
+        # What a line does to the phase is, but for the third order of the step, what its mean does.
+        mean = (begin + end) / 2.0
+        direct = numpy.vstack([numpy.eye(count), *mean])
         self.slopes.append(found.outputs_by_phase @ self.phase_slopes + found.outputs_by_parameters @ direct)
         self.phase_slopes = found.phase_by_phase @ self.phase_slopes + found.phase_by_parameters @ direct
+        self.missing = end - mean
+
+    def _after(self) -> None:
+        if self.interpolates:
+            # Forces and accelerations follow the inputs at the end of the step.
+            for own, slopes in zip(self.turning, self.missing):
+                self.slopes[-1] += numpy.outer(self._effect(own.name), slopes)
+
+    def _effect(self, name: str) -> numpy.ndarray:
+        """Derivatives of the outputs by an input at constant phase."""
+        outputs, input = self._references(self.names), self._references([name])
+        one, effect = (ctypes.c_double * 1)(1.0), (ctypes.c_double * len(outputs))()
+        self._standard("GetDirectionalDerivative", outputs, len(outputs), input, 1, one, effect)
+        return numpy.array(effect)

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 ANGLE = "crank.angle"
 """The output that counts turns."""
+RATE = "crank.speed"
+"""The output at whose rate the angle moves on."""
 TIME = "time"
 """[s] The communication points, beside the outputs."""
 

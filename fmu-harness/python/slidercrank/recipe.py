@@ -61,6 +61,11 @@ class Input:
         (x0, y0), _ = line = self._line(at)
         return y0 + _steepness(line) * (at - x0)
 
+    def chord(self, now: float, then: float, angle: float, speed: float) -> tuple[float, float]:
+        """Value at `now` [s] and slope [1/s] to `then` [s]; the crank turns on from `angle` [rad] at `speed` [rad/s]."""
+        value, step = self.value(now, angle), then - now
+        return value, (self.value(then, angle + speed * step) - value) / step
+
     def slope(self, angle: float) -> float:
         """Per radian of the crank at this angle [rad], of an input over it."""
         return _steepness(self._line(wrapped(angle))) if self.wants_angle and self.points else 0.0

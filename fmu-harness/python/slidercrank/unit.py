@@ -19,7 +19,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelVariable
 
 from .calls import Number, load
-from .quantity import ANGLE, TIME, Column, QuantityError
+from .quantity import ANGLE, RATE, TIME, Column, QuantityError
 from .recipe import Recipe, RunError, StoppedError, plain
 
 STATUS = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"]
@@ -55,6 +55,7 @@ class Unit:
     def run(self, recipe: Recipe, settings: Mapping[str, float], budget: float = 600.0) -> list[float]:
         """The recipe's quantities in a run with these parameters, in the order of its `keep`.
 
+        Inputs that change follow a straight line over each step. In FMI 3.0, which has no slopes of inputs, they are held.
         A run that has none is a `RunError` that says why, in the harness's own words.
         """
         latest = recipe.latest(settings)
@@ -340,16 +341,20 @@ class Instance(Session):
             groups[self.calls.kinds[variable.type][0]].append(variable)
         select = lambda kind, group: Selection(self.calls.access("Get", kind), kinds[kind], group)
         self.selections = [select(kind, group) for kind, group in groups.items() if group]
-        self.angle = select(self.calls.real, [unit.outputs[ANGLE]])
-        self.angle_now = 0.0
+        self.crank = select(self.calls.real, [unit.outputs[name] for name in (ANGLE, RATE) if name in unit.outputs])
+        self.angle_now, self.speed_now = 0.0, 0.0
         self.times = [0.0]
         """[s] The communication points."""
-        self.inputs = self._references(own.name for own in recipe.inputs)
-        self.values, self.set_real = (ctypes.c_double * len(recipe.inputs))(), self.calls.access("Set", self.calls.real)
+        self.inputs, real = self._references(own.name for own in recipe.inputs), ctypes.c_double * len(recipe.inputs)
+        self.values, self.rates, self.set_real = real(), real(), self.calls.access("Set", self.calls.real)
         self.wants_angle = any(own.wants_angle for own in recipe.inputs)
+        self.interpolates = self.calls.interpolates and (RATE in unit.outputs or not self.wants_angle)
+        """Whether inputs follow straight lines over a step; otherwise they are held."""
 
     def _initialize(self) -> None:
-        self._apply_inputs(0.0)
+        self._look()
+        self.values[:] = [own.value(0.0, self.angle_now) for own in self.recipe.inputs]
+        self._set_inputs(f"Set{self.calls.real}", self.set_real, self.values)
 
     def _initialized(self) -> None:
         self._record()
@@ -361,13 +366,14 @@ class Instance(Session):
         real = self.selections[0].buffer
         start = real[0]
         for point, (now, then) in enumerate(self.recipe.intervals(latest), 1):
-            self._apply_inputs(now)
+            self._apply_inputs(now, then)
             self._before(now, then - now)
             try:
                 self.calls.do_step(self.component, now, then - now)
             except FMICallException as error:
                 raise RunError(self._answer(self._stepping(now, then - now), error)) from error
             self._record()
+            self._after()
             self.times.append(then)
             turned = abs(real[0] - start) / math.tau
             if then >= latest and turned < turns:
@@ -382,24 +388,35 @@ class Instance(Session):
     def _before(self, now: float, size: float) -> None:
         """What is done before a step from `now` [s] by `size` [s]."""
 
+    def _after(self) -> None:
+        """What is done after a step."""
+
     def columns(self) -> dict[str, Column]:
         """What was recorded."""
         outputs = {name: column for selection in self.selections for name, column in selection.columns().items()}
         return {TIME: numpy.array(self.times), **outputs}
 
-    def _apply_inputs(self, now: float) -> None:
-        if not self.values:
-            return
+    def _look(self) -> None:
+        """Reads how the crank turns, if an input depends on it."""
         if self.wants_angle:
-            self._try("reading outputs", self.angle.read, self.component)
-            self.angle_now = self.angle.buffer[0]
+            self._try("reading outputs", self.crank.read, self.component)
+            self.angle_now, self.speed_now = [*self.crank.buffer, 0.0][:2]
+
+    def _apply_inputs(self, now: float, then: float) -> None:
+        self._look()
         for place, own in enumerate(self.recipe.inputs):
-            self.values[place] = own.value(now, self.angle_now)
+            self.values[place], self.rates[place] = own.chord(now, then, self.angle_now, self.speed_now)
+        self._set_inputs(f"Set{self.calls.real}", self.set_real, self.values)
+        if self.interpolates:
+            self._set_inputs("SetRealInputDerivatives", self.calls.set_slopes, self.rates)
+
+    def _set_inputs(self, name: str, function: Callable[..., object], values: object) -> None:
+        if not self.recipe.inputs:
+            return
         try:
-            self.set_real(self.component, self.inputs, len(self.inputs), self.values)
+            function(self.component, self.inputs, len(self.inputs), values)
         except FMICallException as error:
-            call = f"{self.calls.prefix}Set{self.calls.real} of {list(self.inputs)}"
-            raise RunError(self._answer(call, error)) from error
+            raise RunError(self._answer(f"{self.calls.prefix}{name} of {list(self.inputs)}", error)) from error
 
     def _record(self) -> None:
         for selection in self.selections:

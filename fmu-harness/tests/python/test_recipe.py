@@ -33,6 +33,16 @@ def test_a_slope_is_that_over_the_crank_angle():
     assert Input.of({"name": "slider.load", "against": "time", "points": POINTS}).slope(2.0) == 0.0
 
 
+def test_a_chord_joins_the_values_at_both_ends_of_a_step():
+    time, angle = (Input.of({"name": "slider.load", "against": over, "points": POINTS}) for over in ("time", "crank.angle"))
+    # Past the corner at 3, where the tangent would end at 35.
+    assert time.chord(2.5, 3.5, 0.0, 9.0) == (25.0, -10.0)
+    assert angle.chord(7.0, 7.5, 2.5, 2.0) == (25.0, -20.0)
+    assert angle.chord(7.0, 7.5, 3.5, -2.0) == (15.0, 20.0)
+    assert time.chord(5.0, 6.0, 0.0, 9.0) == (0.0, 0.0) and angle.chord(0.0, 0.3, 2.0, 0.0) == (20.0, 0.0)
+    assert Input.of({"name": "slider.load", "constant": 0.1}).chord(0.0, 0.3, 2.0, 5.0) == (0.1, 0.0)
+
+
 def test_an_angle_just_below_zero_is_a_whole_turn():
     assert wrapped(-1e-300) == math.tau and wrapped(-0.0) == 0.0 and wrapped(-1.0) == math.tau - 1.0
 
