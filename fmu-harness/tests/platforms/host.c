@@ -7,6 +7,7 @@
  *
  *     setInteger REFERENCE VALUE       before the first step
  *     setReal REFERENCE NUMBER
+ *     setSlope REFERENCE NUMBER        of a real input
  *     start TIME                       initialisation
  *     doStep TIME STEP
  *     getReal REFERENCE                prints the number
@@ -99,6 +100,7 @@ int main(int count, char **arguments) {
     FUNCTION(int, EnterInitializationMode, Component);
     FUNCTION(int, ExitInitializationMode, Component);
     FUNCTION(int, SetReal, Component, const Reference *, size_t, const double *);
+    FUNCTION(int, SetRealInputDerivatives, Component, const Reference *, size_t, const int *, const double *);
     FUNCTION(int, SetInteger, Component, const Reference *, size_t, const int *);
     FUNCTION(int, GetReal, Component, const Reference *, size_t, double *);
     FUNCTION(int, GetInteger, Component, const Reference *, size_t, int *);
@@ -120,6 +122,11 @@ int main(int count, char **arguments) {
             Reference variable = reference();
             double value = number();
             check(SetReal(fmu, &variable, 1, &value), command);
+        } else if (strcmp(command, "setSlope") == 0) {
+            Reference variable = reference();
+            const int order = 1;
+            double slope = number();
+            check(SetRealInputDerivatives(fmu, &variable, 1, &order, &slope), command);
         } else if (strcmp(command, "setInteger") == 0) {
             Reference variable = reference();
             int value = (int)reference();

@@ -7,6 +7,7 @@ use fmu_harness::package::Stock;
 use fmu_harness::package::Version;
 use fmu_harness::package::platform::Platform;
 use fmu_harness::scenes::Scenario;
+use slidercrank::scene::profile::Chord;
 use slidercrank::scene::run::End;
 use std::fmt::Write;
 use std::fs;
@@ -47,7 +48,7 @@ impl Packaged {
             let variable = self.description.variable(name).expect("a variable");
             writeln!(commands, "setInteger {} {value}", variable.reference).expect("room");
         }
-        self.write_inputs(&mut commands, 0.0);
+        self.write_inputs(&mut commands, 0.0, self.step());
         writeln!(commands, "start {}", bits(0.0)).expect("room");
         match save {
             None => self.write_steps(&mut commands, 0..STEPS),
@@ -78,10 +79,10 @@ impl Packaged {
     }
 
     fn write_steps(&self, commands: &mut String, steps: Range<usize>) {
-        let step = self.span() / STEPS as f64;
+        let step = self.step();
         for number in steps {
             let time = number as f64 * step;
-            self.write_inputs(commands, time);
+            self.write_inputs(commands, time, step);
             writeln!(commands, "doStep {} {}", bits(time), bits(step)).expect("room");
             for output in self.outputs() {
                 let getter = if output.kind == Kind::Real { "getReal" } else { "getInteger" };
@@ -90,21 +91,24 @@ impl Packaged {
         }
     }
 
-    fn write_inputs(&self, commands: &mut String, time: f64) {
-        let file = &self.scenario.file;
-        // About the crank's angle: an input may depend on it, and may be anything.
-        let angle = file.scene.crank.angle_start + file.scene.crank.speed_start * time;
-        for input in inputs::of_scene(&file.inputs) {
+    fn write_inputs(&self, commands: &mut String, time: f64, step: f64) {
+        let crank = &self.scenario.file.scene.crank;
+        // About the crank's angle and speed: an input may depend on them, and may be anything.
+        let angle = crank.angle_start + crank.speed_start * time;
+        for input in inputs::of_scene(&self.scenario.file.inputs) {
             let reference = self.description.variable(&input.name).expect("an input").reference;
-            writeln!(commands, "setReal {reference} {}", bits(input.profile.value(time, angle))).expect("room");
+            let Chord { value, slope } = input.profile.chord([time, time + step], angle, crank.speed_start);
+            writeln!(commands, "setReal {reference} {}", bits(value)).expect("room");
+            writeln!(commands, "setSlope {reference} {}", bits(slope)).expect("room");
         }
     }
 
-    /// [s] Half a turn, or a twentieth of a scene that has none.
-    fn span(&self) -> f64 {
+    /// [s] Of half a turn, or of a twentieth of a scene that has none.
+    fn step(&self) -> f64 {
         let run = &self.scenario.file.run;
         let stop = run.stop(&self.scenario.file.scene);
-        if let End::Turns(turns) = run.end { 0.5 * stop / turns } else { stop / 20.0 }
+        let span = if let End::Turns(turns) = run.end { 0.5 * stop / turns } else { stop / 20.0 };
+        span / STEPS as f64
     }
 
     /// Those of the mechanism and the counts of the integrator's work.
