@@ -164,11 +164,11 @@ impl<S: Simulated> Machine<S> {
         if self.scene.drive.mode == DriveMode::Speed {
             phase.time = other.turned() / self.scene.crank.speed_start.abs();
         }
-        self.go_on_from(&phase);
+        self.set_phase(&phase);
     }
 
-    /// Continues from a point of phase space, under the inputs there.
-    pub(super) fn go_on_from(&mut self, phase: &Phase) {
+    /// Continues from another point of phase space, with the inputs there.
+    pub(super) fn set_phase(&mut self, phase: &Phase) {
         self.simulation.place(phase);
         self.look();
     }
@@ -260,7 +260,7 @@ impl<S: Simulated> Flow for Machine<S> {
     fn place(&mut self, point: &Point) {
         let (states, speeds) = point.coordinates.split_at(self.scales.states.len());
         let mut speeds = speeds.iter().map(|speed| speed * self.scales.approach);
-        self.go_on_from(&Phase {
+        self.set_phase(&Phase {
             time: point.time,
             states: states.iter().zip(&self.scales.states).map(|(state, scale)| state * scale).collect(),
             approach: point.modes.iter().map(|closed| closed.then(|| speeds.next()).flatten()).collect(),

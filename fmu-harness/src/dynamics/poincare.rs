@@ -85,7 +85,7 @@ impl<'a> PoincareMap<'a> {
     /// If it cannot run.
     pub fn response(&self, orbit: &Orbit, response: &Response) -> Result<f64> {
         let mut machine = Machine::start(&self.file(orbit.value)?)?;
-        machine.go_on_from(&orbit.phase);
+        machine.set_phase(&orbit.phase);
         response.of(&mut machine, orbit.turns)
     }
 
@@ -150,7 +150,7 @@ impl ReturnMap for PoincareMap<'_> {
         let (scene, states) = (&file.scene, phase.states.len());
         let mut machine = Machine::with_tangent(&file, &self.seeds)?;
         let phase = self.placed(scene, phase);
-        machine.go_on_from(&phase);
+        machine.set_phase(&phase);
         let events = machine.outputs().solver.events;
         let before = self.rates(&mut machine, states);
         let (mut visits, mut halfway) = (vec![], phase.clone());

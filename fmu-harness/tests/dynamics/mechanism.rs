@@ -7,7 +7,7 @@ use fmu_harness::dynamics::verdict::Verdict;
 use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
 use slidercrank::scene::FrictionLaw;
-use slidercrank::scene::read::SceneFile;
+use slidercrank::scene::read::{SceneFile, read};
 use std::f64::consts::TAU;
 
 const PLAN: Plan = Plan { transient: 30, turns: 60, section: 0.0, per_turn: 25, tangent_turns: 0 };
@@ -59,6 +59,35 @@ fn a_machine_goes_on_from_where_it_was_placed() {
     machine.advance(0.021).expect("it runs");
     // The step sequence is another: the same motion up to the tolerance.
     assert!(machine.point().distance(&first) < 1e-2, "{}", machine.point().distance(&first));
+}
+
+/// A free crank whose slider is loaded near a crank angle of 0 alone.
+const KICKED: &str = r#"
+[run]
+step = "200 us"
+[drive]
+mode = "torque"
+[crank]
+angle_start = "90 deg"
+speed_start = "100 rad/s"
+torque = "20 N.m"
+inertia = 5
+[joint.A]
+damping = 0.2
+[slider]
+load = { against = "crank.angle", points = [["0 deg", "-10 kN"], ["5 deg", 0], ["355 deg", 0]] }
+"#;
+
+#[test]
+fn a_machine_that_was_placed_has_the_inputs_of_that_place() {
+    let file = read(KICKED, "kicked").expect("a scene");
+    let mut machine = Machine::start(&file).expect("a machine");
+    machine.advance_turned(0.5).expect("it runs");
+    let (point, force) = (machine.point(), machine.outputs().joint_t.force);
+    machine.advance_turned(0.75 * TAU).expect("it runs");
+    machine.place(&point);
+    let again = machine.outputs().joint_t.force;
+    assert!((again[1] - force[1]).abs() < 1e-6 * force[1].abs(), "{again:?} N for {force:?} N");
 }
 
 /// Between neighbours that differ in LuGre's bristles alone: δż = −σ0·|v|/g(v)·δz, and far above the Stribeck speed g is
