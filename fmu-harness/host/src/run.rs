@@ -31,7 +31,8 @@ const SLIVER: f64 = 1e-6;
 pub enum Until {
     /// [s]
     Time(f64),
-    /// The run ends when the crank has made so many turns in either direction, but not later than `latest` [s].
+    /// The run ends when the crank is so many turns away from its start angle, in either direction, but not later than
+    /// `latest` [s].
     Turns {
         /// Number of turns.
         turns: f64,

@@ -117,12 +117,18 @@ impl<S: Simulated> Machine<S> {
         self.simulation.output_rates()
     }
 
-    /// [rad] Angle since the start, positive in the direction of rotation.
-    pub fn turned(&mut self) -> f64 {
-        (self.outputs().crank.angle - self.scene.crank.angle_start).abs()
+    /// 1 or −1, the direction of the start speed.
+    fn direction(&self) -> f64 {
+        self.scene.crank.speed_start.signum()
     }
 
-    /// Advances until the crank has turned by `angle` [rad] since the start.
+    /// [rad] Angle since the start, positive in the direction of the start speed.
+    pub fn turned(&mut self) -> f64 {
+        self.direction() * (self.outputs().crank.angle - self.scene.crank.angle_start)
+    }
+
+    /// Advances until the crank has turned by `angle` [rad] since the start, in the direction of the start speed. A crank that
+    /// turns back by a whole turn on the way does not reach it.
     ///
     /// # Errors
     /// If it cannot go on, or the crank does not reach the angle.
@@ -130,12 +136,12 @@ impl<S: Simulated> Machine<S> {
         if self.scene.drive.mode == DriveMode::Speed {
             return self.advance(angle / self.scene.crank.speed_start.abs());
         }
-        let look = self.turn() / LOOKS;
-        let latest = self.time() + SLOWEST * self.turn() * (1.0 + angle / TAU);
-        while self.time() < latest {
+        let (look, begin) = (self.turn() / LOOKS, self.turned());
+        let latest = self.time() + SLOWEST * self.turn() * (1.0 + (angle - begin) / TAU);
+        while self.time() < latest && self.turned() > begin - TAU {
             let left = angle - self.turned();
-            let reach = left / self.outputs().crank.speed.abs();
-            if reach.is_nan() || reach > look {
+            let reach = left / (self.direction() * self.outputs().crank.speed);
+            if left > 0.0 && !(0.0..=look).contains(&reach) {
                 self.advance(self.time() + look)?;
                 continue;
             }

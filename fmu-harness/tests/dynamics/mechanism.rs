@@ -6,6 +6,7 @@ use fmu_harness::dynamics::section::stroboscope;
 use fmu_harness::dynamics::verdict::Verdict;
 use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
+use fmu_harness::sensitivity::Experiment;
 use slidercrank::scene::FrictionLaw;
 use slidercrank::scene::read::{SceneFile, read};
 use std::f64::consts::TAU;
@@ -88,6 +89,38 @@ fn a_machine_that_was_placed_has_the_inputs_of_that_place() {
     machine.place(&point);
     let again = machine.outputs().joint_t.force;
     assert!((again[1] - force[1]).abs() < 1e-6 * force[1].abs(), "{again:?} N for {force:?} N");
+}
+
+/// A torque turns a free crank against its start speed.
+const TURNED_BACK: &str = r#"
+[drive]
+mode = "torque"
+[crank]
+angle_start = "90 deg"
+speed_start = "20 rad/s"
+torque = "-20 N.m"
+inertia = 0.0005
+[joint.A]
+damping = 0.2
+"#;
+
+#[test]
+fn a_crank_that_is_turned_back_does_not_turn_on() {
+    let mut file = read(TURNED_BACK, "turned back").expect("a scene");
+    let mut machine = Machine::start(&file).expect("a machine");
+    let error = machine.advance_turned(TAU).expect_err("it turns back");
+    assert!(error.to_string().contains("does not turn on"), "{error}");
+    assert!((-1.1..-1.0).contains(&(machine.turned() / TAU)), "it ends after a turn back: {}", machine.turned() / TAU);
+    let accuracy = fmu_harness::accuracy::Plan { transient: 0, turns: 1 }.measure(&file);
+    assert!(accuracy.is_err(), "{accuracy:?}");
+    let experiment = Experiment { file: &file, turns: 1.0, transient: 0.0, counted: false };
+    let wanted = ["slider.v@bdc".parse().expect("a quantity")];
+    assert!(experiment.values(&wanted).is_err(), "the crank passes no bottom dead centre on its way on");
+    // The same torque turns on a crank that starts its way.
+    file.scene.crank.speed_start = -20.0;
+    let mut machine = Machine::start(&file).expect("a machine");
+    machine.advance_turned(2.0).expect("it turns on");
+    assert!((machine.turned() - 2.0).abs() < 1e-6 && machine.outputs().crank.angle < 0.0);
 }
 
 /// Between neighbours that differ in LuGre's bristles alone: δż = −σ0·|v|/g(v)·δz, and far above the Stribeck speed g is
