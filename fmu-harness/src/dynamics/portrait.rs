@@ -6,9 +6,9 @@ use super::orbit::{Return, ReturnMap};
 use super::poincare::PoincareMap;
 use super::section::{Impact, Visit, impacts, stroboscope};
 use super::tangent::all_states;
-use super::verdict::{Evidence, Verdict, judge};
+use super::verdict::{Evidence, SAME, judge};
 use super::{Flow, Machine, machine, spectrum};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, ensure};
 use slidercrank::model::signals::Outputs;
 use slidercrank::scene::Scene;
 use slidercrank::scene::read::SceneFile;
@@ -39,6 +39,8 @@ const MOST_IMPACTS: usize = 20_000;
 /// The neighbour's distance, in noticeable differences: far above the integrator's errors and far below distances that
 /// change contacts.
 const DISTANCE: f64 = 1e-3;
+/// A share of the crank's speed that counts like a clearance.
+const SPEED: f64 = 1e-2;
 /// Share of the measurements that are not counted.
 const SETTLING: f64 = 0.1;
 
@@ -128,12 +130,13 @@ impl Plan {
         let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(&file.scene, &visit.outputs)).collect();
         let unknown = Exponent { value: 0.0, error: f64::INFINITY, history: vec![] };
         let name = map.parameter.name;
-        match judge(&vectors, &unknown).verdict {
-            Verdict::Periodic(turns) => map
-                .solve(value, &begin, turns)
-                .with_context(|| format!("at {name} = {value} the motion repeats after {turns} turns")),
-            _ => bail!("at {name} = {value} the motion does not settle on a periodic one; begin at another value"),
-        }
+        let Evidence { repeats_after, misses_by, .. } = judge(&vectors, &unknown);
+        ensure!(
+            misses_by <= SAME,
+            "at {name} = {value} the motion does not settle on a periodic one; begin at another value"
+        );
+        map.solve(value, &begin, repeats_after)
+            .with_context(|| format!("at {name} = {value} the motion repeats after {repeats_after} turns"))
     }
 
     /// The machine after the transient.
@@ -158,8 +161,9 @@ fn path(machine: &mut Machine, turns: usize, points: usize) -> Result<Vec<Visit>
     Ok(path)
 }
 
-/// The numbers that are compared between points of the section: positions of journals and slider, in clearances; and
-/// the rod's deflection or, if there is no clearance, the slider's position in thousandths of the crank's length.
+/// The numbers that are compared between points of the section: positions of journals and slider and the rod's deflection,
+/// in clearances; if there is none, lengths in thousandths of the crank's, and the slider's velocity error in such lengths per
+/// radian of the crank; and the crank's speed, in hundredths of itself.
 pub fn noticed(scene: &Scene, outputs: &Outputs) -> Vec<f64> {
     let mut noticed = Vec::new();
     let clearances = machine::clearances(scene);
@@ -175,8 +179,15 @@ pub fn noticed(scene: &Scene, outputs: &Outputs) -> Vec<f64> {
         };
         noticed.extend(revolute.eccentricity.map(|e| e / clearance));
     }
+    let speed = outputs.crank.speed.abs().max(f64::MIN_POSITIVE);
+    let thousandth = 1e-3 * scene.crank.length;
     let least = clearances.iter().map(|(_, clearance)| *clearance).reduce(f64::min);
-    let least = least.unwrap_or(1e-3 * scene.crank.length);
+    if least.is_none() {
+        noticed.push(outputs.accuracy.velocity / (speed * thousandth));
+    }
+    let least = least.unwrap_or(thousandth);
     noticed.extend([outputs.accuracy.position / least, outputs.rod.deflection / least]);
+    // Differences of logarithms are relative ones.
+    noticed.push(speed.ln() / SPEED);
     noticed
 }

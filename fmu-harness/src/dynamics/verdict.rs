@@ -17,8 +17,8 @@ pub enum Verdict {
     Periodic(usize),
     /// Neighbouring motions diverge exponentially, and the motion does not repeat.
     Chaotic,
-    /// The motion does not repeat, and the sign of the exponent is not certain: it is quasi-periodic, has a longer
-    /// period, or is still in its transient.
+    /// The motion does not repeat, and the sign of the exponent is not certain, or it is still in its transient: it is
+    /// quasi-periodic, has a longer period, or one of its numbers only rises or only falls.
     Irregular,
 }
 
@@ -58,6 +58,7 @@ pub fn judge(visits: &[Vec<f64>], exponent: &Exponent) -> Evidence {
     let first = misses.iter().position(|miss| *miss <= SAME);
     let best = first.or_else(|| (0..misses.len()).min_by(|i, j| misses[*i].total_cmp(&misses[*j])));
     let verdict = match first {
+        _ if drifts(visits) => Verdict::Irregular,
         Some(place) => Verdict::Periodic(place + 1),
         None if exponent.value > CERTAIN * exponent.error => Verdict::Chaotic,
         None => Verdict::Irregular,
@@ -65,6 +66,15 @@ pub fn judge(visits: &[Vec<f64>], exponent: &Exponent) -> Evidence {
     let misses_by = best.map_or(f64::INFINITY, |place| misses[place]);
     let repeats_after = best.map_or(0, |place| place + 1);
     Evidence { verdict, repeats_after, misses_by, exponent: exponent.value, error: exponent.error }
+}
+
+/// Whether a number rises or falls from each point to the next one, on the whole noticeably: the motion has not settled.
+fn drifts(visits: &[Vec<f64>]) -> bool {
+    let [first, .., last] = visits else { return false };
+    (0..first.len()).any(|place| {
+        let rises = last[place] - first[place];
+        rises.abs() > SAME && visits.windows(2).all(|pair| (pair[1][place] - pair[0][place]) * rises > 0.0)
+    })
 }
 
 /// Largest difference between two points.
@@ -95,6 +105,14 @@ mod tests {
         assert_eq!(judge(&visits, &exponent(0.0)).verdict, Verdict::Irregular);
         assert_eq!(judge(&visits, &exponent(0.31)).verdict, Verdict::Chaotic);
         assert_eq!(judge(&visits, &exponent(0.29)).verdict, Verdict::Irregular);
+    }
+
+    #[test]
+    fn what_only_rises_has_not_settled() {
+        let rising: Vec<Vec<f64>> = (0..60).map(|n| vec![1e-4 * f64::from(n), f64::from(n % 2)]).collect();
+        assert_eq!(judge(&rising, &exponent(1.0)).verdict, Verdict::Irregular);
+        let rounding: Vec<Vec<f64>> = (0..60).map(|n| vec![1e-6 * f64::from(n), f64::from(n % 2)]).collect();
+        assert_eq!(judge(&rounding, &exponent(1.0)).verdict, Verdict::Periodic(2));
     }
 
     #[test]

@@ -208,7 +208,7 @@ pub fn sentence(portrait: &Portrait) -> String {
     let (evidence, exponent) = (&portrait.evidence, &portrait.exponent);
     let [value, error] = [exponent.value, exponent.error].map(|number| known(number * portrait.turn));
     format!(
-        "{}; exponent {value} ± {error} a turn; best repetition after {} turns, within {} clearances",
+        "{}; exponent {value} ± {error} a turn; best repetition after {} turns, within {}",
         evidence.verdict,
         evidence.repeats_after,
         significant(evidence.misses_by)
@@ -226,7 +226,7 @@ pub fn table(portrait: &Portrait) -> Table {
     table.row(["the exponent in one turn", &three_digits(exponent.value * portrait.turn)]);
     table.row(["turns looked at", &portrait.visits.len().to_string()]);
     table.row(["best repetition after turns", &evidence.repeats_after.to_string()]);
-    table.row(["which misses by, in clearances", &significant(evidence.misses_by)]);
+    table.row(["which misses by, in clearances or hundredths of the speed", &significant(evidence.misses_by)]);
     table.row(["counts as the same below", &significant(SAME)]);
     table.row(["impacts of journals in the last turns", &portrait.impacts.len().to_string()]);
     table

@@ -123,6 +123,17 @@ fn a_crank_that_is_turned_back_does_not_turn_on() {
     assert!((machine.turned() - 2.0).abs() < 1e-6 && machine.outputs().crank.angle < 0.0);
 }
 
+#[test]
+fn a_crank_that_still_speeds_up_is_not_periodic_and_one_that_no_longer_does_is() {
+    let file = read(KICKED, "kicked").expect("a scene");
+    let plan = Plan { turns: 6, per_turn: 5, ..PLAN };
+    // Of the way to its last speed exp(−d·t/J) is left: 4e-14 after the longer transient.
+    for (transient, verdict) in [(4, Verdict::Irregular), (12_000, Verdict::Periodic(1))] {
+        let portrait = Plan { transient, ..plan }.portrait(&file, || {}).expect("a portrait");
+        assert_eq!(portrait.evidence.verdict, verdict, "after {transient} turns: {:?}", portrait.evidence);
+    }
+}
+
 /// Between neighbours that differ in LuGre's bristles alone: δż = −σ0·|v|/g(v)·δz, and far above the Stribeck speed g is
 /// the kinetic coefficient. In a small clearance the journal slides at the bearing's radius times the rod's speed.
 #[test]
