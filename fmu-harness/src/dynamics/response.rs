@@ -2,7 +2,7 @@
 
 use super::{Flow, Machine};
 use crate::output::Output;
-use crate::sweep::quantity::Reduction;
+use crate::sweep::quantity::{Reduction, shares};
 use anyhow::{Result, ensure};
 use std::f64::consts::TAU;
 use std::str::FromStr;
@@ -21,6 +21,22 @@ pub struct Response {
     pub text: String,
     output: Output,
     reduce: Reduction,
+}
+
+/// Values of an output, and when they were taken.
+#[derive(Default)]
+struct Samples {
+    /// [s]
+    times: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Samples {
+    /// Adds the value of `output` in the current state of a machine.
+    fn add(&mut self, machine: &mut Machine, output: &Output) {
+        self.times.push(machine.time());
+        self.values.push(output.value(&machine.outputs()));
+    }
 }
 
 impl FromStr for Response {
@@ -51,25 +67,26 @@ impl Response {
     /// If the machine cannot go on.
     pub fn of(&self, machine: &mut Machine, turns: usize) -> Result<f64> {
         let start = machine.turned();
-        let mut values = Vec::with_capacity(turns * SAMPLES);
+        let mut samples = Samples::default();
+        samples.add(machine, &self.output);
         let of_extremes = matches!(self.reduce, Reduction::Max | Reduction::Min | Reduction::Peak | Reduction::Range);
         for sample in 1..=turns * SAMPLES {
             if of_extremes {
-                self.sample_on(machine, &mut values)?;
+                self.sample_on(machine, &mut samples)?;
             }
             machine.advance_turned(start + TAU * sample as f64 / SAMPLES as f64)?;
-            values.push(self.output.value(&machine.outputs()));
+            samples.add(machine, &self.output);
         }
-        Ok(self.reduce.over_equal_times(&values))
+        Ok(self.reduce.over(&samples.values, &shares(&samples.times)))
     }
 
     /// Adds the values at the instants between a sample and the next one, unless the crank nearly stands still.
-    fn sample_on(&self, machine: &mut Machine, values: &mut Vec<f64>) -> Result<()> {
+    fn sample_on(&self, machine: &mut Machine, samples: &mut Samples) -> Result<()> {
         let (from, apart) = (machine.time(), TAU / SAMPLES as f64 / machine.outputs().crank.speed.abs());
         if apart < SLOWEST * machine.turn() / SAMPLES as f64 {
             for part in 1..BETWEEN {
                 machine.advance(from + apart * part as f64 / BETWEEN as f64)?;
-                values.push(self.output.value(&machine.outputs()));
+                samples.add(machine, &self.output);
             }
         }
         Ok(())

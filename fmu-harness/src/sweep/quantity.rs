@@ -81,7 +81,7 @@ impl Quantity {
 
 /// [s] The time that each of these instants stands for: half of the intervals on both sides, so that sums are those of the
 /// trapezoidal rule.
-fn shares(times: &[f64]) -> Vec<f64> {
+pub fn shares(times: &[f64]) -> Vec<f64> {
     let last = times.len().saturating_sub(1);
     (0..times.len()).map(|i| (times[last.min(i + 1)] - times[i.saturating_sub(1)]) / 2.0).collect()
 }

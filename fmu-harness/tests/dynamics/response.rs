@@ -1,17 +1,17 @@
 //! The frequency response of a slender rod that bends at twice the speed of its crank: it folds over, since bending
 //! draws the slider in.
 
-use fmu_harness::dynamics::Machine;
 use fmu_harness::dynamics::bifurcation::{Branch as Simulated, Range};
 use fmu_harness::dynamics::continuation::{Bifurcation, Continuation};
 use fmu_harness::dynamics::orbit::{Orbit, ReturnMap};
 use fmu_harness::dynamics::poincare::PoincareMap;
 use fmu_harness::dynamics::portrait::Plan;
 use fmu_harness::dynamics::response::Response;
+use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
 use slidercrank::scene::JointModel;
 use slidercrank::scene::parameter::Parameter;
-use slidercrank::scene::read::SceneFile;
+use slidercrank::scene::read::{SceneFile, read};
 use std::f64::consts::TAU;
 
 const SPEED: &str = "crank.speed_start";
@@ -81,4 +81,32 @@ fn the_largest_force_of_blows_between_samples_counts() {
         largest = largest.max(audited.outputs().joint_c.interval.force_peak);
     }
     assert!((found / largest - 1.0).abs() < 5e-3, "{found} N, {largest} N");
+}
+
+/// A light crank under a constant torque, whose speed varies widely over a turn.
+const UNEVEN: &str = r#"
+[drive]
+mode = "torque"
+[crank]
+speed_start = "30 rad/s"
+torque = "20 N.m"
+inertia = 0.0005
+[joint.A]
+damping = 0.2
+"#;
+
+#[test]
+fn means_of_a_response_are_those_over_time() {
+    let file = read(UNEVEN, "uneven").expect("a scene");
+    let [mut machine, mut timed] = [0, 1].map(|_| {
+        let mut machine = Machine::start(&file).expect("a machine");
+        machine.advance_turned(20.0 * TAU).expect("a motion");
+        machine
+    });
+    let response: Response = "crank.speed:mean".parse().expect("a response");
+    let found = response.of(&mut machine, 3).expect("a run");
+    let begin = timed.time();
+    timed.advance_turned(23.0 * TAU).expect("a motion");
+    let known = 3.0 * TAU / (timed.time() - begin);
+    assert!((found / known - 1.0).abs() < 1e-4, "{found} rad/s, {known} rad/s");
 }
