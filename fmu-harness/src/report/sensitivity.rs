@@ -33,8 +33,8 @@ pub fn table(found: &Sensitivities, checked: Option<&Checked>) -> Table {
                         known(if relative.abs() < MEANINGLESS { relative } else { f64::NAN }),
                     ];
                     line.extend(checked.map(|checked| match &checked[k] {
-                        Ok(differences) => format!("{:.6e}", differences[i]),
-                        Err(_) => "–".into(),
+                        Ok(differences) if differences[i].is_finite() => format!("{:.6e}", differences[i]),
+                        _ => "–".into(),
                     }));
                     table.line(line);
                 }

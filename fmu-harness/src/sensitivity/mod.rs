@@ -32,6 +32,11 @@ const MEAN_SAMPLES: f64 = 2000.0;
 const SAME_TURN: f64 = 1e-9;
 /// Tolerance of the motions.
 const TOLERANCE: f64 = 1e-9;
+/// Rounding of a quantity of a run, as a share of it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Difference quotients agree within this share of them, and have to agree better by this factor for each decade of their steps.
+const AGREEING: f64 = 1e-2;
+const BETTER: f64 = 3.0;
 
 /// A crank angle at which a quantity is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -421,8 +426,8 @@ fn reduced(wanted: &Wanted, values: &[f64], slopes: Result<Vec<Vec<f64>>>, count
     (value, slopes.map(sum))
 }
 
-/// Central differences of all quantities by a parameter for ever smaller changes: for each quantity the one that agrees
-/// best with its neighbours.
+/// Central differences of all quantities by a parameter for ever smaller changes: for each quantity that on which they agree;
+/// NaN where they do not.
 ///
 /// # Errors
 /// If no change of the parameter can be run.
@@ -438,21 +443,73 @@ pub fn differences(of: &Experiment<'_>, wanted: &[Wanted], parameter: &'static P
         let neighbour = Experiment { file: &file, ..*of };
         window.map_or_else(|| neighbour.values(wanted), |window| neighbour.values_within(window, wanted))
     };
-    let mut slopes: Vec<Vec<f64>> = vec![];
+    let mut quotients: Vec<Vec<Quotient>> = vec![vec![]; wanted.len()];
     for decade in 2..12 {
         let step = unit * 10f64.powi(-decade);
         let four = [2.0, 1.0, -1.0, -2.0].map(|place| at(place * step));
         if let [Ok(a), Ok(b), Ok(c), Ok(d)] = four {
-            let one = |i: usize| (8.0 * (b[i] - c[i]) - (a[i] - d[i])) / (12.0 * step);
-            slopes.push((0..wanted.len()).map(one).collect());
+            for (i, quotients) in quotients.iter_mut().enumerate() {
+                let slope = (8.0 * (b[i] - c[i]) - (a[i] - d[i])) / (12.0 * step);
+                quotients.push(Quotient { slope, noise: ROUNDING * b[i].abs() / step });
+            }
         }
     }
-    if slopes.len() < 2 {
+    if quotients.iter().any(|quotients| quotients.len() < 2) {
         bail!("{} has no neighbouring values", parameter.name);
     }
-    let best = |i: usize| {
-        let pairs = slopes.windows(2).map(|pair| (pair[0][i], pair[1][i]));
-        pairs.min_by(|a, b| (a.0 - a.1).abs().total_cmp(&(b.0 - b.1).abs())).map_or(f64::NAN, |pair| pair.0)
+    Ok(quotients.iter().map(|quotients| plateau(quotients)).collect())
+}
+
+/// A difference quotient.
+#[derive(Clone, Copy)]
+struct Quotient {
+    slope: f64,
+    /// What rounding makes of it.
+    noise: f64,
+}
+
+/// The slope on which two quotients, of a step and of the next smaller one, agree best in relation to their size. Beside an
+/// impact large steps lead to other motions, which may agree as well: for each decade by which its steps are larger, a pair has
+/// to agree better. NaN if none agrees.
+fn plateau(quotients: &[Quotient]) -> f64 {
+    // Slopes within rounding of 0 are 0.
+    if quotients.iter().all(|one| one.slope.abs() <= one.noise) {
+        return 0.0;
+    }
+    let error = |pair: &[Quotient]| {
+        let larger = pair[0].slope.abs().max(pair[1].slope.abs());
+        ((pair[0].slope - pair[1].slope).abs() + pair[1].noise) / larger
     };
-    Ok((0..wanted.len()).map(best).collect())
+    let pairs = quotients.windows(2).rev().zip(0..).map(|(pair, decades)| (pair, error(pair), BETTER.powi(decades)));
+    let agreeing = pairs.filter(|(_, error, _)| *error <= AGREEING);
+    agreeing.min_by(|a, b| (a.1 * a.2).total_cmp(&(b.1 * b.2))).map_or(f64::NAN, |(pair, ..)| pair[0].slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(slopes: &[f64], value: f64) -> f64 {
+        let noise = |place: usize| ROUNDING * value / 10f64.powi(-2 - place as i32);
+        let quotient = |(place, slope): (usize, &f64)| Quotient { slope: *slope, noise: noise(place) };
+        plateau(&slopes.iter().enumerate().map(quotient).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn difference_quotients_are_those_of_the_plateau() {
+        // As found: beside an impact; where larger steps have no force; where rounding soon counts.
+        let impact = [-0.34, -0.0073, -46.3, 3.48, -270.0, 24_877.0, 2904.8, 3319.9, 3339.2, 3339.9];
+        assert_eq!(of(&impact, 11.0), 3339.2);
+        let force = [0.0, 0.0, -1.192e7, -2.149e7, -6.711e7, 4.138e7, -1.176_044e8, -1.176_028e8, -1.176_127e8];
+        assert_eq!(of(&force, 72.0), -1.176_044e8);
+        let rounded = [52.63, 51.3017, 51.3013, 51.3011, 51.313, 51.22, 50.379, 50.445, 126.3, -1325.0];
+        assert_eq!(of(&rounded, 23.6), 51.3013);
+    }
+
+    #[test]
+    fn where_nothing_changes_but_rounding_the_slope_is_0_and_without_a_plateau_there_is_none() {
+        assert_eq!(of(&[0.0, 1e-14, 0.0, -1e-12], 1.0), 0.0);
+        assert_eq!(of(&[0.0; 4], 0.0), 0.0);
+        assert!(of(&[1.0, -3.0, 10.0, -45.0], 1.0).is_nan());
+    }
 }
