@@ -32,8 +32,8 @@ const LOCATED: f64 = 1e-9;
 const ASIDE: [f64; 5] = [3e-3, 1e-3, 1e-2, 3e-2, 1e-4];
 /// A multiplier whose imaginary part is less than this share of it is real.
 const REAL: f64 = 1e-6;
-/// Two bifurcations are the same within this share of the range.
-const SAME: f64 = 5e-3;
+/// A step past a doubling is halved down to this length.
+const CLOSE: f64 = 2e-3;
 
 /// How a branch of periodic motions changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,45 +116,28 @@ impl Continuation<'_> {
     /// If the first step fails.
     pub fn follow(&self, start: Return, mut tick: impl FnMut(f64)) -> Result<Vec<Branch>> {
         let along = self.along(&start, None)?;
-        let mut branches = vec![self.branch(Point { at: start, along }, false, &mut tick)];
+        let mut branches = vec![self.branch(Point { at: start, along }, &[], &mut tick)];
         let mut first = 0;
         for _ in 0..self.doublings {
-            let last = branches.len();
-            for place in first..last {
-                let doubled: Vec<Orbit> = branches[place]
-                    .found
-                    .iter()
-                    .filter(|found| found.kind == Bifurcation::PeriodDoubling)
-                    .map(|found| found.orbit.clone())
-                    .collect();
-                for orbit in doubled {
-                    // The branch from one of two neighbouring doublings often ends at the other.
-                    let near = |branch: &Branch| {
-                        branch.meets.is_some_and(|end| (end - orbit.value).abs() < SAME * self.range())
-                    };
-                    if branches.iter().any(near) {
-                        continue;
-                    }
-                    match self.doubled(&orbit) {
-                        Ok(point) => branches.push(self.branch(point, true, &mut tick)),
-                        Err(error) => {
-                            let end = format!(
-                                "the branch from {} = {:.6e} is not reached: {error:#}",
-                                self.name(),
-                                orbit.value
-                            );
-                            branches.push(Branch {
-                                turns: 2 * orbit.turns,
-                                orbits: vec![],
-                                found: vec![],
-                                end,
-                                meets: None,
-                            });
-                        }
-                    }
+            let doublings = doublings(&branches[first..]);
+            first = branches.len();
+            for orbit in &doublings {
+                // The branch from one of two neighbouring doublings often ends at the other.
+                let ends_here = |branch: &Branch| branch.meets == Some(orbit.value);
+                if branches[first..].iter().any(ends_here) {
+                    continue;
                 }
+                branches.push(match self.doubled(orbit) {
+                    Ok(point) => self.branch(point, &doublings, &mut tick),
+                    Err(error) => Branch {
+                        turns: 2 * orbit.turns,
+                        orbits: vec![],
+                        found: vec![],
+                        end: format!("the branch from {} = {:.6e} is not reached: {error:#}", self.name(), orbit.value),
+                        meets: None,
+                    },
+                });
             }
-            first = last;
         }
         Ok(branches)
     }
@@ -168,9 +151,14 @@ impl Continuation<'_> {
         (self.to - self.from).abs()
     }
 
-    /// Follows a branch from one of its points until it leaves the range.
-    fn branch(&self, start: Point, doubled: bool, tick: &mut impl FnMut(f64)) -> Branch {
-        let beginning = start.at.orbit.apart.clone();
+    /// Follows a branch from one of its points until it leaves the range or ends at one of `doublings`, those of the branches
+    /// of half its period.
+    fn branch(&self, start: Point, doublings: &[Orbit], tick: &mut impl FnMut(f64)) -> Branch {
+        let least = start.at.orbit.apart.norm();
+        // Past its doubling a branch goes on in motions of half its period, or through its own ones half a period later.
+        let passes = |one: &Orbit, other: &Orbit| {
+            !doublings.is_empty() && (other.apart.norm() < least || one.apart.dot(&other.apart) < 0.0)
+        };
         let mut branch = Branch {
             turns: start.at.orbit.turns,
             orbits: vec![start.at.orbit.clone()],
@@ -182,18 +170,22 @@ impl Continuation<'_> {
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
         while branch.orbits.len() < MOST {
             match self.step(&point, length) {
+                Ok((next, _)) if passes(&point.at.orbit, &next.at.orbit) => {
+                    if length < CLOSE {
+                        let value = self.met(&point.at.orbit, doublings);
+                        branch.end =
+                            format!("it meets a branch of {} turns at {} = {value:.6e}", branch.turns / 2, self.name());
+                        branch.meets = Some(value);
+                        return branch;
+                    }
+                    length *= 0.5;
+                }
                 Ok((next, iterations)) => {
                     let found = self.between(&point, &next, length);
                     branch.found.extend(found);
                     branch.orbits.push(next.at.orbit.clone());
                     tick(next.at.orbit.value);
                     point = next;
-                    let apart = point.at.orbit.apart.dot(&beginning);
-                    if doubled && branch.orbits.len() > 3 && apart < beginning.norm_squared() {
-                        branch.end = format!("it meets a branch of {} turns", branch.turns / 2);
-                        branch.meets = Some(point.at.orbit.value);
-                        return branch;
-                    }
                     if !(low..=high).contains(&point.at.orbit.value) {
                         branch.end = format!("{} leaves the range", self.name());
                         return branch;
@@ -216,6 +208,16 @@ impl Continuation<'_> {
         }
         branch.end = format!("it has {MOST} points");
         branch
+    }
+
+    /// The parameter at the doubling near which a branch has its last motion; that of this motion if none is near.
+    fn met(&self, last: &Orbit, doublings: &[Orbit]) -> f64 {
+        let near = doublings.iter().filter(|orbit| (orbit.value - last.value).abs() < NEAR * self.range());
+        let distance = |orbit: &&Orbit| {
+            let pairs = orbit.phase.states.iter().zip(&last.phase.states).zip(self.map.scales());
+            pairs.map(|((a, b), scale)| ((a - b) / scale).powi(2)).sum::<f64>()
+        };
+        near.min_by(|a, b| distance(a).total_cmp(&distance(b))).map_or(last.value, |orbit| orbit.value)
     }
 
     /// The direction of a branch at a point: the kernel of (DP − 1 | ∂P/∂p), oriented like the direction `before` or
@@ -383,6 +385,12 @@ impl Continuation<'_> {
         }
         Err(failure.context("a length")?)
     }
+}
+
+/// The motions of these branches at which the period doubles.
+fn doublings(branches: &[Branch]) -> Vec<Orbit> {
+    let found = branches.iter().flat_map(|branch| &branch.found);
+    found.filter(|found| found.kind == Bifurcation::PeriodDoubling).map(|found| found.orbit.clone()).collect()
 }
 
 /// Weight of the square of each of `n` unknowns in a length.

@@ -104,6 +104,30 @@ fn henon_s_map_folds_and_doubles_its_period_where_it_is_known_to() {
     }
 }
 
+/// Hénon's map over p with a = 3·(1 − b)²/4 + (1 − p²)/10: its period doubles at p = −1 and halves at p = 1.
+fn bubble(p: f64, point: Vector2<f64>) -> Option<Image> {
+    let (image, by_point, by_a) = henon(0.75 * (1.0 - B).powi(2) + 0.1 * (1.0 - p * p), point)?;
+    Some((image, by_point, -0.2 * p * by_a))
+}
+
+#[test]
+fn a_doubled_branch_ends_at_the_doubling_that_it_meets_and_is_followed_once() {
+    let map = Plane { name: "p", map: bubble };
+    for [from, to] in [[-1.5, 1.5], [1.5, -1.3]] {
+        let branches = branches(&map, [from, to], [0.2, 0.2], 2);
+        assert_eq!(branches.iter().map(|branch| branch.turns).collect::<Vec<_>>(), [1, 2]);
+        assert_found(&branches[0], &[from.signum(), -from.signum()].map(|p| (Bifurcation::PeriodDoubling, p)));
+        assert_found(&branches[1], &[]);
+        let meets = branches[1].meets.expect("a doubling");
+        assert!((meets + from.signum()).abs() < 1e-8, "{meets}: {}", branches[1].end);
+        for orbit in &branches[1].orbits {
+            // x₁ − x₂ = √(4·a − 3·(1 − b)²), of which 0 is period 1.
+            let apart = (0.4 * (1.0 - orbit.value * orbit.value)).sqrt() / SCALES[0];
+            assert!((orbit.apart[0].abs() - apart).abs() < 1e-3 * apart, "{}: {}", orbit.value, orbit.apart);
+        }
+    }
+}
+
 /// x' = r·x·(1 − y), y' = x (J. Maynard Smith, Mathematical Ideas in Biology, Cambridge 1968). The fixed point 1 − 1/r has
 /// μ² − μ + r − 1 = 0: two complex multipliers of modulus √(r − 1), which are exp(±iπ/3) at r = 2.
 fn delayed(r: f64, p: Vector2<f64>) -> Option<Image> {
