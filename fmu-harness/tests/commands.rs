@@ -77,6 +77,40 @@ fn dynamics_comes_to_a_verdict_on_every_scene() {
 }
 
 #[test]
+fn branches_need_a_range_and_without_a_periodic_motion_the_simulated_points_are_written() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    let follow = |to: &str| {
+        let range = ["--parameter", "joint.C.clearance", "--from", "4e-4", "--to", to, "--values", "2"];
+        let short =
+            ["--follow-orbit", "--transient", "1", "--turns", "6", "--tangent-turns", "0", "--value-turns", "6"];
+        said(program().arg("dynamics").args(short).args(range).arg("-o").arg(folder.path()))
+    };
+    let written = || folder.path().join("dynamics-wornpin-bifurcation.csv").exists();
+    let (status, text) = follow("4e-4");
+    assert!(!status.success() && text.contains("--from and --to are both 0.0004") && !written(), "{text}");
+    let (status, text) = follow("5e-4");
+    assert!(!status.success() && text.contains("does not settle") && written(), "{text}");
+}
+
+#[test]
+fn a_pattern_leaves_out_parameters_at_their_bounds_and_a_plain_name_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    let by = |name: &str| {
+        let quantity = ["sensitivity", "--scene", "wornpin", "--turns", "0.02", "--of", "slider.v", "--to", name];
+        said(program().args(quantity).arg("-o").arg(folder.path()))
+    };
+    let (status, text) = by("joint.C.*");
+    let left_out = "Left out: joint.C.damping = 0 has no neighbours";
+    assert!(status.success() && text.contains(left_out) && text.contains("joint.C.clearance"), "{text}");
+    let page = std::fs::read_to_string(folder.path().join("sensitivity-wornpin.md")).expect("a page");
+    assert!(page.contains(left_out), "{page}");
+    for name in ["joint.C.damping", "joint.*.damping"] {
+        let (status, text) = by(name);
+        assert!(!status.success() && text.contains("has no neighbours"), "{text}");
+    }
+}
+
+#[test]
 fn the_other_commands_have_a_number_in_every_row() {
     let study = directory().with_file_name("studies").join("speed-and-clearance.toml").display().to_string();
     let wear = ["--transient", "1", "--turns", "3", "--tolerance", "0.1"];

@@ -130,9 +130,13 @@ impl Dynamics {
             frame.save(&file)?;
             written.extend([file.with_extension("csv"), file]);
         }
+        let mut followed = Ok(());
         if let Some(range) = range {
             let plan = Plan { turns: self.value_turns as usize, tangent_turns: 0, ..plan };
-            let diagram = self.diagram(&scenario, &plan, range, style)?;
+            let mut diagram = self.simulated(&scenario, &plan, range, style)?;
+            if self.follow_orbit {
+                followed = self.orbits(&scenario, &plan, &mut diagram);
+            }
             for table in diagram.tables() {
                 say(table.print());
                 page += &format!("\n{}", table.markdown());
@@ -142,11 +146,12 @@ impl Dynamics {
         }
         written.push(write(&base, "md", &page)?);
         written.iter().for_each(|file| say(shown(file)));
+        followed?;
         Table::complete(&tables)
     }
 
-    /// Everything over the range of the parameter.
-    fn diagram(&self, scenario: &Scenario, plan: &Plan, range: Range, style: ProgressStyle) -> Result<Diagram> {
+    /// The simulated points over the range of the parameter.
+    fn simulated(&self, scenario: &Scenario, plan: &Plan, range: Range, style: ProgressStyle) -> Result<Diagram> {
         let ways = if self.up_and_down { 2 } else { 1 };
         let bar = ProgressBar::new((ways * range.values.len()) as u64).with_style(style).with_message("bifurcation");
         let tick = || bar.inc(1);
@@ -158,11 +163,7 @@ impl Dynamics {
             (range.branches(&scenario.file, plan, from, tick)?, vec![])
         };
         bar.finish_and_clear();
-        let mut diagram = Diagram { range, simulated, back, followed: None, responses: vec![] };
-        if self.follow_orbit {
-            self.orbits(scenario, plan, &mut diagram)?;
-        }
-        Ok(diagram)
+        Ok(Diagram { range, simulated, back, followed: None, responses: vec![] })
     }
 
     /// Adds branches of periodic motions from the first value of the range on.
@@ -195,6 +196,7 @@ impl Dynamics {
         let Some(name) = &self.parameter else { return Ok(None) };
         let (from, to) = (self.from.context("--from is missing")?, self.to.context("--to is missing")?);
         let range = Range::new(name, from, to, self.values, self.logarithmic)?;
+        ensure!(!self.follow_orbit || from != to, "--follow-orbit needs a range: --from and --to are both {from}");
         Ok(Some(Range { response: self.response.clone(), ..range }))
     }
 }

@@ -5,7 +5,7 @@ use crate::host::Setting;
 use crate::report::sensitivity as report;
 use crate::report::table::Table;
 use crate::scenes::Scenario;
-use crate::sensitivity::{Experiment, Wanted, differences, parameters};
+use crate::sensitivity::{Experiment, Named, Wanted, differences};
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::fs;
@@ -30,7 +30,8 @@ pub struct Sensitivity {
     /// Quantities, separated by commas
     #[arg(long, value_name = "QUANTITIES", value_delimiter = ',', required = true)]
     of: Vec<Wanted>,
-    /// Real parameters, separated by commas; a * stands for any part of a name
+    /// Real parameters, separated by commas; a * stands for any part of a name, and leaves out those
+    /// without derivatives
     #[arg(long, value_name = "PARAMETERS", value_delimiter = ',', required = true)]
     to: Vec<String>,
     /// Crank turns of the run, timed with the start speed
@@ -54,22 +55,24 @@ impl Sensitivity {
         let out = self.output.clone().unwrap_or_else(out_directory);
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
-        let named = self.to.iter().map(|pattern| parameters(pattern)).collect::<Result<Vec<_>>>()?.concat();
+        let Named { parameters, left_out } = Named::of(&self.to, &scenario.file)?;
         let experiment =
             Experiment { file: &scenario.file, turns: self.turns, transient: self.transient, counted: false };
-        let found = experiment.run(&self.of, &named)?;
+        let found = experiment.run(&self.of, &parameters)?;
         let checked = if self.check {
-            let columns = named.iter().map(|parameter| differences(&experiment, &self.of, parameter));
+            let columns = parameters.iter().map(|parameter| differences(&experiment, &self.of, parameter));
             Some(columns.collect::<Vec<_>>())
         } else {
             None
         };
         let tables = [report::table(&found, checked.as_deref()), report::reach(&found)];
         tables.iter().for_each(|table| say(table.print()));
+        let left_out: Vec<String> = left_out.iter().map(|why| format!("Left out: {why}.\n")).collect();
+        left_out.iter().for_each(say);
         let base = out.join(format!("sensitivity-{}", scenario.name));
         report::frame(&found, checked.as_deref()).save(&base)?;
         let file = base.with_extension("md");
-        let page = tables.iter().map(Table::markdown).collect::<Vec<_>>().join("\n");
+        let page = tables.iter().map(Table::markdown).chain(left_out).collect::<Vec<_>>().join("\n");
         fs::write(&file, page).with_context(|| format!("cannot write {}", file.display()))?;
         ["md", "csv", "parquet"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
         Table::complete(&tables)

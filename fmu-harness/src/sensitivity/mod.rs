@@ -172,6 +172,44 @@ pub fn parameters(pattern: &str) -> Result<Vec<&'static Parameter>> {
     Ok(found)
 }
 
+/// The parameters that patterns name in a scene.
+#[derive(Default)]
+pub struct Named {
+    /// Those by which the scene has derivatives.
+    pub parameters: Vec<&'static Parameter>,
+    /// Why the scene has none by others, such as those at the end of their range. A pattern leaves these out.
+    pub left_out: Vec<String>,
+}
+
+impl Named {
+    /// What these patterns name. A name without a `*` is kept in any case.
+    ///
+    /// # Errors
+    /// If a pattern names no real parameter, or none by which the scene has derivatives.
+    pub fn of(patterns: &[String], file: &SceneFile) -> Result<Self> {
+        let mut named = Self::default();
+        for pattern in patterns {
+            let mut found = parameters(pattern)?;
+            if pattern.contains('*') {
+                let mut last = None;
+                found.retain(|parameter| match Machine::with_tangent(file, &[Seed::Parameter(parameter)]) {
+                    Ok(_) => true,
+                    Err(error) => {
+                        named.left_out.push(format!("{error:#}"));
+                        last = Some(error);
+                        false
+                    }
+                });
+                if let (true, Some(error)) = (found.is_empty(), last) {
+                    return Err(error.context(format!("`{pattern}` names no parameter with derivatives")));
+                }
+            }
+            named.parameters.extend(found);
+        }
+        Ok(named)
+    }
+}
+
 /// The derivatives of one quantity.
 #[derive(Debug)]
 pub struct Sensitivity {
