@@ -2,7 +2,7 @@
 
 use super::portrait::{Plan, noticed};
 use super::response::Response;
-use super::section::{Visit, stroboscope};
+use super::section::{Visit, stroboscope, turn};
 use super::verdict::{Evidence, judge};
 use super::{Flow, Machine};
 use anyhow::{Context, Result, ensure};
@@ -130,13 +130,14 @@ impl Range {
     fn look(&self, file: &SceneFile, plan: &Plan, mut machine: Machine) -> Result<(Look, Machine)> {
         let begin = machine.point();
         let visits = stroboscope(&mut machine, plan.section, plan.turns, || {})?;
+        let turn = turn(&machine, &visits);
         machine.place(&begin);
         let mut response = None;
         if let Some(wanted) = &self.response {
             response = Some(wanted.of(&mut machine, plan.turns)?);
             machine.place(&begin);
         }
-        let exponent = plan.exponent(file, &mut machine, || {})?;
+        let exponent = plan.exponent(file, &mut machine, turn, || {})?;
         let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(&file.scene, &visit.outputs)).collect();
         let evidence = judge(&vectors, &exponent);
         Ok((Look { visits, evidence, response }, machine))

@@ -11,6 +11,10 @@ use std::f64::consts::TAU;
 
 /// Number of steps per turn in the search for a crank angle.
 const LOOKS: f64 = 400.0;
+/// Share of the way to an angle that a step goes at most: an impact may speed the crank up meanwhile.
+const SHARE: f64 = 0.8;
+/// [rad] Distance from an angle from which one step leads there, and the largest miss.
+const NEAR: f64 = 1e-6;
 /// A crank counts as stopped if a turn takes this many times as long as at the start speed.
 const SLOWEST: f64 = 100.0;
 
@@ -45,6 +49,28 @@ pub struct Machine<S = Simulation> {
     /// [s] Where the present lines of the inputs end.
     next_look: f64,
     scales: PhaseScales,
+}
+
+/// Motion of the crank in the direction of its start speed.
+struct Crank {
+    /// [rad] Angle since the start.
+    turned: f64,
+    /// [rad/s]
+    speed: f64,
+    /// [rad/s²]
+    acceleration: f64,
+}
+
+impl Crank {
+    /// [s] Time in which it turns on by `angle` [rad] at its speed and acceleration, if it does not slow down.
+    fn time(&self, angle: f64) -> f64 {
+        if angle == 0.0 {
+            return 0.0;
+        }
+        // ω·t + α·t²/2 = angle
+        let Self { speed, acceleration, .. } = self;
+        2.0 * angle / (speed + (speed * speed + 2.0 * acceleration.max(0.0) * angle).sqrt())
+    }
 }
 
 impl Machine {
@@ -124,7 +150,7 @@ impl<S: Simulated> Machine<S> {
 
     /// [rad] Angle since the start, positive in the direction of the start speed.
     pub fn turned(&mut self) -> f64 {
-        self.direction() * (self.outputs().crank.angle - self.scene.crank.angle_start)
+        self.crank().turned
     }
 
     /// Advances until the crank has turned by `angle` [rad] since the start, in the direction of the start speed. A crank that
@@ -136,22 +162,28 @@ impl<S: Simulated> Machine<S> {
         if self.scene.drive.mode == DriveMode::Speed {
             return self.advance(angle / self.scene.crank.speed_start.abs());
         }
-        let (look, begin) = (self.turn() / LOOKS, self.turned());
-        let latest = self.time() + SLOWEST * self.turn() * (1.0 + (angle - begin) / TAU);
-        while self.time() < latest && self.turned() > begin - TAU {
-            let left = angle - self.turned();
-            let reach = left / (self.direction() * self.outputs().crank.speed);
-            if left > 0.0 && !(0.0..=look).contains(&reach) {
-                self.advance(self.time() + look)?;
-                continue;
+        let (look, mut crank) = (self.turn() / LOOKS, self.crank());
+        let least = crank.turned - TAU;
+        let latest = self.time() + SLOWEST * self.turn() * (1.0 + (angle - crank.turned) / TAU);
+        while self.time() < latest && crank.turned > least {
+            let left = angle - crank.turned;
+            let lands = left < NEAR;
+            let ahead = if lands { left.max(0.0) } else { (left * SHARE).min(TAU / LOOKS) };
+            self.advance(self.time() + crank.time(ahead).min(look))?;
+            crank = self.crank();
+            let past = crank.turned - angle;
+            if lands && past > -NEAR {
+                ensure!(past < NEAR, "the crank jumps past an angle by {past:.1e} rad at {} s", self.time());
+                return Ok(());
             }
-            // The last step starts close below the angle, where the motion is almost uniform.
-            self.advance(self.time() + 0.99 * reach)?;
-            let left = angle - self.turned();
-            let speed = self.outputs().crank.speed.abs();
-            return if left > 0.0 { self.advance(self.time() + left / speed) } else { Ok(()) };
         }
         bail!("the crank does not turn on: at {} s it has made {:.3} turns", self.time(), self.turned() / TAU)
+    }
+
+    fn crank(&mut self) -> Crank {
+        let (direction, crank) = (self.direction(), self.outputs().crank);
+        let turned = direction * (crank.angle - self.scene.crank.angle_start);
+        Crank { turned, speed: direction * crank.speed, acceleration: direction * crank.acceleration }
     }
 
     /// The point of phase space.

@@ -4,7 +4,7 @@ use super::exponents::{Exponents, Measurement};
 use super::lyapunov::{Exponent, Probe};
 use super::orbit::{Return, ReturnMap};
 use super::poincare::PoincareMap;
-use super::section::{Impact, Visit, impacts, stroboscope};
+use super::section::{Impact, Visit, impacts, stroboscope, turn};
 use super::tangent::all_states;
 use super::verdict::{Evidence, SAME, judge};
 use super::{Flow, Machine, machine, spectrum};
@@ -58,7 +58,7 @@ pub struct Portrait {
     pub exponent: Exponent,
     /// All exponents, from the tangent, or why there are none; `None` if they were not asked for.
     pub exponents: Option<Result<Exponents>>,
-    /// [s] Time of one turn.
+    /// [s] Mean time of a turn.
     pub turn: f64,
     /// The verdict with its evidence.
     pub evidence: Evidence,
@@ -78,40 +78,47 @@ impl Plan {
         let mut machine = self.settled(file)?;
         let begin = machine.point();
         let visits = stroboscope(&mut machine, self.section, self.turns, &mut tick)?;
-        let path = path(&mut machine, PATH_TURNS, PATH_POINTS)?;
+        let turn = turn(&machine, &visits);
+        let path = path(&mut machine, turn, PATH_TURNS, PATH_POINTS)?;
         let accelerations: Vec<f64> = path.iter().map(|visit| visit.outputs.slider.a).collect();
-        let spectrum = spectrum::density(&accelerations, machine.turn() / PATH_POINTS as f64, SEGMENT);
-        let impacts = impacts(&mut machine, PATH_TURNS as f64, MOST_IMPACTS)?;
+        let spectrum = spectrum::density(&accelerations, turn / PATH_POINTS as f64, SEGMENT);
+        let impacts = impacts(&mut machine, PATH_TURNS as f64 * turn, MOST_IMPACTS)?;
         machine.place(&begin);
-        let exponent = self.exponent(file, &mut machine, &mut tick)?;
+        let exponent = self.exponent(file, &mut machine, turn, &mut tick)?;
         machine.place(&begin);
-        let exponents = (self.tangent_turns > 0).then(|| self.exponents(file, &mut machine, &mut tick));
+        let exponents = (self.tangent_turns > 0).then(|| self.exponents(file, &mut machine, turn, &mut tick));
         let vectors: Vec<Vec<f64>> = visits.iter().map(|visit| noticed(machine.scene(), &visit.outputs)).collect();
         let evidence = judge(&vectors, &exponent);
-        Ok(Portrait { visits, path, impacts, spectrum, exponent, exponents, turn: machine.turn(), evidence })
+        Ok(Portrait { visits, path, impacts, spectrum, exponent, exponents, turn, evidence })
     }
 
-    /// The exponent, measured from the machine's current state.
+    /// The exponent, measured from the machine's current state, with turns of `turn` [s].
     ///
     /// # Errors
     /// If it cannot run.
-    pub fn exponent(&self, file: &SceneFile, machine: &mut Machine, tick: impl FnMut()) -> Result<Exponent> {
+    pub fn exponent(&self, file: &SceneFile, machine: &mut Machine, turn: f64, tick: impl FnMut()) -> Result<Exponent> {
         let count = self.turns * self.per_turn;
-        let interval = machine.turn() / self.per_turn as f64;
+        let interval = turn / self.per_turn as f64;
         let settling = (SETTLING * count as f64) as usize;
         let probe = Probe { interval, count, settling, distance: DISTANCE };
         probe.measure(machine, &mut Machine::start(file)?, tick)
     }
 
-    /// All exponents, measured from the state of `machine`.
+    /// All exponents, measured from the state of `machine`, with turns of `turn` [s].
     ///
     /// # Errors
     /// If the scene has no tangent, cannot run or comes near grazing.
-    pub fn exponents(&self, file: &SceneFile, machine: &mut Machine, tick: impl FnMut()) -> Result<Exponents> {
+    pub fn exponents(
+        &self,
+        file: &SceneFile,
+        machine: &mut Machine,
+        turn: f64,
+        tick: impl FnMut(),
+    ) -> Result<Exponents> {
         let mut moving = Machine::with_tangent(file, &all_states(file)?)?;
         moving.take_over(machine);
         let count = self.tangent_turns * self.per_turn;
-        let interval = moving.turn() / self.per_turn as f64;
+        let interval = turn / self.per_turn as f64;
         let settling = (SETTLING * count as f64) as usize;
         Measurement { interval, count, settling }.run(&mut moving, tick)
     }
@@ -150,9 +157,9 @@ impl Plan {
     }
 }
 
-/// Evenly spaced points of the next turns, timed with the start speed.
-fn path(machine: &mut Machine, turns: usize, points: usize) -> Result<Vec<Visit>> {
-    let (start, step) = (machine.time(), machine.turn() / points as f64);
+/// Points at equal times of the next turns of `turn` [s].
+fn path(machine: &mut Machine, turn: f64, turns: usize, points: usize) -> Result<Vec<Visit>> {
+    let (start, step) = (machine.time(), turn / points as f64);
     let mut path = Vec::with_capacity(turns * points);
     for point in 1..=turns * points {
         machine.advance(start + step * point as f64)?;

@@ -3,6 +3,7 @@
 use super::{Flow, Machine};
 use anyhow::Result;
 use slidercrank::model::signals::Outputs;
+use slidercrank::scene::DriveMode;
 use std::f64::consts::TAU;
 
 /// A point of a section.
@@ -46,12 +47,22 @@ pub fn stroboscope(machine: &mut Machine, angle: f64, count: usize, mut tick: im
     Ok(visits)
 }
 
-/// All impacts in revolute joints during the next `turns` turns, timed with the start speed; not more than `most`.
+/// [s] Mean time of a turn between points of a section; at the prescribed speed, if there is one.
+pub fn turn(machine: &Machine, visits: &[Visit]) -> f64 {
+    match visits {
+        [first, .., last] if machine.scene().drive.mode == DriveMode::Torque => {
+            (last.time - first.time) / (visits.len() - 1) as f64
+        }
+        _ => machine.turn(),
+    }
+}
+
+/// All impacts in revolute joints during the next `span` [s]; not more than `most`.
 ///
 /// # Errors
 /// If the machine cannot go on.
-pub fn impacts(machine: &mut Machine, turns: f64, most: usize) -> Result<Vec<Impact>> {
-    let end = machine.time() + turns * machine.turn();
+pub fn impacts(machine: &mut Machine, span: f64, most: usize) -> Result<Vec<Impact>> {
+    let end = machine.time() + span;
     let contacts = |outputs: &Outputs| revolutes(outputs).map(|(_, joint)| joint.contact);
     let mut closed = contacts(&machine.outputs());
     let mut impacts = Vec::new();

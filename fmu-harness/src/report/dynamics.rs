@@ -208,7 +208,8 @@ pub fn sentence(portrait: &Portrait) -> String {
     let (evidence, exponent) = (&portrait.evidence, &portrait.exponent);
     let [value, error] = [exponent.value, exponent.error].map(|number| known(number * portrait.turn));
     format!(
-        "{}; exponent {value} ± {error} a turn; best repetition after {} turns, within {}",
+        "{}; exponent {value} ± {error} a turn; best repetition after {} turns, within {} clearances or \
+         hundredths of the speed",
         evidence.verdict,
         evidence.repeats_after,
         significant(evidence.misses_by)
@@ -223,6 +224,7 @@ pub fn table(portrait: &Portrait) -> Table {
     table.row(["verdict", &evidence.verdict.to_string()]);
     table.row(["largest Lyapunov exponent [1/s]", &three_digits(exponent.value)]);
     table.row(["its standard error [1/s]", &known(exponent.error)]);
+    table.row(["mean time of a turn [s]", &significant(portrait.turn)]);
     table.row(["the exponent in one turn", &three_digits(exponent.value * portrait.turn)]);
     table.row(["turns looked at", &portrait.visits.len().to_string()]);
     table.row(["best repetition after turns", &evidence.repeats_after.to_string()]);

@@ -7,8 +7,8 @@ use fmu_harness::dynamics::verdict::Verdict;
 use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
 use fmu_harness::sensitivity::Experiment;
-use slidercrank::scene::FrictionLaw;
 use slidercrank::scene::read::{SceneFile, read};
+use slidercrank::scene::{FrictionLaw, JointModel};
 use std::f64::consts::TAU;
 
 const PLAN: Plan = Plan { transient: 30, turns: 60, section: 0.0, per_turn: 25, tangent_turns: 0 };
@@ -132,6 +132,21 @@ fn a_crank_that_still_speeds_up_is_not_periodic_and_one_that_no_longer_does_is()
         let portrait = Plan { transient, ..plan }.portrait(&file, || {}).expect("a portrait");
         assert_eq!(portrait.evidence.verdict, verdict, "after {transient} turns: {:?}", portrait.evidence);
     }
+}
+
+#[test]
+fn a_crank_that_runs_far_faster_than_at_its_start_is_met_at_each_angle_and_its_turns_have_their_own_time() {
+    let mut file = read(TURNED_BACK, "driven").expect("a scene");
+    (file.scene.crank.speed_start, file.scene.joint.c.model) = (-0.1, JointModel::Clearance);
+    let mut machine = Machine::start(&file).expect("a machine");
+    for turn in [0.1, 0.2, 1.0, 1.5, 10.0] {
+        machine.advance_turned(TAU * turn).expect("it turns on");
+        assert!((machine.turned() - TAU * turn).abs() < 1e-8, "{} of {turn} turns", machine.turned() / TAU);
+    }
+    let plan = Plan { transient: 20, turns: 6, per_turn: 2, ..PLAN };
+    let portrait = plan.portrait(&file, || {}).expect("a portrait");
+    let last = portrait.visits[5].time - portrait.visits[0].time;
+    assert!((portrait.turn / (last / 5.0) - 1.0).abs() < 1e-12 && portrait.turn < 0.1, "{} s", portrait.turn);
 }
 
 /// Between neighbours that differ in LuGre's bristles alone: δż = −σ0·|v|/g(v)·δz, and far above the Stribeck speed g is
