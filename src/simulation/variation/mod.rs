@@ -215,18 +215,17 @@ impl Variation {
         self.set_inputs(inputs, rates);
         self.phase();
         let own = shares(&self.seeds, &self.neighbours);
-        let columns: Vec<[Inputs; 2]> = (0..self.seeds.len()).map(slopes).collect();
         // Lines that go on to the bit have begun at an earlier communication point.
         let passed = self.time - self.run.parts().2.state().front().discrete.inputs.at;
-        let gets: [&dyn Fn(&[Inputs; 2]) -> f64; 4] = [
-            &|[inputs, rates]| inputs.crank_torque - passed * rates.crank_torque,
-            &|[inputs, rates]| inputs.slider_load - passed * rates.slider_load,
-            &|[_, rates]| rates.crank_torque,
-            &|[_, rates]| rates.slider_load,
-        ];
-        for (row, get) in (own.nrows() - gets.len()..).zip(gets) {
+        let of_seed = |seed: usize| {
+            let [inputs, rates] = slopes(seed);
+            let (torque, load) = (rates.crank_torque, rates.slider_load);
+            [inputs.crank_torque - passed * torque, inputs.slider_load - passed * load, torque, load]
+        };
+        let columns: Vec<[f64; 4]> = (0..self.seeds.len()).map(of_seed).collect();
+        for (place, row) in (own.nrows() - 4..own.nrows()).enumerate() {
             let own = own.row(row);
-            self.tangents.set_shares(row, columns.iter().zip(own.iter()).map(|(slopes, own)| own + get(slopes)));
+            self.tangents.set_shares(row, columns.iter().zip(own.iter()).map(|(added, own)| own + added[place]));
         }
     }
 
