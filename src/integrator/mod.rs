@@ -204,8 +204,10 @@ impl<D: Copy> Integrator<D> {
             event_location::settle(&mut self.stepper, system)?;
             self.step(system)?;
             watch(self);
-            let events = self.stepper.events.iter().zip(system.highest_events()).take(system.event_count());
-            if let Some(event) = events.map(|(event, highest)| event.value > *highest).position(|beyond| beyond) {
+            // A step that nothing has judged may have led anywhere.
+            if !self.stepper.properties.adaptive
+                && let Some(event) = self.highest_exceeded(system)
+            {
                 return Err(IntegrationError::OutOfRange { time: self.state().front().t, event });
             }
             stalled_steps = if self.state().front().t > front { 0 } else { stalled_steps + 1 };
@@ -215,6 +217,12 @@ impl<D: Copy> Integrator<D> {
             }
         }
         Ok(())
+    }
+
+    /// The event function that is higher at the front than the equations hold.
+    fn highest_exceeded(&self, system: &dyn System<Discrete = D>) -> Option<usize> {
+        let highest = system.highest_events();
+        (0..system.event_count()).find(|&event| self.stepper.events[event].value > highest[event])
     }
 
     /// Makes one accepted step, up to the first event in it.

@@ -185,7 +185,7 @@ pub trait Events: Ode {
         false
     }
 
-    /// Values of the event functions above which the equations do not hold: a motion ends there.
+    /// Values of the event functions above which the equations do not hold. A motion in steps of a fixed length ends there.
     fn highest_events(&self) -> &[f64; MAX_EVENTS] {
         &[f64::INFINITY; MAX_EVENTS]
     }

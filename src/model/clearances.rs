@@ -52,14 +52,14 @@ fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
     laws
 }
 
-/// [m] Penetrations of journals at which their centres reach the bearings' surface, in the order of the event functions. No
-/// contact law holds there. The event function of an open contact is its gap, which is at most the clearance.
+/// [m] Penetrations at which journals have left their bearings, in the order of the event functions: the centres are as far
+/// apart as both radii together. No contact law holds there. The event function of an open contact is its gap, which is at most the clearance.
 pub fn deepest_journals(scene: &Scene) -> [f64; MAX_EVENTS] {
     let joint = &scene.joint;
     let with_play = [&joint.a, &joint.b, &joint.c].into_iter().filter(|joint| joint.model == JointModel::Clearance);
     let mut deepest = [f64::INFINITY; MAX_EVENTS];
     for (place, joint) in deepest.iter_mut().zip(with_play) {
-        *place = (joint.radius - joint.clearance).max(joint.clearance);
+        *place = (2.0 * (joint.radius - joint.clearance)).max(joint.clearance);
     }
     deepest
 }

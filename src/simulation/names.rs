@@ -41,7 +41,7 @@ impl Names {
             }
             IntegrationError::OutOfRange { event, .. } => {
                 format!(
-                    "{} is so deep in penetration that the journal's centre lies outside its bearing",
+                    "{} is so deep in penetration that the journal lies outside its bearing; solver.step is too long",
                     subject_of(event)
                 )
             }

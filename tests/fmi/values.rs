@@ -150,7 +150,7 @@ fn integers_and_booleans_are_fixed_parameters_of_their_own_types() {
     let slave = Slave::new();
     assert_eq!(slave.set_integer("rod.flexible.bending_modes", 9), Status::Error);
     let text = slave.log.only().text;
-    assert!(text.ends_with("rod.flexible.bending_modes = 9 is out of range; allowed: 0 to 8"), "{text}");
+    assert!(text.ends_with("rod.flexible.bending_modes = 9 is out of range; allowed: an integer, 0 to 8"), "{text}");
     assert_eq!(slave.set("rod.flexible.axial_modes", 1.0), Status::Error);
     assert!(slave.log.only().text.contains("rod.flexible.axial_modes is of type Integer, not Real"));
     assert_eq!(slave.set_integer("energy.audit", 1), Status::Error);
