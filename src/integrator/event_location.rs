@@ -171,11 +171,11 @@ fn has_fallen(function: &EventFunction) -> bool {
 }
 
 /// The search for the first fall of one event function in a step.
-struct Search<'a> {
+pub struct Search<'a> {
     /// [s] Length of the step.
-    h: f64,
+    pub h: f64,
     /// The event function at a share of the step.
-    inside: &'a dyn Fn(f64) -> EventFunction,
+    pub inside: &'a dyn Fn(f64) -> EventFunction,
 }
 
 /// One event function at a share of a step.
@@ -198,7 +198,7 @@ impl Search<'_> {
 
     /// The share at which the function first falls below zero, from its values at both ends. With `looks` it is evaluated between
     /// them whatever they say.
-    fn fall(&self, [before, after]: [EventFunction; 2], looks: bool) -> Option<f64> {
+    pub fn fall(&self, [before, after]: [EventFunction; 2], looks: bool) -> Option<f64> {
         let (start, end) = (self.point(0.0, before), self.point(1.0, after));
         if looks { self.in_halves(start, end, MAX_HALVINGS) } else { self.between(start, end, true, MAX_HALVINGS) }
     }
@@ -219,7 +219,7 @@ impl Search<'_> {
         }
         if to.value < 0.0 {
             if from.value > 0.0 {
-                return Some(root::falling(from.share, to.share, from.value, to.value, RESOLUTION, |s| self.value(s)));
+                return Some(self.zero([from.share, to.share], [from.value, to.value]));
             }
             // The function starts at zero, or slightly below because it was crossed together with another event.
             if from.rate <= 0.0 {
@@ -230,11 +230,7 @@ impl Search<'_> {
             }
             let top = self.turn(from, to, 1.0);
             let highest = self.value(top);
-            return if highest > 0.0 {
-                Some(root::falling(top, to.share, highest, to.value, RESOLUTION, |s| self.value(s)))
-            } else {
-                Some(top)
-            };
+            return if highest > 0.0 { Some(self.zero([top, to.share], [highest, to.value])) } else { Some(top) };
         }
         let dips = from.rate < 0.0 && to.rate > 0.0;
         // No cubic with these end values and rates falls further than `depth` below its ends.
@@ -244,7 +240,12 @@ impl Search<'_> {
         }
         let bottom = self.turn(from, to, -1.0);
         let lowest = self.value(bottom);
-        (lowest < 0.0).then(|| root::falling(from.share, bottom, from.value, lowest, RESOLUTION, |s| self.value(s)))
+        (lowest < 0.0).then(|| self.zero([from.share, bottom], [from.value, lowest]))
+    }
+
+    /// Where the function falls through zero between two shares with these values.
+    fn zero(&self, [from, to]: [f64; 2], [above, below]: [f64; 2]) -> f64 {
+        root::falling(from, to, above, below, RESOLUTION, |share| self.value(share))
     }
 
     /// Where the rate times `sign` falls through zero.

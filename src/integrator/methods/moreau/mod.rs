@@ -41,6 +41,7 @@ mod closed_contacts;
 mod midpoint;
 
 use crate::integrator::error::IntegrationError;
+use crate::integrator::event_location::Search;
 use crate::integrator::state::{SolverState, StepPoint};
 use crate::integrator::step_control::Settings;
 use crate::integrator::system::{EventFunctions, System};
@@ -146,8 +147,9 @@ impl<D: Copy> Moreau<D> {
             if end <= time {
                 return Err(IntegrationError::StepUnderflow { time, step, component: 0 });
             }
-            let made = attempt(system, self.open, self.state.front(), end - time)?;
-            if let Some(event) = dead_end(system, &self.open, end, &made.y[..self.inside.len()]) {
+            let made = attempt(system, self.open, self.state.front(), end - time)
+                .map_err(|error| self.dead_end_ahead(system, end - time).unwrap_or(error))?;
+            if let Some(event) = self.dead_end(system, end, &made.y[..self.inside.len()]) {
                 return Err(IntegrationError::DeadEnd { time, event });
             }
             self.state.begin_step();
@@ -163,17 +165,39 @@ impl<D: Copy> Moreau<D> {
         if t >= front.t {
             return (&front.y, front.discrete);
         }
-        let (span, passed) = (end.t - start.t, t - start.t);
-        let share = passed / span;
-        let y = &mut self.inside;
-        y.copy_from_slice(&end.y);
-        let p = system.layout().positions;
-        for i in 0..p {
-            let (q, u) = (start.y[i], start.y[p + i]);
-            y[i] = q + passed * u + share * share * (end.y[i] - q - span * u);
-            y[p + i] = u + share * (end.y[p + i] - u);
+        interpolate([start.t, end.t], [&start.y, &end.y], system.layout().positions, t, &mut self.inside);
+        (&self.inside, end.discrete)
+    }
+
+    /// The dead end at the front that the motion reaches within `h` [s] if it goes on as there. Behind it there is no motion.
+    fn dead_end_ahead(&self, system: &dyn Unilateral<Discrete = D>, h: f64) -> Option<IntegrationError> {
+        let (front, mut events) = (self.state.front(), EventFunctions::default());
+        system.event_functions(&self.open, front.t, &front.y, &mut events);
+        let is_ahead =
+            |event: &usize| system.is_dead_end(*event) && events[*event].value + h * events[*event].rate < 0.0;
+        let event = (0..system.event_count()).find(is_ahead)?;
+        Some(IntegrationError::DeadEnd { time: front.t, event })
+    }
+
+    /// The dead end that the motion passes on its way from the front to the state `y` at `end`.
+    fn dead_end(&self, system: &dyn Unilateral<Discrete = D>, end: f64, y: &[f64]) -> Option<usize> {
+        if system.event_count() == 0 || !system.is_dead_end(0) {
+            return None;
         }
-        (y, end.discrete)
+        let (start, positions) = (self.state.front(), system.layout().positions);
+        let h = end - start.t;
+        let functions = |share: f64| {
+            let (mut inside, mut events) = (padded(y), EventFunctions::default());
+            let t = start.t + share * h;
+            interpolate([start.t, end], [&start.y, y], positions, t, &mut inside[..y.len()]);
+            system.event_functions(&self.open, t, &inside[..y.len()], &mut events);
+            events
+        };
+        let (before, after) = (functions(0.0), functions(1.0));
+        (0..system.event_count()).filter(|&event| system.is_dead_end(event)).find(|&event| {
+            let search = Search { h, inside: &|share| functions(share)[event] };
+            after[event].value < 0.0 || search.fall([before[event], after[event]], false).is_some()
+        })
     }
 
     /// Shortens the last step so that it ends at `t`: by a new step, or by interpolation if that step fails. The
@@ -214,12 +238,15 @@ impl<D: Copy> Moreau<D> {
     }
 }
 
-/// The dead end that the state `y` at `t` has passed. Like impacts, dead ends are not located.
-fn dead_end<D: Copy>(system: &dyn Unilateral<Discrete = D>, open: &D, t: f64, y: &[f64]) -> Option<usize> {
-    let mut events = EventFunctions::default();
-    if system.event_count() == 0 || !system.is_dead_end(0) {
-        return None;
+/// Writes the state at `t` between the states at both ends of a step: positions as parabolas that begin at the rates there, rates
+/// as straight lines, the rest as it is at the end.
+fn interpolate([start, end]: [f64; 2], [from, to]: [&[f64]; 2], positions: usize, t: f64, y: &mut [f64]) {
+    let (span, passed) = (end - start, t - start);
+    let share = passed / span;
+    y.copy_from_slice(to);
+    for i in 0..positions {
+        let (q, u) = (from[i], from[positions + i]);
+        y[i] = q + passed * u + share * share * (to[i] - q - span * u);
+        y[positions + i] = u + share * (to[positions + i] - u);
     }
-    system.event_functions(open, t, y, &mut events);
-    (0..system.event_count()).find(|&i| system.is_dead_end(i) && events[i].value < 0.0)
 }
