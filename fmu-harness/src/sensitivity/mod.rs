@@ -516,7 +516,8 @@ fn plateau(quotients: &[Quotient]) -> f64 {
     }
     let error = |pair: &[Quotient]| {
         let larger = pair[0].slope.abs().max(pair[1].slope.abs());
-        ((pair[0].slope - pair[1].slope).abs() + pair[1].noise) / larger
+        // Where nothing changes, quotients of 0 agree.
+        if larger == 0.0 { 0.0 } else { ((pair[0].slope - pair[1].slope).abs() + pair[1].noise) / larger }
     };
     let pairs = quotients.windows(2).rev().zip(0..).map(|(pair, decades)| (pair, error(pair), BETTER.powi(decades)));
     let agreeing = pairs.filter(|(_, error, _)| *error <= AGREEING);
