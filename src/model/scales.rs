@@ -19,7 +19,7 @@ const CLEARANCE: f64 = 0.5e-3;
 const ANGLE: f64 = 0.01;
 /// [rad/s] Smallest crank speed that enters the scales.
 const MIN_CRANK_SPEED: f64 = 1.0;
-/// [rad] Maximum rotation of a crank within a step at its start speed, so that no contact is missed.
+/// [rad] Maximum rotation of a crank within a step at its start speed, so that few looks within a step find every contact.
 const MAX_ROTATION: f64 = 0.1;
 /// [rad] Maximum rotation without clearance, where the only event is the change point of a short rod. In an hour of
 /// free running the energy then drifts by a millionth at the default tolerance.
