@@ -1,7 +1,7 @@
 //! What code for a constant structure saves over the code for every structure, at states along a run:
 //! `cargo bench --bench compiled`. Nanoseconds per stage of a step by `verner7`, and per state of the rates of eight.
 
-use fmu_harness::effects::{fastest, inputs_at_start};
+use fmu_harness::effects::fastest;
 use fmu_harness::scenes::{Scenario, directory, ladder, names};
 use slidercrank::integrator::method::Attempt;
 use slidercrank::integrator::methods::VERNER7;
@@ -10,6 +10,7 @@ use slidercrank::integrator::{Method, Ode, SeveralInstants, StepPoint};
 use slidercrank::math::{F64x8, ROW, Real};
 use slidercrank::model::Model;
 use slidercrank::model::mechanism_model::MechanismModel;
+use slidercrank::model::signals::Inputs;
 use slidercrank::model::state::Conditions;
 use slidercrank::simulation::Simulation;
 use std::hint::black_box;
@@ -30,7 +31,7 @@ fn main() -> anyhow::Result<()> {
     for name in [names(&directory()), ladder()].concat() {
         let mut file = Scenario::find(&name)?.file;
         file.scene.energy.audit = false;
-        let mut simulation = Simulation::start(&file.scene, inputs_at_start(&file))?;
+        let mut simulation = Simulation::start(&file.scene, Inputs::at_start(&file))?;
         let models = [Model::assemble(&file.scene), Model::assemble(&file.scene).general()];
         let span = file.run.stop(&file.scene).min(SPAN);
         let (mut stage, mut eight) = ([0.0; 2], [0.0; 2]);

@@ -1,8 +1,9 @@
 //! Nanoseconds per Jacobian, and per evaluation of the right-hand side, at states along a run:
 //! `cargo bench --bench jacobian`.
 
-use fmu_harness::effects::{fastest, inputs_at_start};
+use fmu_harness::effects::fastest;
 use fmu_harness::scenes::{Scenario, directory, ladder, names};
+use slidercrank::model::signals::Inputs;
 use slidercrank::simulation::{Simulation, Size};
 
 /// [s] Longest run.
@@ -17,7 +18,7 @@ fn main() -> anyhow::Result<()> {
     println!("scene                  states  ns per evaluation  ns per Jacobian  ratio");
     for name in [names(&directory()), ladder()].concat() {
         let file = Scenario::find(&name)?.file;
-        let mut simulation = Simulation::start(&file.scene, inputs_at_start(&file))?;
+        let mut simulation = Simulation::start(&file.scene, Inputs::at_start(&file))?;
         let Size { states, .. } = simulation.size();
         let span = file.run.stop(&file.scene).min(SPAN);
         let (mut evaluation, mut jacobian) = (0.0, 0.0);

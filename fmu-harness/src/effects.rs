@@ -9,7 +9,6 @@ use crate::run::{Ending, Experiment, March, Repeats, Until};
 use anyhow::{Context, Result, ensure};
 use cpu_time::ThreadTime;
 use slidercrank::model::signals::Inputs;
-use slidercrank::scene::profile::Profiles;
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::variation::{Seed, Variation};
 use slidercrank::simulation::{Simulation, Size};
@@ -66,7 +65,7 @@ impl Price {
             Ok(column.last().context("the run has no rows")? / span)
         };
         let (evaluations, steps, events) = (count("evaluations")?, count("steps")?, count("events")?);
-        let simulation = Simulation::start(&file.scene, inputs_at_start(file))?;
+        let simulation = Simulation::start(&file.scene, Inputs::at_start(file))?;
         let size = simulation.size();
         let evaluation = evaluation(simulation, span)?;
         let time = spent.as_secs_f64() / span;
@@ -92,7 +91,7 @@ impl TangentPrice {
     /// # Errors
     /// If the scene cannot run.
     pub fn of(file: &SceneFile, span: f64, runs: usize) -> Result<Vec<Self>> {
-        let inputs = inputs_at_start(file);
+        let inputs = Inputs::at_start(file);
         let states = Simulation::start(&file.scene, inputs)?.phase_scales().states.len();
         let mut plain = || -> Result<()> { Ok(Simulation::start(&file.scene, inputs)?.advance_to(span)?) };
         let alone = least(runs, &mut plain)?;
@@ -135,12 +134,4 @@ pub fn fastest(runs: usize, mut work: impl FnMut()) -> f64 {
         start.elapsed().as_secs_f64()
     };
     (0..runs).map(measure).fold(f64::INFINITY, f64::min)
-}
-
-/// The scene's inputs at its start.
-pub fn inputs_at_start(file: &SceneFile) -> Inputs {
-    let Profiles { crank_torque, slider_load } = &file.inputs;
-    let [crank_torque, slider_load] =
-        [crank_torque, slider_load].map(|profile| profile.value(0.0, file.scene.crank.angle_start));
-    Inputs { crank_torque, slider_load }
 }

@@ -36,8 +36,8 @@ pub struct Clearances {
     pub(super) laws: [ContactLaw; CONTACTS],
 }
 
-/// Restitution, friction coefficient and clearance of every contact of a scene; of a friction law, the (kinetic) coefficient is
-/// taken.
+/// Restitution, friction coefficient and clearance of every contact of a scene; of a friction law, the (kinetic) coefficient
+/// is taken.
 fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
     let law = |contact: &Contact, clearance: f64| ContactLaw {
         restitution: contact.restitution,
@@ -53,7 +53,8 @@ fn laws(scene: &Scene) -> [ContactLaw; CONTACTS] {
 }
 
 /// [m] Penetrations at which journals have left their bearings, in the order of the event functions: the centres are as far
-/// apart as both radii together. No contact law holds there. The event function of an open contact is its gap, which is at most the clearance.
+/// apart as both radii together. No contact law holds there. The event function of an open contact is its gap, which is at
+/// most the clearance.
 pub fn deepest_journals(scene: &Scene) -> [f64; MAX_EVENTS] {
     let joint = &scene.joint;
     let with_play = [&joint.a, &joint.b, &joint.c].into_iter().filter(|joint| joint.model == JointModel::Clearance);

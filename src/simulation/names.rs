@@ -3,32 +3,29 @@
 use super::contacts::{subject, subject_of_event};
 use super::error::SimulationError;
 use crate::integrator::IntegrationError;
-use crate::model::coordinates::{event_count, state_variables};
+use crate::model::coordinates::state_variables;
 use crate::scene::Scene;
 
 /// Message for the only dead end of a mechanism's equations of motion.
 const DEAD_END: &str =
     "the rod stands across the guide, where the slider may continue to either side of the change point";
 
-/// What the integrator's numbers of states and events stand for.
+/// What the integrator's numbers of states and events stand for. Only an error asks for it.
 pub struct Names {
-    states: Vec<String>,
-    events: Vec<String>,
+    scene: Box<Scene>,
 }
 
 impl Names {
     /// Those of a scene.
     pub fn of(scene: &Scene) -> Self {
-        Self {
-            states: state_variables(scene).into_iter().map(|state| state.name).collect(),
-            events: (0..event_count(scene)).map(|event| subject_of_event(scene, event)).collect(),
-        }
+        Self { scene: Box::new(scene.clone()) }
     }
 
     /// The simulation's error for one of the integrator.
     pub fn explain(&self, error: IntegrationError) -> SimulationError {
-        let state = |place: usize| self.states.get(place).map_or("a state", String::as_str);
-        let subject_of = |event: usize| self.events.get(event).map_or("a contact", String::as_str);
+        let name = |place: usize| state_variables(&self.scene).into_iter().nth(place).map(|state| state.name);
+        let state = |place: usize| name(place).unwrap_or_else(|| "a state".into());
+        let subject_of = |event: usize| subject_of_event(&self.scene, event);
         let cause = match error {
             IntegrationError::StepUnderflow { step, component, .. } => {
                 format!("a step of {step:.1e} s no longer moves time; the error of {} is the largest", state(component))

@@ -7,7 +7,6 @@
 
 use slidercrank::model::signals::Inputs;
 use slidercrank::scene::parameter::Parameter;
-use slidercrank::scene::profile::Profiles;
 use slidercrank::scene::read::read;
 use slidercrank::simulation::System;
 use std::ffi::{CStr, c_char};
@@ -34,10 +33,7 @@ pub unsafe extern "C" fn equations_open(file: *const c_char) -> *mut System {
 fn open(file: &str) -> Result<System, String> {
     let text = fs::read_to_string(file).map_err(|error| error.to_string())?;
     let scene = read(&text, file).map_err(|error| error.to_string())?;
-    let Profiles { crank_torque, slider_load } = &scene.inputs;
-    let [crank_torque, slider_load] =
-        [crank_torque, slider_load].map(|profile| profile.value(0.0, scene.scene.crank.angle_start));
-    System::start(&scene.scene, Inputs { crank_torque, slider_load }).map_err(|error| error.to_string())
+    System::start(&scene.scene, Inputs::at_start(&scene)).map_err(|error| error.to_string())
 }
 
 /// Closes what `equations_open` returned.

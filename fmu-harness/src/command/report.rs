@@ -3,7 +3,7 @@
 use super::{out_directory, package, run as runs, say, shown};
 use crate::accuracy::{self, comparisons};
 use crate::dynamics::portrait;
-use crate::effects::{Price, inputs_at_start};
+use crate::effects::Price;
 use crate::host::Fmu;
 use crate::precision::diagram::{Budget, Diagram};
 use crate::precision::reference::Reference;
@@ -17,6 +17,7 @@ use crate::scenes::Scenario;
 use anyhow::{Context, Result};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use slidercrank::model::signals::Inputs;
 use slidercrank::scene::read::SceneFile;
 use slidercrank::simulation::Simulation;
 use std::fs;
@@ -108,7 +109,7 @@ fn begin(bar: &ProgressBar, what: &'static str, ticks: usize) {
 }
 
 fn called_for(file: &SceneFile) -> Result<Section> {
-    let size = Simulation::start(&file.scene, inputs_at_start(file))?.size();
+    let size = Simulation::start(&file.scene, Inputs::at_start(file))?.size();
     Ok(Section::new("What the scene calls for").saying(calls::sentence(&size)).telling(calls::table(file)))
 }
 

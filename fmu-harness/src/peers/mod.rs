@@ -12,12 +12,12 @@ mod tools;
 
 pub use ruler::Ruler;
 
-use crate::effects::inputs_at_start;
 use crate::precision;
 use crate::scenes::{Scenario, contests};
 use anyhow::Result;
 use child::Answer;
 use programs::Program;
+use slidercrank::model::signals::Inputs;
 use slidercrank::scene::parameter::PARAMETERS;
 use slidercrank::simulation::System;
 use std::fs;
@@ -100,7 +100,7 @@ impl Task {
     /// The input of a Python program, as JSON.
     fn job(&self, system: &System, tolerances: &[f64], library: &str) -> String {
         let scene = &self.scenario.file.scene;
-        let inputs = inputs_at_start(&self.scenario.file);
+        let inputs = Inputs::at_start(&self.scenario.file);
         let states = system.size().states;
         let (mut start, mut scales) = (vec![0.0; states], vec![0.0; states]);
         system.write_start(&mut start);
@@ -148,7 +148,7 @@ pub fn contest(mut task: Task, budget: Duration, progress: impl Fn(&str)) -> Res
     let ruler = Ruler::new(&mut task)?;
     let task = &task;
     let mut series = ours::series(task, &ruler, &progress)?;
-    let system = System::start(&task.scenario.file.scene, inputs_at_start(&task.scenario.file))?;
+    let system = System::start(&task.scenario.file.scene, Inputs::at_start(&task.scenario.file))?;
     let tools = Tools::new(&progress);
     let programs = programs::of(&task.scenario.file.scene);
     let rigid = if programs.iter().any(|program| program.rigid) {

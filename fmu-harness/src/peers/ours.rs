@@ -2,13 +2,13 @@
 
 use super::ruler::choose;
 use super::{Point, Ruler, Series, Task};
-use crate::effects::inputs_at_start;
 use crate::host::{Fmu, Setting};
 use crate::inputs::Input;
 use crate::package::Stock;
 use crate::run::{Ending, Experiment, Look, March, Until, march};
 use anyhow::{Result, ensure};
 use cpu_time::ThreadTime;
+use slidercrank::model::signals::Inputs;
 use slidercrank::scene::Method;
 use slidercrank::simulation::Simulation;
 use std::time::Duration;
@@ -64,7 +64,7 @@ fn point(task: &Task, ruler: &Ruler, method: Method, tolerance: f64) -> Result<P
     choose(&mut scene, method, tolerance);
     let mut evaluations = 0.0;
     let seconds = fastest(|| {
-        let mut simulation = Simulation::start(&scene, inputs_at_start(&task.scenario.file))?;
+        let mut simulation = Simulation::start(&scene, Inputs::at_start(&task.scenario.file))?;
         let start = ThreadTime::now();
         simulation.advance_to(task.span)?;
         let spent = start.elapsed();
@@ -85,7 +85,7 @@ fn through_fmu(task: &Task, core: &Series, stock: &Stock, name: &str) -> Result<
     for point in &core.points {
         let experiment = Experiment {
             settings: vec![Setting { name: "solver.method".into(), value: core.method.clone() }],
-            inputs: Input::constant(inputs_at_start(&task.scenario.file)),
+            inputs: Input::constant(Inputs::at_start(&task.scenario.file)),
             start: 0.0,
             until: Until::Time(task.span),
             step: STEP,

@@ -7,10 +7,9 @@
 
 use super::Task;
 use super::child::Found;
-use crate::effects::inputs_at_start;
 use crate::precision::reference::AGREEMENT;
 use anyhow::{Result, ensure};
-use slidercrank::model::signals::Outputs;
+use slidercrank::model::signals::{Inputs, Outputs};
 use slidercrank::scene::{JointModel, Method, Scene};
 use slidercrank::simulation::{Simulation, System};
 
@@ -86,7 +85,7 @@ impl Ruler {
     fn start(&self, task: &Task, method: Method, tolerance: f64) -> Result<Simulation> {
         let mut scene = self.scene.clone();
         choose(&mut scene, method, tolerance);
-        Ok(Simulation::start(&scene, inputs_at_start(&task.scenario.file))?)
+        Ok(Simulation::start(&scene, Inputs::at_start(&task.scenario.file))?)
     }
 
     fn at(&self, simulation: &mut Simulation, time: f64) -> Result<Vec<f64>> {

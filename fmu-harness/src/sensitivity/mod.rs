@@ -129,7 +129,7 @@ impl Wanted {
     fn value(&self, values: &[f64]) -> f64 {
         match self.at {
             Some(_) => self.reduce.of(values),
-            None => self.reduce.over_equal_times(values),
+            None => self.reduce.over(values, &vec![1.0; values.len()]),
         }
     }
 

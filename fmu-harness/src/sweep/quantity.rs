@@ -121,11 +121,6 @@ impl Reduction {
         }
     }
 
-    /// Reduces values that stand for equal times.
-    pub fn over_equal_times(self, values: &[f64]) -> f64 {
-        self.over(values, &vec![1.0; values.len()])
-    }
-
     /// Reduces a list. The result of an empty list is NaN.
     pub fn of(self, values: &[f64]) -> f64 {
         let count = values.len() as f64;

@@ -1,5 +1,6 @@
 //! The crank drive itself: what is known of it, and that a failing value stops no other.
 
+use super::light_crank;
 use fmu_harness::dynamics::bifurcation::{From, Range};
 use fmu_harness::dynamics::portrait::Plan;
 use fmu_harness::dynamics::section::stroboscope;
@@ -7,9 +8,10 @@ use fmu_harness::dynamics::verdict::Verdict;
 use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
 use fmu_harness::sensitivity::Experiment;
+use slidercrank::scene::profile::Profile;
 use slidercrank::scene::read::{SceneFile, read};
 use slidercrank::scene::{FrictionLaw, JointModel};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 const PLAN: Plan = Plan { transient: 30, turns: 60, section: 0.0, per_turn: 25, tangent_turns: 0 };
 
@@ -92,21 +94,16 @@ fn a_machine_that_was_placed_has_the_inputs_of_that_place() {
 }
 
 /// A torque turns a free crank against its start speed.
-const TURNED_BACK: &str = r#"
-[drive]
-mode = "torque"
-[crank]
-angle_start = "90 deg"
-speed_start = "20 rad/s"
-torque = "-20 N.m"
-inertia = 0.0005
-[joint.A]
-damping = 0.2
-"#;
+fn turned_back() -> SceneFile {
+    let mut file = light_crank();
+    (file.scene.crank.angle_start, file.scene.crank.speed_start) = (FRAC_PI_2, 20.0);
+    file.inputs.crank_torque = Profile::Constant(-20.0);
+    file
+}
 
 #[test]
 fn a_crank_that_is_turned_back_does_not_turn_on() {
-    let mut file = read(TURNED_BACK, "turned back").expect("a scene");
+    let mut file = turned_back();
     let mut machine = Machine::start(&file).expect("a machine");
     let error = machine.advance_turned(TAU).expect_err("it turns back");
     assert!(error.to_string().contains("does not turn on"), "{error}");
@@ -137,7 +134,7 @@ fn a_crank_that_still_speeds_up_is_not_periodic_and_one_that_no_longer_does_is()
 
 #[test]
 fn a_crank_that_runs_far_faster_than_at_its_start_is_met_at_each_angle_and_its_turns_have_their_own_time() {
-    let mut file = read(TURNED_BACK, "driven").expect("a scene");
+    let mut file = turned_back();
     (file.scene.crank.speed_start, file.scene.joint.c.model) = (-0.1, JointModel::Clearance);
     let mut machine = Machine::start(&file).expect("a machine");
     for turn in [0.1, 0.2, 1.0, 1.5, 10.0] {

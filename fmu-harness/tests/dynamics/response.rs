@@ -1,6 +1,7 @@
 //! The frequency response of a slender rod that bends at twice the speed of its crank: it folds over, since bending
 //! draws the slider in.
 
+use super::light_crank;
 use fmu_harness::dynamics::bifurcation::{Branch as Simulated, Range};
 use fmu_harness::dynamics::continuation::{Bifurcation, Continuation};
 use fmu_harness::dynamics::orbit::{Orbit, ReturnMap};
@@ -11,7 +12,7 @@ use fmu_harness::dynamics::{Flow, Machine};
 use fmu_harness::scenes::Scenario;
 use slidercrank::scene::JointModel;
 use slidercrank::scene::parameter::Parameter;
-use slidercrank::scene::read::{SceneFile, read};
+use slidercrank::scene::read::SceneFile;
 use std::f64::consts::TAU;
 
 const SPEED: &str = "crank.speed_start";
@@ -83,21 +84,9 @@ fn the_largest_force_of_blows_between_samples_counts() {
     assert!((found / largest - 1.0).abs() < 5e-3, "{found} N, {largest} N");
 }
 
-/// A light crank under a constant torque, whose speed varies widely over a turn.
-const UNEVEN: &str = r#"
-[drive]
-mode = "torque"
-[crank]
-speed_start = "30 rad/s"
-torque = "20 N.m"
-inertia = 0.0005
-[joint.A]
-damping = 0.2
-"#;
-
 #[test]
 fn means_of_a_response_are_those_over_time() {
-    let file = read(UNEVEN, "uneven").expect("a scene");
+    let file = light_crank();
     let [mut machine, mut timed] = [0, 1].map(|_| {
         let mut machine = Machine::start(&file).expect("a machine");
         machine.advance_turned(20.0 * TAU).expect("a motion");

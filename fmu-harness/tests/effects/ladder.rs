@@ -1,11 +1,12 @@
 //! Every scene of the ladder is the one before with its effect.
 
 use crate::program::stock;
-use fmu_harness::effects::{Price, inputs_at_start};
+use fmu_harness::effects::Price;
 use fmu_harness::host::{Fmu, LogLine};
 use fmu_harness::inputs;
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::{Scenario, ladder};
+use slidercrank::model::signals::Inputs;
 use slidercrank::scene::Scene;
 use slidercrank::scene::parameter::PARAMETERS;
 use slidercrank::scene::read::SceneFile;
@@ -97,7 +98,7 @@ fn an_effect_adds_its_own_states_and_events_and_nothing_else() {
     for (name, added) in RUNGS {
         sum = std::array::from_fn(|i| sum[i] + added[i]);
         let file = file(&format!("effects/{name}"));
-        let simulation = Simulation::start(&file.scene, inputs_at_start(&file)).expect("a closed loop");
+        let simulation = Simulation::start(&file.scene, Inputs::at_start(&file)).expect("a closed loop");
         let [degrees_of_freedom, states, event_functions] = sum;
         assert_eq!(simulation.size(), Size { degrees_of_freedom, states, event_functions }, "{name}");
     }

@@ -155,8 +155,8 @@ impl ClosedContacts {
         closed.find(|(contact, clearance)| gaps[**contact] < -**clearance).map(|(contact, _)| *contact)
     }
 
-    /// Corrects part of the excess penetration of lasting contacts at the end of the step, `y`, with its `gaps` [m]. A jam, in which no
-    /// correction exists, is left as it is.
+    /// Corrects part of the excess penetration of lasting contacts at the end of the step, `y`, with its `gaps` [m]. A jam, in
+    /// which no correction exists, is left as it is.
     pub fn correct_penetration<D: Copy>(
         &self,
         system: &dyn Unilateral<Discrete = D>,
