@@ -226,7 +226,7 @@ pub trait Linearizable: Ode {
 pub trait SeveralInstants: Ode {
     /// Writes the rates of eight states, each at its own time.
     fn rates_in_row(&self, discrete: &Self::Discrete, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
-        one_by_one(|t, y, rates| self.rates(discrete, t, y, rates), t, y, rates);
+        one_by_one(&|t, y, rates| self.rates(discrete, t, y, rates), t, y, rates);
     }
 
     /// Whether rates at eight states take so little more time than at one that steps in blocks pay; see
@@ -241,18 +241,32 @@ pub trait System: Events + Linearizable + SeveralInstants {}
 
 impl<S: Events + Linearizable + SeveralInstants + ?Sized> System for S {}
 
-/// [`SeveralInstants::rates_in_row`] by one evaluation per state: `of` writes the rates of one state at its time.
-pub fn one_by_one(of: impl Fn(f64, &[f64], &mut [f64]), t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
-    let n = y.len();
+/// [`SeveralInstants::rates_in_row`] by one evaluation per state: `of` writes the rates of one state at its time. Written out
+/// for each place and each caller, the copies would take 30 kB of code each.
+#[inline(never)]
+pub fn one_by_one(of: &dyn Fn(f64, &[f64], &mut [f64]), t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
     let (mut at, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
+    let (at, found) = (&mut at[..y.len()], &mut found[..y.len()]);
     for (node, t) in t.numbers().into_iter().enumerate() {
-        for (at, y) in at.iter_mut().zip(y) {
-            *at = y.number(node);
-        }
-        of(t, &at[..n], &mut found[..n]);
-        for (rates, found) in rates.iter_mut().zip(&found) {
-            rates.set(node, *found);
-        }
+        take(node, y, at);
+        of(t, at, found);
+        put(node, found, rates);
+    }
+}
+
+/// Reads the numbers at one place of the rows.
+#[inline(never)]
+fn take(place: usize, rows: &[F64x8], numbers: &mut [f64]) {
+    for (number, row) in numbers.iter_mut().zip(rows) {
+        *number = row.number(place);
+    }
+}
+
+/// Writes the numbers at one place of the rows.
+#[inline(never)]
+fn put(place: usize, numbers: &[f64], rows: &mut [F64x8]) {
+    for (row, number) in rows.iter_mut().zip(numbers) {
+        row.set(place, *number);
     }
 }
 

@@ -109,7 +109,7 @@ macro_rules! flexible_code {
                 }
             } else {
                 |mechanism, conditions, t, y, rates| {
-                    one_by_one(|t, y, rates| motion(mechanism, conditions, t, y, rates, None), &t, y, rates);
+                    one_by_one(&|t, y, rates| motion(mechanism, conditions, t, y, rates, None), &t, y, rates);
                 }
             },
             ends: |mechanism, conditions, t, y, rates, event_functions| {
@@ -240,7 +240,7 @@ impl Mechanism {
         match &self.rod {
             None => self.rates(&self.structure, conditions, t, y, rates),
             Some(rod) if rod.modes.room == RodCapacity::All || !ROWS_WITH_MODES => {
-                one_by_one(|t, y, rates| self.rates_of_one(conditions, t, y, rates), &t, y, rates);
+                one_by_one(&|t, y, rates| self.rates_of_one(conditions, t, y, rates), &t, y, rates);
             }
             Some(rod) => self.flexible_rates_of_eight(rod, conditions, t, y, rates),
         }

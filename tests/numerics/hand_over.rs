@@ -42,7 +42,7 @@ impl Ode for Pulled {
 
 impl SeveralInstants for Pulled {
     fn rates_in_row(&self, (): &(), t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
-        one_by_one(|t, y, rates| self.rates(&(), t, y, rates), t, y, rates);
+        one_by_one(&|t, y, rates| self.rates(&(), t, y, rates), t, y, rates);
         if t.last() < self.blind_until {
             rates.fill(F64x8::constant(f64::NAN));
         }

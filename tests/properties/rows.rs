@@ -118,7 +118,7 @@ fn a_problem_that_knows_no_rows_is_asked_for_each_state() {
     let rows = [F64x8::of(std::array::from_fn(|k| 0.1 * k as f64)); 2];
     let mut alone = [F64x8::ZERO; 2];
     let of = |t: f64, y: &[f64], rates: &mut [f64]| model.rates(&Default::default(), t, y, rates);
-    one_by_one(of, &F64x8::ZERO, &rows, &mut alone);
+    one_by_one(&of, &F64x8::ZERO, &rows, &mut alone);
     let mut together = [F64x8::ZERO; 2];
     model.rates_in_row(&Default::default(), &F64x8::ZERO, &rows, &mut together);
     assert_eq!(alone, together);

@@ -196,7 +196,7 @@ impl Radau13 {
                 system.rates_in_row(&start.discrete, &t, y, rates);
             } else {
                 // Eight instants together would save no time, and take more stack.
-                one_by_one(|t, y, rates| system.rates(&start.discrete, t, y, rates), &t, y, rates);
+                one_by_one(&|t, y, rates| system.rates(&start.discrete, t, y, rates), &t, y, rates);
             }
             for ((correction, rate), mode) in correction.iter_mut().zip(&*rates).zip(&*modes) {
                 *correction = to_modes(*rate) - per_step * *mode;
