@@ -1,6 +1,6 @@
 //! Systems of linear equations, solved without allocation.
 
-use crate::math::Complex4;
+use crate::math::{Complex4, add_multiple};
 use nalgebra::{DMatrixView, DMatrixViewMut, DVectorViewMut};
 
 /// LU factors of a square matrix (Gaussian elimination with partial pivoting).
@@ -151,6 +151,40 @@ pub fn substitute(factors: &[f64], pivot: &[usize], x: &mut [f64]) {
     }
 }
 
+/// Solves systems of `size` equations with one matrix for several right-hand sides (Gaussian elimination with partial
+/// pivoting). Each of the `equations`, `width` numbers long, has a row of the matrix and then its number of each right-hand
+/// side, which becomes the number of that solution. If the matrix is singular, the solutions are not finite.
+pub fn solve_rows(size: usize, width: usize, equations: &mut [f64]) {
+    for k in 0..size {
+        let of_size = |row: &usize| equations[row * width + k].abs();
+        let pivot = (k..size).max_by(|i, j| of_size(i).total_cmp(&of_size(j))).unwrap_or(k);
+        let (upper, lower) = equations.split_at_mut((k + 1) * width);
+        let pivot_row = &mut upper[k * width..];
+        if pivot > k {
+            pivot_row.swap_with_slice(&mut lower[(pivot - k - 1) * width..][..width]);
+        }
+        let reciprocal = 1.0 / pivot_row[k];
+        for row in lower.chunks_exact_mut(width) {
+            let factor = -row[k] * reciprocal;
+            if factor != 0.0 {
+                add_multiple(&mut row[k + 1..], factor, &pivot_row[k + 1..]);
+            }
+        }
+    }
+    for k in (0..size).rev() {
+        let (upper, lower) = equations.split_at_mut(k * width);
+        let reciprocal = 1.0 / lower[k];
+        let solution = &mut lower[size..width];
+        solution.iter_mut().for_each(|number| *number *= reciprocal);
+        for row in upper.chunks_exact_mut(width) {
+            let factor = -row[k];
+            if factor != 0.0 {
+                add_multiple(&mut row[size..], factor, solution);
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -170,6 +204,29 @@ mod tests {
         for (found, exact) in x.iter().zip(&exact) {
             assert!((found - exact).abs() < 1e-11, "{found} is not {exact}");
         }
+    }
+
+    #[test]
+    fn several_right_hand_sides_are_solved_together() {
+        let element = |i: usize, j: usize| 1.0 / (((i + 2) % 5 + j + 1) as f64) + if i == j { -0.2 } else { 0.0 };
+        let exact = |j: usize, side: usize| (j * j) as f64 - 1.5 * side as f64;
+        let (size, width) = (5, 8);
+        let number = |at: usize| match (at / width, at % width) {
+            (i, j) if j < size => element(i, j),
+            (i, j) => (0..size).map(|k| element(i, k) * exact(k, j - size)).sum(),
+        };
+        let mut equations: Vec<f64> = (0..size * width).map(number).collect();
+        solve_rows(size, width, &mut equations);
+        for (j, row) in equations.chunks(width).enumerate() {
+            for (side, found) in row[size..].iter().enumerate() {
+                let exact = exact(j, side);
+                assert!((found - exact).abs() < 1e-10, "{found} is not {exact}");
+            }
+        }
+        let mut singular: Vec<f64> = (0..6).map(|at| f64::from(at / 3 + at % 3)).collect();
+        singular.splice(3..5, [0.0, 0.0]);
+        solve_rows(2, 3, &mut singular);
+        assert!(!singular[5].is_finite(), "{singular:?}");
     }
 
     #[test]

@@ -16,7 +16,7 @@
 use super::legendre::{Legendre, NODES, SHARES, WEIGHTS};
 use super::variational::{Companion, Variational};
 use crate::integrator::dense_output::{Correction, Step};
-use crate::integrator::linear::Factors;
+use crate::integrator::linear::solve_rows;
 use crate::integrator::{Discontinuities, Jacobian, MAX_STATES, StateLayout, root};
 use crate::math::{self, add_multiple};
 use nalgebra::DMatrix;
@@ -108,10 +108,10 @@ pub struct Flow {
     /// J and F at the nodes, times these lengths: the rows of the forced states.
     turning: [Vec<f64>; NODES],
     pushing: [Vec<f64>; NODES],
-    /// Factors of the equations for the stages of forced states, one node after the other.
-    factors: Factors,
-    /// These stages of one direction.
-    unknowns: Vec<f64>,
+    /// Directions at the start of a part, by rows, positions moved on to a node.
+    moved: Vec<f64>,
+    /// Equations for the stages of forced states, by rows, one node after the other: see [`solve_rows`].
+    equations: Vec<f64>,
     /// Slopes at the nodes.
     stages: [Vec<f64>; NODES],
     /// Directions at the start of a part.
@@ -119,6 +119,8 @@ pub struct Flow {
     /// Directions at a node, and their slopes.
     inner: Vec<f64>,
     found: Vec<f64>,
+    /// Reciprocals of the scales of the states; 0 without a scale.
+    weights: Vec<f64>,
     /// The columns that are not 0 and do not stay so; the matrices have these alone.
     moving: Vec<usize>,
     /// The size of each of them below which it counts as none.
@@ -158,12 +160,13 @@ impl Flow {
             lengths: [0.0; NODES],
             turning: from_fn(|_| vec![0.0; forced * states]),
             pushing: from_fn(|_| vec![0.0; forced * columns]),
-            factors: Factors::with_capacity(NODES * forced),
-            unknowns: vec![0.0; NODES * forced],
+            moved: zeros(),
+            equations: vec![0.0; NODES * forced * (NODES * forced + columns)],
             stages: from_fn(|_| zeros()),
             before: zeros(),
             inner: zeros(),
             found: zeros(),
+            weights: vec![0.0; states],
             moving: vec![],
             least: vec![],
         }
@@ -179,8 +182,13 @@ impl Flow {
         self.moving = (0..tangents.ncols()).filter(|&column| moves(column)).collect();
         self.least = self.moving.iter().map(|&column| path.least[column]).collect();
         let StateLayout { positions, states, .. } = path.step.layout;
+        for (weight, scale) in self.weights.iter_mut().zip(path.system.system().scales()) {
+            *weight = if *scale > 0.0 { 1.0 / scale } else { 0.0 };
+        }
         let length = self.moving.len() * states;
-        for matrix in [&mut self.before, &mut self.inner, &mut self.found].into_iter().chain(&mut self.stages) {
+        for matrix in
+            [&mut self.before, &mut self.inner, &mut self.found, &mut self.moved].into_iter().chain(&mut self.stages)
+        {
             matrix.resize(length, 0.0);
         }
         for matrix in &mut self.pushing {
@@ -282,7 +290,7 @@ impl Flow {
         if self.moving.len() > MAX_ITERATED || !self.iterate(path) {
             self.eliminate(path.step.layout);
         }
-        self.error(path)
+        self.error()
     }
 
     /// J and F at one node.
@@ -332,7 +340,7 @@ impl Flow {
     /// Finds the stages by fixed-point iteration; returns whether it has converged.
     fn iterate<D: Copy>(&mut self, path: &Path<'_, D>) -> bool {
         let layout = path.step.layout;
-        let Self { legendre, lengths, turning, pushing, stages, before, inner, found, least, .. } = self;
+        let Self { legendre, lengths, turning, pushing, stages, before, inner, found, weights, least, .. } = self;
         for (node, stage) in stages.iter_mut().enumerate() {
             write_slopes(stage, layout, lengths[node], &turning[node], &pushing[node], before);
         }
@@ -348,7 +356,7 @@ impl Flow {
                 if node == NODES / 2 {
                     // All nodes come near at the same rate, but for the last if time stands still there.
                     add_multiple(&mut stages[node], -1.0, found);
-                    change = size(path, least, &stages[node], before);
+                    change = size(weights, least, &stages[node], before);
                 }
                 stages[node].copy_from_slice(found);
             }
@@ -368,48 +376,65 @@ impl Flow {
     ///
     /// K_i − J_i^(v, z)·Σ_j a_ij·K_j − J_i^q·Σ_j b_ij·K_j^v = J_i·y + J_i^q·v·Σ_j a_ij·L_j + F_i, b_ij = Σ_k a_ik·L_k·a_kj.
     fn eliminate(&mut self, layout: StateLayout) {
-        let Self { legendre, lengths, turning, pushing, factors, unknowns, stages, before, .. } = self;
+        let Self { legendre, lengths, turning, pushing, moved, equations, stages, before, moving, .. } = self;
         let StateLayout { positions: p, states: n, .. } = layout;
-        let (forced, a) = (n - p, &legendre.integrals);
-        let twice = a.map(|row| from_fn::<f64, NODES, _>(|j| (0..NODES).map(|k| row[k] * lengths[k] * a[k][j]).sum()));
-        let sums = a.map(|row| row.iter().zip(&*lengths).map(|(share, length)| share * length).sum::<f64>());
-        factors.of(NODES * forced, |row, column| {
-            let ((i, row_at_node), (j, state)) = ((row / forced, row % forced), (column / forced, column % forced));
-            let slope = |state: usize| turning[i][state * forced + row_at_node];
-            let through_position = if state < p { twice[i][j] * slope(state) } else { 0.0 };
-            f64::from(u8::from(row == column)) - a[i][j] * slope(p + state) - through_position
-        });
-        for (direction, start) in before.chunks_exact(n).enumerate() {
-            for (i, rows) in unknowns.chunks_exact_mut(forced).enumerate() {
-                rows.copy_from_slice(&pushing[i][direction * forced..][..forced]);
-                add_product(rows, &turning[i], start);
-                for (slopes, speed) in turning[i].chunks_exact(forced).zip(&start[p..2 * p]) {
-                    add_multiple(rows, sums[i] * speed, slopes);
+        let (forced, columns, a) = (n - p, moving.len(), &legendre.integrals);
+        let size = NODES * forced;
+        let width = size + columns;
+        let equations = &mut equations[..size * width];
+        for (i, rows) in equations.chunks_exact_mut(forced * width).enumerate() {
+            let sum: f64 = a[i].iter().zip(&*lengths).map(|(share, length)| share * length).sum();
+            let twice: [f64; NODES] = from_fn(|j| (0..NODES).map(|k| a[i][k] * lengths[k] * a[k][j]).sum());
+            for (state, row) in moved.chunks_exact_mut(columns).enumerate() {
+                for (place, start) in row.iter_mut().zip(before.chunks_exact(n)) {
+                    *place = start[state] + if state < p { sum * start[p + state] } else { 0.0 };
                 }
             }
-            factors.solve(unknowns);
-            for (i, rows) in unknowns.chunks_exact(forced).enumerate() {
-                let (moving, driven) = stages[i][direction * n..][..n].split_at_mut(p);
-                driven.copy_from_slice(rows);
-                moving.copy_from_slice(&start[p..2 * p]);
-                for (share, rows) in a[i].iter().zip(unknowns.chunks_exact(forced)) {
-                    add_multiple(moving, *share, rows);
+            for (row_at_node, row) in rows.chunks_exact_mut(width).enumerate() {
+                let slope = |state: usize| turning[i][state * forced + row_at_node];
+                let (matrix, known) = row.split_at_mut(size);
+                for (j, block) in matrix.chunks_exact_mut(forced).enumerate() {
+                    for (state, place) in block.iter_mut().enumerate() {
+                        let through_position = if state < p { twice[j] * slope(state) } else { 0.0 };
+                        *place = -a[i][j] * slope(p + state) - through_position;
+                    }
                 }
-                moving.iter_mut().for_each(|slope| *slope *= lengths[i]);
+                matrix[i * forced + row_at_node] += 1.0;
+                for (place, push) in known.iter_mut().zip(pushing[i].chunks_exact(forced)) {
+                    *place = push[row_at_node];
+                }
+                for (state, moved) in moved.chunks_exact(columns).enumerate() {
+                    add_multiple(known, slope(state), moved);
+                }
+            }
+        }
+        solve_rows(size, width, equations);
+        let found =
+            |j: usize, state: usize, direction: usize| equations[(j * forced + state) * width + size + direction];
+        for (i, stage) in stages.iter_mut().enumerate() {
+            for (direction, (slopes, start)) in stage.chunks_exact_mut(n).zip(before.chunks_exact(n)).enumerate() {
+                let (positions, driven) = slopes.split_at_mut(p);
+                for (state, slope) in positions.iter_mut().enumerate() {
+                    let gained: f64 = (0..NODES).map(|j| a[i][j] * found(j, state, direction)).sum();
+                    *slope = lengths[i] * (start[p + state] + gained);
+                }
+                for (state, slope) in driven.iter_mut().enumerate() {
+                    *slope = found(i, state, direction);
+                }
             }
         }
     }
 
     /// Error of the part relative to the tangents. With coefficients that fall like ρ^m the error at the end falls like
     /// ρ^(2·NODES − 1), and the last coefficient is ρ^(NODES − 1).
-    fn error<D: Copy>(&mut self, path: &Path<'_, D>) -> f64 {
-        let Self { legendre, stages, before, inner, least, .. } = self;
+    fn error(&mut self) -> f64 {
+        let Self { legendre, stages, before, inner, weights, least, .. } = self;
         let sizes = legendre.analysis.map(|row| {
             inner.fill(0.0);
             for (share, stage) in row.iter().zip(&*stages) {
                 add_multiple(inner, *share, stage);
             }
-            size(path, least, inner, before)
+            size(weights, least, inner, before)
         });
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         if largest == 0.0 {
@@ -447,16 +472,13 @@ fn write_slopes(
     }
 }
 
-/// Largest change of a direction relative to the direction itself, states in units of their scales.
-fn size<D: Copy>(path: &Path<'_, D>, least: &[f64], changes: &[f64], directions: &[f64]) -> f64 {
-    let (scales, n) = (path.system.system().scales(), path.step.layout.states);
+/// Largest change of a direction relative to the direction itself, states times their `weights`.
+fn size(weights: &[f64], least: &[f64], changes: &[f64], directions: &[f64]) -> f64 {
+    let (n, mut largest) = (weights.len(), 0.0_f64);
     let norm = |column: &[f64]| {
-        let scaled = column.iter().zip(scales).filter(|(_, scale)| **scale > 0.0);
-        scaled
-            .map(|(value, scale)| (value / scale).abs())
-            .fold(0.0, |norm: f64, value| if value > norm { value } else { norm })
+        let weighted = column.iter().zip(weights).map(|(value, weight)| (value * weight).abs());
+        weighted.fold(0.0, |norm: f64, value| if value > norm { value } else { norm })
     };
-    let mut largest = 0.0_f64;
     for ((change, direction), least) in changes.chunks_exact(n).zip(directions.chunks_exact(n)).zip(least) {
         largest = largest.max(norm(change) / norm(direction).max(*least));
         if change.iter().any(|value| !value.is_finite()) {
