@@ -6,10 +6,11 @@
 //! the scale is that of the crank's angle.
 
 use super::bodies::bodies;
+use super::ideal::IdealMechanism;
 use super::joint::guide::Guide;
 use super::joint::revolute::Revolute;
 use crate::math;
-use crate::scene::{JointModel, Scene};
+use crate::scene::{DriveMode, JointModel, Scene};
 
 /// [m] Scale of lengths at the clearance [`CLEARANCE`].
 const LENGTH: f64 = 1e-6;
@@ -26,6 +27,12 @@ const MAX_ROTATION: f64 = 0.1;
 const MAX_ROTATION_WITHOUT_CLEARANCE: f64 = 0.15;
 /// [s] Upper bound of any step.
 const MAX_STEP: f64 = 0.02;
+
+/// Share of the distance to the next singularity that a step may turn if nothing else controls its error: eighth order then
+/// leaves less than 1e-12.
+const SMOOTH_SHARE: f64 = 0.1;
+/// [rad] The least such rotation, of a rod that is no longer than the crank.
+const LEAST_SMOOTH_ROTATION: f64 = 1e-3;
 
 /// Scales of one scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +74,7 @@ impl Scale {
         if clearance == f64::INFINITY {
             let swing = (scene.gravity.abs() / scene.crank.length).sqrt();
             let frequency = crank_speed.max(swing);
-            let longest_step = within(MAX_ROTATION_WITHOUT_CLEARANCE);
+            let longest_step = within(MAX_ROTATION_WITHOUT_CLEARANCE.min(smooth_rotation(scene)));
             let (angle, relative) = ([ANGLE; 3], ANGLE);
             return Self { length: ANGLE, angle, deflection: LENGTH, frequency, relative, longest_step };
         }
@@ -90,4 +97,17 @@ impl Scale {
         let (angle, relative) = (reach.map(|reach| length / reach), length / clearance);
         Self { length, angle, deflection: length, frequency, relative, longest_step }
     }
+}
+
+/// [rad] Rotation over which the works in an ideal mechanism with a prescribed crank are smooth; infinite if they are not asked
+/// for, or if the motion has an error that controls the step. The rod's angle has a branch point where r·sin θ = h ± l for complex
+/// angles, h being the height of the pin's line: acosh((l − |h|)/r) beside the real axis.
+fn smooth_rotation(scene: &Scene) -> f64 {
+    if !(scene.energy.audit && scene.drive.mode == DriveMode::Speed) {
+        return f64::INFINITY;
+    }
+    let IdealMechanism { crank, rod, height } = IdealMechanism::new(scene);
+    let reach = (rod - height.abs()) / crank;
+    let distance = math::asinh((reach * reach - 1.0).max(0.0).sqrt());
+    (SMOOTH_SHARE * distance).max(LEAST_SMOOTH_ROTATION)
 }

@@ -307,6 +307,16 @@ impl IntervalAudit {
         }
     }
 
+    /// Sets the rates of the integrals where the contacts rub like this.
+    pub fn set_rates(&self, rubbing: [Rubbing; CONTACTS], rates: &mut Outputs) {
+        let mut powers = [[0.0; 3]; JOINTS];
+        add(&mut powers, 1.0, &rubbing);
+        for joint in (0..JOINTS).filter(|&joint| self.integrals[joint]) {
+            let interval = rates.interval_mut(joint);
+            [interval.friction_work, interval.sliding, interval.wear_work] = powers[joint];
+        }
+    }
+
     /// Appends the memory of the audit.
     pub fn save(&self, snapshot: &mut Snapshot) {
         snapshot.reals.push(self.begin);
@@ -377,14 +387,14 @@ impl IntervalAudit {
 fn of_samples(samples: &[Forces; SAMPLES], length: f64) -> [Integrals; JOINTS] {
     let mut sums = [[0.0; 3]; JOINTS];
     for (sample, forces) in samples.iter().enumerate() {
-        add(&mut sums, length * WEIGHTS[sample.min(SAMPLES - 1 - sample)], forces);
+        add(&mut sums, length * WEIGHTS[sample.min(SAMPLES - 1 - sample)], &forces.rubbing);
     }
     sums
 }
 
 /// Adds the integrands at an instant with a weight [s].
-fn add(sums: &mut [Integrals; JOINTS], weight: f64, forces: &Forces) {
-    for (contact, Rubbing { speed, normal, friction }) in forces.rubbing.iter().enumerate() {
+fn add(sums: &mut [Integrals; JOINTS], weight: f64, rubbing: &[Rubbing; CONTACTS]) {
+    for (contact, Rubbing { speed, normal, friction }) in rubbing.iter().enumerate() {
         let integrals = &mut sums[Touches::joint(contact)];
         integrals[0] += weight * friction * speed;
         integrals[1] += weight * speed.abs();
@@ -403,7 +413,7 @@ fn integrated(run: &mut Examined<'_>, kinks: &[f64; MAX_KINKS], [start, end]: [f
     for to in kinks.iter().copied().filter(|kink| (start..end).contains(kink)).chain([end]) {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         for (point, weight) in GAUSS.iter().flat_map(|&(point, weight)| [(-point, weight), (point, weight)]) {
-            add(&mut sums, weight * half, &run.at(middle + half * point, SLIDING));
+            add(&mut sums, weight * half, &run.at(middle + half * point, SLIDING).rubbing);
         }
         from = to;
     }

@@ -218,7 +218,7 @@ impl Simulation {
     /// Continues from `phase`, a point of a simulation with the same joints, drive and method, or near one. The inputs
     /// are kept. An open contact that penetrates closes, and a closed one across a gap opens.
     pub fn place(&mut self, phase: &Phase) {
-        self.motion.place(phase);
+        self.motion.place(self.time, phase);
         self.time = phase.time;
     }
 

@@ -21,8 +21,8 @@ pub trait Motion: Send {
     fn begin_interval(&mut self, _: f64) {}
     /// The point of phase space at `t` in the last step.
     fn phase(&mut self, t: f64) -> Phase;
-    /// Restarts from a point of phase space.
-    fn place(&mut self, phase: &Phase);
+    /// Restarts from a point of phase space, with the sums that there are at `t` in the last step.
+    fn place(&mut self, t: f64, phase: &Phase);
     /// Scales of just noticeable differences in a point of phase space.
     fn phase_scales(&self) -> PhaseScales;
     /// Sets the inputs from the communication point `inputs.at` on.

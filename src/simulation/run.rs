@@ -143,11 +143,9 @@ impl Motion for Run {
         Phase { time: t, states: y[..weighted].to_vec(), approach }
     }
 
-    fn place(&mut self, phase: &Phase) {
-        // Sums since the start are no part of a phase: they are kept, and not those of a step that would reach to its time.
-        let state = self.integrator.state();
-        let known = phase.time.clamp(state.start().t, state.front().t);
-        let (y, mut conditions) = self.integrator.state_at(self.model.as_ref(), known);
+    fn place(&mut self, t: f64, phase: &Phase) {
+        // Sums since the start are no part of a phase: they are kept.
+        let (y, mut conditions) = self.integrator.state_at(self.model.as_ref(), t);
         let mut y = y.to_vec();
         write(&phase.states, &mut y);
         let model = self.model.as_ref();
@@ -197,7 +195,11 @@ impl Motion for Run {
         let rates = &mut rates[..y.len()];
         model.rates(&conditions, t, y, rates);
         let mut slopes = slopes(model, t, y, rates, &|t, y| observe(model, observer, &conditions, t, y));
-        observer.set_known_rates(&model.evaluation(&conditions, t, y), &mut slopes);
+        let evaluation = model.evaluation(&conditions, t, y);
+        observer.set_known_rates(&evaluation, &mut slopes);
+        if let Some(audit) = &self.audit {
+            audit.set_rates(model.rubbing(&conditions.contacts, &evaluation.pose, y), &mut slopes);
+        }
         slopes
     }
 

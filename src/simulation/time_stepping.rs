@@ -94,7 +94,7 @@ impl Motion for TimeStepping {
         Phase { time: t, states: y.to_vec(), approach: vec![None; CONTACTS] }
     }
 
-    fn place(&mut self, phase: &Phase) {
+    fn place(&mut self, _: f64, phase: &Phase) {
         self.integrator.place(phase.time, &filled(&phase.states, self.model.layout().states));
     }
 

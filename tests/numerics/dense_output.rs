@@ -69,6 +69,29 @@ fn a_quintic_is_followed_exactly_without_correction() {
     }
 }
 
+/// A position a million times as large as what a short step adds to it.
+#[test]
+fn rounded_positions_leave_velocities_alone() {
+    let (t, h, far) = (0.2, 1e-6, 1e4);
+    let [start, end] = [motion(4, t), motion(4, t + h)];
+    let step = Step {
+        t,
+        h,
+        y0: &[far + start[0], start[1]],
+        f0: &[start[1], start[2]],
+        y1: &[far + end[0], end[1]],
+        f1: &[end[1], end[2]],
+        layout: StateLayout::second_order(2),
+    };
+    let mut y = [0.0; 2];
+    for s in [0.1, 0.5, 0.9] {
+        step.state(s, None, &mut y);
+        let [position, velocity, _] = motion(4, t + s * h);
+        assert!((y[1] - velocity).abs() < 4.0 * f64::EPSILON, "{s}: {} is not {velocity}", y[1]);
+        assert!((y[0] - far - position).abs() < 4.0 * f64::EPSILON * far, "{s}: {} is not {}", y[0], far + position);
+    }
+}
+
 #[test]
 fn the_correction_makes_degree_eight_exact() {
     for degree in 6..=8 {

@@ -4,7 +4,7 @@ use super::scenes::{
     all_plays, at, at_tolerance, contacts, crooked, inputs, letters, revolutes, speed_driven, start, with_play,
 };
 use slidercrank::model::signals::Outputs;
-use slidercrank::scene::{FrictionLaw, JointModel, Joints, Lubrication, Point, Scene};
+use slidercrank::scene::{DampingLaw, FrictionLaw, JointModel, Joints, Lubrication, Method, Point, Scene, Surface};
 use slidercrank::simulation::Simulation;
 
 fn audited(mut scene: Scene) -> Scene {
@@ -186,5 +186,67 @@ fn a_restored_run_goes_on_with_its_intervals() {
     assert_eq!(again.outputs(), run.outputs());
     for time in [1.4e-3, 2.5e-3] {
         assert_eq!(at(&mut again, time), at(&mut run, time));
+    }
+}
+
+/// The contact of C is closed at the start under a strong damper, so that its force only falls.
+#[test]
+fn a_force_that_only_falls_is_largest_at_the_start() {
+    for floor in [1e-9, 1e-6] {
+        for method in [Method::Automatic, Method::Verner7, Method::Dop853, Method::Radau13] {
+            let mut scene = at_tolerance(audited(speed_driven(Scene::default())), 1e-10);
+            (scene.crank.speed_start, scene.crank.angle_start, scene.solver.method) = (10.0, 1.0, method);
+            let pin = &mut scene.joint.c;
+            (pin.model, pin.clearance, pin.eccentricity_start.x) = (JointModel::Clearance, 1e-4, -1.02e-4);
+            let contact = &mut pin.contact;
+            (contact.law, contact.restitution, contact.ratio_limit) = (DampingLaw::Flores, 0.3, 0.0);
+            contact.speed_floor = floor;
+            let peak = at(&mut start(&scene, inputs(0.0, 0.0)), 1e-4).joint_c.interval.force_peak;
+            // The force at the start, of an independent simulator.
+            near(peak, 426.776291, 2e-9, &format!("{method:?}, {floor:e}"));
+        }
+    }
+}
+
+/// A load turns the slider until an edge of its face touches. Numbers of an independent simulator, whose kinks of sliding
+/// velocities cost it the last digits.
+#[test]
+fn a_face_slides_at_its_edge_when_it_lands() {
+    for (method, tolerance) in [(Method::Automatic, 1e-6), (Method::Automatic, 1e-10), (Method::Radau13, 1e-10)] {
+        let mut scene = at_tolerance(audited(speed_driven(Scene::default())), tolerance);
+        (scene.crank.speed_start, scene.crank.angle_start, scene.solver.method) = (0.0, 0.5, method);
+        let slider = &mut scene.slider;
+        (slider.length, slider.inertia, slider.centre.x, slider.load_offset) = (0.04, 2e-5, 0.02, -0.01);
+        let guide = &mut scene.joint.t;
+        (guide.model, guide.surface, guide.foundation_stiffness) = (JointModel::Clearance, Surface::Foundation, 4e8);
+        (guide.clearance, guide.offset_start) = (1e-3, 9.9e-4);
+        (guide.contact.law, guide.contact.friction.law) = (DampingLaw::Hertz, FrictionLaw::Ambrosio);
+        let mut simulation = start(&scene, inputs(0.0, -2000.0));
+        let what = format!("{method:?} at {tolerance:e}");
+        let bound = if tolerance > 1e-8 { 1e-5 } else { 1e-7 };
+        near(at(&mut simulation, 0.5e-3).joint_t.interval.sliding, 5.142291078e-4, bound, &what);
+        near(at(&mut simulation, 3e-3).joint_t.interval.sliding, 5.951074e-3, bound, &what);
+    }
+}
+
+#[test]
+fn integrals_have_their_rates() {
+    let (t, half) = (2.5e-4, 1e-8);
+    let mut scene = audited(speed_driven(Scene::default()));
+    scene.crank.speed_start = 5000.0 * std::f64::consts::TAU / 60.0;
+    scene.joint.c.model = JointModel::Clearance;
+    scene.joint.c.contact.friction.law = FrictionLaw::Ambrosio;
+    let mut simulation = start(&at_tolerance(scene, 1e-10), inputs(0.0, 0.0));
+    let before = at(&mut simulation, t - half).joint_c.interval;
+    simulation.advance_to(t).expect("a motion without trouble");
+    let rates = simulation.output_rates().joint_c.interval;
+    let after = at(&mut simulation, t + half).joint_c.interval;
+    assert!(rates.friction_work > 0.0 && rates.wear_work > rates.friction_work && rates.sliding > 0.0, "{rates:?}");
+    for (what, found, [before, after]) in [
+        ("friction.work", rates.friction_work, [before.friction_work, after.friction_work]),
+        ("sliding", rates.sliding, [before.sliding, after.sliding]),
+        ("wear.work", rates.wear_work, [before.wear_work, after.wear_work]),
+    ] {
+        near(found, (after - before) / (2.0 * half), 1e-5, what);
     }
 }

@@ -53,7 +53,7 @@ impl<R: Real> FacePenetration<R> {
         (self.middle + rise, self.middle - rise)
     }
 
-    /// Mean penetration and centre of pressure; 0 if the whole face is open.
+    /// Mean penetration and centre of pressure. If the whole face is open, these are 0 and the end that touches first.
     #[inline(always)]
     pub fn pressed(&self) -> ContactZone<R> {
         let Self { half, middle, slope } = *self;
@@ -65,12 +65,16 @@ impl<R: Real> FacePenetration<R> {
             let length = deep / slope.abs();
             ContactZone { mean: deep * length / (4.0 * half), centre: (-(length / 3.0) + half).copysign(slope) }
         };
+        let open = || ContactZone { mean: R::ZERO, centre: R::constant(half).copysign(slope) };
         if R::MANY {
-            let (whole, part) = (trapezoid(), triangle());
-            let of = |whole: R, part: R| (-deep).choose(|| R::ZERO, || (-shallow).choose(|| part, || whole));
-            ContactZone { mean: of(whole.mean, part.mean), centre: of(whole.centre, part.centre) }
+            let (whole, part, open) = (trapezoid(), triangle(), open());
+            let of = |whole, part, open| (-deep).choose(|| open, || (-shallow).choose(|| part, || whole));
+            ContactZone {
+                mean: of(whole.mean, part.mean, open.mean),
+                centre: of(whole.centre, part.centre, open.centre),
+            }
         } else if deep <= 0.0 {
-            ContactZone::default()
+            open()
         } else if shallow >= 0.0 {
             trapezoid()
         } else {

@@ -247,7 +247,7 @@ impl Variation {
 
     /// Continues from `phase`, where nothing depends on parameters and the tangent begins.
     pub fn place(&mut self, phase: &Phase) {
-        self.run.place(phase);
+        self.run.place(self.time, phase);
         self.time = phase.time;
         self.begin_here();
     }
