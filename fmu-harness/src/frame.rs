@@ -7,7 +7,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Values of one type.
@@ -95,13 +95,13 @@ impl Frame {
         })
     }
 
-    /// Writes `FILE.csv` and `FILE.parquet`.
+    /// Writes `FILE.csv` and `FILE.parquet`; see [`ended`].
     ///
     /// # Errors
     /// If columns differ in length, or a file cannot be written.
     pub fn save(&self, file: &Path) -> Result<()> {
-        self.save_csv(&file.with_extension("csv"))?;
-        self.save_parquet(&file.with_extension("parquet"))
+        self.save_csv(&ended(file, "csv"))?;
+        self.save_parquet(&ended(file, "parquet"))
     }
 
     /// Writes a CSV file.
@@ -136,7 +136,7 @@ impl Frame {
             .set_key_value_metadata(Some(origin))
             .build();
         let directory = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut whole = tempfile::NamedTempFile::new_in(directory).with_context(context)?;
+        let mut whole = builder().tempfile_in(directory).with_context(context)?;
         let mut writer = SerializedFileWriter::new(whole.as_file_mut(), schema, Arc::new(properties))?;
         let mut group = writer.next_row_group()?;
         for (_, column) in &self.columns {
@@ -163,6 +163,22 @@ impl Frame {
         }
         Ok(())
     }
+}
+
+/// The file `BASE.ENDING`. A dot in the base is part of its name, as in that of a study `v1.2`.
+pub fn ended(base: &Path, ending: &str) -> PathBuf {
+    let mut name = base.as_os_str().to_owned();
+    name.push(".");
+    name.push(ending);
+    name.into()
+}
+
+/// Makes temporary files that others may read, if they may read new files of this process.
+fn builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder
 }
 
 #[cfg(test)]
@@ -194,6 +210,30 @@ mod tests {
             let (run, found, text) = row(i);
             assert_eq!((run.ok(), found.ok(), text.ok()), (Some(i as i64), Some(force), Some(&texts[i])));
         }
+    }
+
+    #[test]
+    fn a_dot_in_a_name_is_no_ending() {
+        let directory = tempfile::tempdir().expect("a directory");
+        frame().save(&directory.path().join("v1.2")).expect("files");
+        for ending in ["csv", "parquet"] {
+            let file = directory.path().join(format!("v1.2.{ending}"));
+            assert!(file.is_file(), "{}", file.display());
+        }
+    }
+
+    /// As of a file that is simply written.
+    #[cfg(unix)]
+    #[test]
+    fn whoever_may_read_one_file_may_read_the_other() {
+        use std::os::unix::fs::PermissionsExt;
+        let directory = tempfile::tempdir().expect("a directory");
+        frame().save(&directory.path().join("rows")).expect("files");
+        let mode = |ending: &str| {
+            let file = directory.path().join(format!("rows.{ending}"));
+            std::fs::metadata(file).expect("a file").permissions().mode()
+        };
+        assert_eq!(mode("parquet"), mode("csv"));
     }
 
     #[test]

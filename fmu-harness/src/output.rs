@@ -1,8 +1,27 @@
 //! Outputs by name.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use slidercrank::fmi::slave::variables::{Access, VARIABLES};
 use slidercrank::model::signals::{EnergyOutputs, Outputs};
+
+/// Refuses a name that no column of a run has: neither an output of any type nor a vector with the components x and y.
+///
+/// # Errors
+/// If there is no such output.
+pub fn check_column(name: &str) -> Result<()> {
+    let is_output = |name: &str| {
+        VARIABLES.iter().any(|variable| {
+            variable.name == name
+                && matches!(
+                    variable.access,
+                    Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_)
+                )
+        })
+    };
+    let is_vector = || ["x", "y"].iter().all(|axis| is_output(&format!("{name}.{axis}")));
+    ensure!(is_output(name) || is_vector(), "`{name}` is neither an output nor a vector of two");
+    Ok(())
+}
 
 /// A real output, or a vector with the components x and y, whose length is taken.
 #[derive(Clone, Debug, PartialEq)]

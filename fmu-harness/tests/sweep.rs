@@ -104,6 +104,7 @@ fn what_is_wrong_in_a_study_is_named() {
         ("deviation = 0.01", "deviation = -0.01", "`slider.mass`: deviation = -0.01 is not allowed: 0 or more"),
         ("deviation = 0.01", "deviation = inf", "`slider.mass`: deviation = inf is not allowed: 0 or more"),
         ("position =", "run =", "`run` in [keep]"),
+        ("\"accuracy.position\"", "\"accuracy.place\"", "`position` in [keep]: `accuracy.place` is neither an output"),
         ("position =", "status =", "`status` in [keep]"),
         ("position =", "\"slider.mass\" =", "`slider.mass` in [keep]"),
         ("count = 3", "counts = 3", "unknown field `counts`, expected one of `from`, `to`, `count`, `logarithmic`"),

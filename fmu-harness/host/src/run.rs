@@ -167,13 +167,13 @@ impl Experiment {
 /// # Errors
 /// If the step is not above 0, or there are too many communication points.
 pub fn afford(span: f64, step: f64) -> Result<()> {
-    ensure!(step > 0.0, "the communication step is {step} s; it must be above 0");
+    ensure!(step > 0.0 && step.is_finite(), "the communication step is {step} s; it must be finite and above 0");
     ensure!(span <= (MOST_POINTS as f64 + SLIVER) * step, too_many(step));
     Ok(())
 }
 
 fn too_many(step: f64) -> String {
-    format!("with a communication step of {step} s the run has more than {MOST_POINTS} communication points")
+    format!("with a communication step of {step:e} s the run has more than {MOST_POINTS} communication points")
 }
 
 #[cfg(test)]
@@ -194,6 +194,6 @@ mod tests {
             assert_eq!(experiment.interval(points + 1).ok(), Some(None));
             assert_eq!(afford(latest - start, step).is_ok(), enough);
         }
-        assert!([0.0, -1e-3, f64::NAN].into_iter().all(|step| afford(1.0, step).is_err()));
+        assert!([0.0, -1e-3, f64::NAN, f64::INFINITY].into_iter().all(|step| afford(1.0, step).is_err()));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{out_directory, say, shown};
 use crate::accuracy::{Plan, comparisons};
+use crate::frame::ended;
 use crate::report::accuracy as report;
 use crate::report::table::Table;
 use crate::scenes::Scenario;
@@ -57,8 +58,8 @@ impl Accuracy {
         bar.finish_and_clear();
         let base = out.join(format!("accuracy-{name}"));
         report::frame(&all, &found).save(&base)?;
-        fs::write(base.with_extension("md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
-        ["md", "csv", "parquet"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
+        fs::write(ended(&base, "md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
+        ["md", "csv", "parquet"].iter().for_each(|ending| say(shown(&ended(&base, ending))));
         Table::complete(&tables)
     }
 }

@@ -7,6 +7,7 @@ use crate::dynamics::orbit::Orbit;
 use crate::dynamics::poincare::PoincareMap;
 use crate::dynamics::portrait::Plan;
 use crate::dynamics::response::Response;
+use crate::frame::ended;
 use crate::host::Setting;
 use crate::report::dynamics as report;
 use crate::report::response::{Curves, Responses};
@@ -126,9 +127,9 @@ impl Dynamics {
             ("impacts", report::impact_frame(&portrait)),
             ("spectrum", report::spectrum_frame(&portrait)),
         ] {
-            let file = out.join(format!("dynamics-{name}-{part}.parquet"));
+            let file = out.join(format!("dynamics-{name}-{part}"));
             frame.save(&file)?;
-            written.extend([file.with_extension("csv"), file]);
+            written.extend(["csv", "parquet"].map(|ending| ended(&file, ending)));
         }
         let mut followed = Ok(());
         if let Some(range) = range {
@@ -253,14 +254,14 @@ impl Diagram {
         }
         for (part, frame) in frames {
             frame.save(&base(part))?;
-            written.extend(["csv", "parquet"].map(|ending| base(part).with_extension(ending)));
+            written.extend(["csv", "parquet"].map(|ending| ended(&base(part), ending)));
         }
         Ok(written)
     }
 }
 
 fn write(base: &Path, ending: &str, text: &str) -> Result<PathBuf> {
-    let file = base.with_extension(ending);
+    let file = ended(base, ending);
     fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }

@@ -1,6 +1,7 @@
 //! `laws`: peak forces and errors by elasticity and damping law.
 
 use super::{out_directory, say, shown};
+use crate::frame::ended;
 use crate::host::Setting;
 use crate::laws::Comparison;
 use crate::package::Stock;
@@ -72,10 +73,10 @@ impl Laws {
         frame.origin.push(("version".into(), env!("CARGO_PKG_VERSION").into()));
         frame.save(&base)?;
         for (ending, text) in [("md", table.markdown()), ("svg", report::sheet(&comparison, &rows).svg()?)] {
-            let file = base.with_extension(ending);
+            let file = ended(&base, ending);
             fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
-        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
+        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| say(shown(&ended(&base, ending))));
         Table::complete([&table])
     }
 }

@@ -135,7 +135,12 @@ impl Run {
         let step = step.unwrap_or((latest - start) / 1000.0);
         afford(span, step)?;
         let inputs = self.inputs(scene, &settings)?;
-        Ok(Experiment { settings, inputs, start, until, step, tolerance: self.tolerance })
+        let experiment = Experiment { settings, inputs, start, until, step, tolerance: self.tolerance };
+        ensure!(
+            experiment.interval(1)?.is_some(),
+            "the end, {latest:e} s, is too near to the start for a step of {step} s"
+        );
+        Ok(experiment)
     }
 
     /// The inputs that change during the run: those of the table, and of the scene those that neither the table nor a

@@ -1,6 +1,7 @@
 //! `sweep`: runs a study.
 
 use super::{out_directory, say, shown};
+use crate::frame::ended;
 use crate::package::Stock;
 use crate::report::study as report;
 use crate::report::table::Table;
@@ -74,7 +75,7 @@ impl Sweep {
         let table = report::summary(&study, &frame);
         say(format!("{}{}\n", table.print(), report::failures(&frame)));
         let mut page = table.markdown();
-        let mut written = vec![base.with_extension("parquet"), base.with_extension("csv"), base.with_extension("md")];
+        let mut written = vec![ended(&base, "parquet"), ended(&base, "csv"), ended(&base, "md")];
         if let Some(linear) = linear {
             let (tables, sentences) = report::linear(&linear, &frame);
             tables.iter().for_each(|table| say(table.print()));
@@ -83,9 +84,9 @@ impl Sweep {
             page += &sentences.iter().map(|sentence| format!("\n{sentence}.\n")).collect::<String>();
             let file = out.join(format!("sweep-{}-linear", study.name));
             report::derivatives(&linear).save(&file)?;
-            written.extend(["parquet", "csv"].map(|ending| file.with_extension(ending)));
+            written.extend(["parquet", "csv"].map(|ending| ended(&file, ending)));
         }
-        fs::write(base.with_extension("md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
+        fs::write(ended(&base, "md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
         written.iter().for_each(|file| say(shown(file)));
         Table::complete([&table])
     }

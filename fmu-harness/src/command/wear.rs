@@ -1,6 +1,7 @@
 //! `wear`: joints that wear over many strokes.
 
 use super::{out_directory, say, shown};
+use crate::frame::ended;
 use crate::host::{Fmu, Setting};
 use crate::package::Stock;
 use crate::report::table::Table;
@@ -95,14 +96,14 @@ impl Wear {
         let page = tables.map(|table| table.markdown()).join("\n") + &format!("\n{told}\n");
         let drawing = report::sheet(&scenario.name, &worn, joints).svg()?;
         for (ending, text) in [("md", page), ("svg", drawing)] {
-            let file = base.with_extension(ending);
+            let file = ended(&base, ending);
             fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
         }
         report::history_frame(&worn, joints).save(&base)?;
         let depth = out.join(format!("wear-{}-depth", scenario.name));
         report::depth_frame(&worn, joints).save(&depth)?;
-        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| say(shown(&base.with_extension(ending))));
-        ["csv", "parquet"].iter().for_each(|ending| say(shown(&depth.with_extension(ending))));
+        ["md", "csv", "parquet", "svg"].iter().for_each(|ending| say(shown(&ended(&base, ending))));
+        ["csv", "parquet"].iter().for_each(|ending| say(shown(&ended(&depth, ending))));
         worn.extrapolation.stopped.map_or(Ok(()), Err)
     }
 

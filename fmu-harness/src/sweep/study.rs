@@ -2,6 +2,7 @@
 
 use super::quantity::Quantity;
 use super::values::{Number, Values, seconds};
+use crate::output::check_column;
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use slidercrank::scene::parameter::Parameter;
@@ -128,7 +129,8 @@ impl Study {
             "[random] needs `draws`, the number of draws, which must be at least 1"
         );
         ensure!(self.draws == 0 || !self.random.is_empty(), "draws = {} needs distributions in [random]", self.draws);
-        for name in self.keep.keys() {
+        for (name, quantity) in &self.keep {
+            check_column(&quantity.of).with_context(|| format!("`{name}` in [keep]"))?;
             ensure!(
                 !OWN_COLUMNS.contains(&name.as_str()) && Parameter::named(name).is_none(),
                 "`{name}` in [keep] needs another name, since `{name}` is a column of the results already"

@@ -101,7 +101,7 @@ pub fn extrapolate(
     tolerance: f64,
     growth: impl FnMut(f64, &[f64]) -> Result<Growth>,
 ) -> Result<Extrapolation> {
-    ensure!(total > 0.0 && total.is_finite(), "the number of strokes is {total}; it must be above 0");
+    ensure!(total > 0.0 && total.is_finite(), "the number of strokes is {total}; it must be finite and above 0");
     ensure!(tolerance > 0.0, "the relative tolerance is {tolerance}; it must be above 0");
     let mut evaluations = Evaluations { growth, known: vec![] };
     let mut first = evaluations.at(0.0, start)?;

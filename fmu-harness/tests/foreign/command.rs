@@ -82,7 +82,7 @@ fn a_refusal_is_one_clear_line() {
     let fmu = fmu.to_str().expect("UTF-8");
     let out = workshop.directory.path().join("out");
     let run = |more: &[&str]| refusal(&[&["run", "--fmu", fmu, "-o", out.to_str().expect("UTF-8")], more].concat());
-    assert!(run(&["--step", "0"]).contains("the communication step is 0 s; it must be above 0"));
+    assert!(run(&["--step", "0"]).contains("the communication step is 0 s; it must be finite and above 0"));
     assert!(run(&["--stop=-1"]).contains("the end, -1 s, is not after the start, 0 s"));
     assert!(run(&["--turns", "3"]).contains("give a --stop time"));
     assert!(run(&["--set", "k"]).contains("expected name=value"));
