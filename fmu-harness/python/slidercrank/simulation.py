@@ -14,6 +14,7 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
 from .calls import kinds_of
+from .setting import Value, value_of
 
 ROUNDING = 1e-6
 """Share of a step by which rows of inputs may be off a communication point."""
@@ -23,16 +24,17 @@ def simulate(
     fmu: str | Path,
     stop: float | None = None,
     step: float | None = None,
-    settings: Mapping[str, float | int | bool | str] | None = None,
+    settings: Mapping[str, Value] | None = None,
     inputs: pandas.DataFrame | None = None,
-    outputs: Iterable[str] | None = None,
+    outputs: str | Iterable[str] | None = None,
 ) -> pandas.DataFrame:
     """Runs an FMU in FMPy; outputs in columns, `time` [s] the index.
 
-    `stop` and `step` [s] are the FMU's own unless they are given. `settings` are start values by name, `inputs` a frame
-    whose index is time [s] and whose columns are inputs, straight between its rows: steps of any length find the same. An
-    FMU of FMI 3.0 cannot be told slopes, and each step holds its first values until it ends or a row comes. Two rows of one
-    time are a jump. Without `outputs` all numbers that the FMU gives are kept.
+    `stop` and `step` [s] are the FMU's own unless they are given. `settings` are start values by name; an item of an
+    enumeration is given by its number or its name. `inputs` is a frame whose index is time [s] and whose columns
+    are inputs, straight between its rows: steps of any length find the same. An FMU of FMI 3.0 cannot be told slopes, and
+    each step holds its first values until it ends or a row comes. Two rows of one time are a jump. Without `outputs`, a name
+    or several, all numbers that the FMU gives are kept.
     """
     description = read_model_description(str(fmu))
     known = {variable.name: variable for variable in description.modelVariables}
@@ -40,11 +42,11 @@ def simulate(
         kinds = kinds_of(description)
         numbers = (v for v in description.modelVariables if v.causality == "output" and v.type in kinds)
         outputs = [variable.name for variable in numbers]
-    outputs = list(outputs)
+    outputs = [outputs] if isinstance(outputs, str) else list(outputs)
     for name in [*outputs, *(settings or {}), *(inputs.columns if inputs is not None else [])]:
         if name not in known:
             raise KeyError(f"{Path(fmu).name} has no variable `{name}`")
-    starts = dict(settings or {})
+    starts = {name: value_of(known[name], value) for name, value in (settings or {}).items()}
     with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
         instance = instantiate_fmu(extract(str(fmu), folder), description, "CoSimulation")
         if inputs is not None:

@@ -21,6 +21,7 @@ from fmpy.model_description import ModelVariable
 from .calls import Number, load
 from .quantity import ANGLE, RATE, TIME, Column, QuantityError
 from .recipe import Recipe, RunError, StoppedError, plain
+from .setting import Value, limits, value_of
 
 STATUS = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"]
 UNWATCHED = 8
@@ -76,9 +77,8 @@ class Unit:
         return values
 
     def limits(self, name: str) -> tuple[float, float]:
-        """The least and the greatest legal value of a variable."""
-        variable = self.variable(name)
-        return float(variable.min or -math.inf), float(variable.max or math.inf)
+        """The least and the greatest legal value of a variable; 0 and 1 are false and true."""
+        return limits(self.variable(name))
 
     def variable(self, name: str) -> ModelVariable:
         variable = self.variables.get(name)
@@ -86,8 +86,11 @@ class Unit:
             raise RunError(f"the FMU has no variable `{name}`")
         return variable
 
-    def start(self, settings: Mapping[str, float] | None = None) -> None:
-        """Starts an instance with these parameters and inputs at time 0, in place of the one before."""
+    def start(self, settings: Mapping[str, Value] | None = None) -> None:
+        """Starts an instance with these parameters and inputs at time 0, in place of the one before.
+
+        An item of an enumeration is given by its number or its name.
+        """
         self.stop()
         self._started = Estimated(self, settings or {})
         self._started.__enter__()
@@ -205,7 +208,7 @@ class Selection:
 class Session:
     """One instance: instantiated with parameters, initialised, freed."""
 
-    def __init__(self, unit: Unit, settings: Mapping[str, float]):
+    def __init__(self, unit: Unit, settings: Mapping[str, Value]):
         self.unit, self.calls = unit, unit.calls
         self.said: str | None = None
         self.settings = settings
@@ -244,9 +247,14 @@ class Session:
         variables = [self.unit.variable(name) for name in names]
         return (ctypes.c_uint * len(variables))(*(variable.valueReference for variable in variables))
 
-    def _set(self, name: str, value: float) -> None:
-        kind, number = self.calls.kinds[self.unit.variable(name).type]
-        values = numpy.array([value], number).ctypes.data_as(ctypes.POINTER(number))
+    def _set(self, name: str, value: Value) -> None:
+        variable = self.unit.variable(name)
+        try:
+            own = value_of(variable, value)
+        except ValueError as error:
+            raise RunError(str(error)) from error
+        kind, number = self.calls.kinds[variable.type]
+        values = numpy.array([own], number).ctypes.data_as(ctypes.POINTER(number))
         self.calls.access("Set", kind)(self.component, self._references([name]), 1, values)
 
     def _standard(self, function: str, *arguments: object) -> None:
@@ -426,7 +434,7 @@ class Instance(Session):
 class Estimated(Session):
     """One instance at a communication point, for an estimator. The functions beside the standard's are in the guide."""
 
-    def __init__(self, unit: Unit, settings: Mapping[str, float]):
+    def __init__(self, unit: Unit, settings: Mapping[str, Value]):
         super().__init__(unit, settings)
         self.time = 0.0
 

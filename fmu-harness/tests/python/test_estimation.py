@@ -103,6 +103,16 @@ def test_what_is_refused_says_why(unit):
             call()
 
 
+def test_limits_are_those_of_the_description(unit):
+    with Unit(fmu("wornpin3")) as newer:
+        for own in (unit, newer):
+            assert own.limits("solver.method") == (1.0, 12.0) and own.limits("drive.mode") == (1.0, 2.0)
+            assert own.limits("energy.audit") == (0.0, 1.0)
+            assert own.limits("rod.flexible.bending_modes") == (0.0, 8.0)
+            assert own.limits(CLEARANCE) == (1e-9, 0.1)
+            assert own.limits("slider.x") == (-math.inf, math.inf)
+
+
 SCALE = {"state.slider.x": 1e-4, "state.rod.angle": 1e-3, "state.slider.vx": 1.0, "state.rod.speed": 10.0}
 
 

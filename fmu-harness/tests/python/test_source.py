@@ -1,14 +1,17 @@
 """The source tree is found, its program called as told, and what it refuses is one error."""
 
+import math
 import os
 import zipfile
 from pathlib import Path
 
+import numpy
 import pandas
 import pytest
 
 import slidercrank
-from slidercrank import SourceError, package, scenes, simulate, source
+from slidercrank import SourceError, Unit, package, scenes, simulate, source
+from slidercrank.recipe import RunError
 
 from conftest import fmu
 
@@ -98,6 +101,64 @@ def test_fmi_3_holds_inputs_until_the_step_ends_or_a_row_comes():
     assert three[1] == pytest.approx(two[1], rel=0.01) and three[1] != two[1]
     # In one step of the ramp there is no torque at all.
     assert three[2] == simulate(fmu("ideal3"), 0.01, 1e-2, **FREE)["crank.speed"].iloc[-1]
+
+
+REFUSED = [
+    ("rod.flexible.bending_modes", 1.9, "`1.9` is not a whole number"),
+    ("rod.flexible.bending_modes", "1.9", "`1.9` is not a whole number"),
+    ("rod.flexible.bending_modes", 2**32 + 1, "`4294967297` is not a whole number of 32 bits"),
+    ("rod.flexible.bending_modes", math.nan, "`nan` is not a whole number"),
+    ("energy.audit", 2, "`2` is not true or false"),
+    ("energy.audit", "yes", "`yes` is not true or false"),
+    ("joint.C.law", "hu", "`hu` is not one of hertz, hunt_crossley, .*, hu_guo, "),
+    ("joint.C.law", 8.5, "`8.5` is not one of hertz, "),
+    ("crank.length", "long", "`long` is not a finite number"),
+    ("crank.length", math.inf, "`inf` is not a finite number"),
+]
+
+
+@pytest.mark.parametrize("scene", ["wornpin", "wornpin3"])
+@pytest.mark.parametrize("name, value, why", REFUSED)
+def test_a_value_of_another_type_is_refused(scene, name, value, why):
+    with pytest.raises(ValueError, match=f"`{name}`: {why}"):
+        simulate(fmu(scene), 1e-4, 1e-4, settings={name: value})
+    with Unit(fmu(scene)) as unit, pytest.raises(RunError, match=f"`{name}`: {why}"):
+        unit.start({name: value})
+
+
+def test_what_no_value_can_be_set_of_is_refused():
+    with pytest.raises(ValueError, match="`joint.C.contact_change`: `1` is not of a type that can be set"):
+        simulate(fmu("wornpin3"), 1e-4, 1e-4, settings={"joint.C.contact_change": 1})
+
+
+@pytest.mark.parametrize("scene", ["wornpin", "wornpin3"])
+@pytest.mark.parametrize(
+    "name, values",
+    [
+        ("joint.C.law", ["hu_guo", 9, 9.0, "9"]),
+        ("solver.method", ["dop853", 3, numpy.int64(3)]),
+        ("energy.audit", [True, 1, 1.0, "true", "1", numpy.True_]),
+        ("rod.flexible.bending_modes", [1, 1.0, "1", numpy.float64(1.0)]),
+        ("crank.length", [0.04, "0.04"]),
+    ],
+)
+def test_a_value_can_be_told_in_several_ways(scene, name, values):
+    outputs = ["slider.x", "joint.C.force.x", "energy.dissipated", "solver.evaluations"]
+    plain, *runs = [simulate(fmu(scene), 2e-3, 1e-4, settings, outputs=outputs) for settings in
+                    [{}, *({name: value} for value in values)]]
+    assert not runs[0].equals(plain) and all(run.equals(runs[0]) for run in runs)
+    told = []
+    for value in values:
+        with Unit(fmu(scene)) as unit:
+            unit.start({name: value})
+            unit.step(2e-3)
+            told.append(list(unit.read(outputs[:3])))
+    assert all(row == told[0] for row in told)
+
+
+def test_one_output_may_be_told_by_its_name():
+    one, several = (simulate(fmu("ideal"), 1e-3, 1e-4, outputs=outputs) for outputs in ("slider.x", ["slider.x"]))
+    assert one.equals(several)
 
 
 def test_without_outputs_all_numbers_are_kept_and_no_clocks():
