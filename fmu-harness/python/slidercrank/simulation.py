@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,6 +14,7 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
 from .calls import kinds_of
+from .recipe import plain
 from .setting import Value, value_of
 
 ROUNDING = 1e-6
@@ -31,7 +32,7 @@ def simulate(
     """Runs an FMU in FMPy; outputs in columns, `time` [s] the index.
 
     `stop` and `step` [s] are the FMU's own unless they are given. `settings` are start values by name; an item of an
-    enumeration is given by its number or its name. `inputs` is a frame whose index is time [s] and whose columns
+    enumeration is given by its number or its name. `inputs` is a frame whose index is time [s], in order, and whose columns
     are inputs, straight between its rows: steps of any length find the same. An FMU of FMI 3.0 cannot be told slopes, and
     each step holds its first values until it ends or a row comes. Two rows of one time are a jump. Without `outputs`, a name
     or several, all numbers that the FMU gives are kept.
@@ -47,6 +48,8 @@ def simulate(
         if name not in known:
             raise KeyError(f"{Path(fmu).name} has no variable `{name}`")
     starts = {name: value_of(known[name], value) for name, value in (settings or {}).items()}
+    if inputs is not None:
+        check(inputs, starts)
     with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
         instance = instantiate_fmu(extract(str(fmu), folder), description, "CoSimulation")
         if inputs is not None:
@@ -67,6 +70,26 @@ def simulate(
             instance.freeInstance()
     columns = {name: result[name] for name in outputs}
     return pandas.DataFrame(columns, index=pandas.Index(result["time"], name="time"))
+
+
+def check(inputs: pandas.DataFrame, settings: Container[str]) -> None:
+    """A `ValueError` unless the columns are numbers over time, each told once."""
+    if not len(inputs):
+        raise ValueError("inputs: there are no rows")
+    if inputs.index.dtype.kind not in "iuf":
+        raise ValueError(f"inputs: the index is {inputs.index.dtype}, but must be numbers, the time in seconds")
+    for place, name in enumerate(inputs.columns):
+        if name in inputs.columns[:place]:
+            raise ValueError(f"inputs: two columns have the name `{name}`")
+        if name in settings:
+            raise ValueError(f"`{name}` is among the settings and the inputs")
+    times = inputs.index.to_numpy(float)
+    table = numpy.column_stack([times, inputs.to_numpy(float)])
+    for row, column in numpy.argwhere(~numpy.isfinite(table)):
+        name = ["time", *inputs.columns][column]
+        raise ValueError(f"inputs, row {row + 1}, column `{name}`: `{table[row, column]}` is not a finite number")
+    for row in numpy.flatnonzero(numpy.diff(times) < 0.0) + 1:
+        raise ValueError(f"inputs, row {row + 1}: time {plain(times[row])} s does not increase")
 
 
 class Signals:

@@ -103,6 +103,34 @@ def test_fmi_3_holds_inputs_until_the_step_ends_or_a_row_comes():
     assert three[2] == simulate(fmu("ideal3"), 0.01, 1e-2, **FREE)["crank.speed"].iloc[-1]
 
 
+def run_with(inputs, settings=None, scene="ideal"):
+    return simulate(fmu(scene), 0.01, 1e-3, {"drive.mode": 1} | (settings or {}), inputs, outputs="crank.speed")
+
+
+@pytest.mark.parametrize(
+    "inputs, settings, why",
+    [
+        (RAMP.iloc[:0], {}, "inputs: there are no rows"),
+        (RAMP.iloc[::-1], {}, r"inputs, row 2: time 0 s does not increase"),
+        (RAMP.set_axis([0.0, math.nan]), {}, "row 2, column `time`: `nan` is not a finite number"),
+        (RAMP.replace(10.0, math.inf), {}, "row 2, column `crank.torque`: `inf` is not a finite number"),
+        (RAMP.set_axis(pandas.to_timedelta([0.0, 0.01], unit="s")), {}, "the index is timedelta64.*, but must be numbers"),
+        (RAMP.set_axis(pandas.to_datetime([0.0, 0.01], unit="s")), {}, "the index is datetime64.*, but must be numbers"),
+        (RAMP.set_axis(["0", "0.01"]), {}, "the index is .*, but must be numbers"),
+        (RAMP, {"crank.torque": 1.0}, "`crank.torque` is among the settings and the inputs"),
+        (RAMP[["crank.torque"] * 2], {}, "two columns have the name `crank.torque`"),
+    ],
+)
+def test_what_is_no_input_over_time_is_refused(inputs, settings, why):
+    with pytest.raises(ValueError, match=why):
+        run_with(inputs, settings)
+
+
+def test_whole_seconds_are_times_too():
+    inputs = pandas.DataFrame({"crank.torque": [2, 4]}, index=[0, 1])
+    assert run_with(inputs).equals(run_with(inputs.astype(float).set_axis([0.0, 1.0])))
+
+
 REFUSED = [
     ("rod.flexible.bending_modes", 1.9, "`1.9` is not a whole number"),
     ("rod.flexible.bending_modes", "1.9", "`1.9` is not a whole number"),
