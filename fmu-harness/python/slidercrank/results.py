@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from tempfile import NamedTemporaryFile
+from tempfile import TemporaryDirectory
 
 import pandas
 import pyarrow
@@ -35,17 +35,14 @@ def table(plan: Plan, outcomes: Mapping[int, Outcome]) -> pyarrow.Table:
 
 def save(results: pyarrow.Table, file: Path) -> None:
     """Writes the file: whole, or not at all."""
-    with NamedTemporaryFile(dir=file.parent, delete=False) as whole:
-        try:
-            writer = pyarrow.parquet.ParquetWriter(whole, results.schema, compression="snappy", store_schema=False)
-            with writer:
-                writer.write_table(results)
-                writer.add_key_value_metadata(results.schema.metadata)
-            whole.close()
-            os.replace(whole.name, file)
-        except BaseException:
-            os.unlink(whole.name)
-            raise
+    # Only the directory is private: a temporary file would be, too, and the results with it.
+    with TemporaryDirectory(dir=file.parent) as folder:
+        whole = Path(folder) / file.name
+        writer = pyarrow.parquet.ParquetWriter(whole, results.schema, compression="snappy", store_schema=False)
+        with writer:
+            writer.write_table(results)
+            writer.add_key_value_metadata(results.schema.metadata)
+        os.replace(whole, file)
 
 
 def load(file: Path) -> pandas.DataFrame:

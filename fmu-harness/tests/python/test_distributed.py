@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
+import pyarrow
 import pyarrow.parquet
 import pytest
 from distributed import Client, LocalCluster
@@ -20,6 +21,7 @@ from distributed import Client, LocalCluster
 from slidercrank import distributed, plan, study
 from slidercrank.distributed import Shipment, StudyError
 from slidercrank.journal import Outcome, path
+from slidercrank.results import load, save
 
 from conftest import PRESS, WORN_PIN, bits, fmu
 
@@ -41,6 +43,19 @@ distributed.run(sys.argv[1], sys.argv[2], Client(sys.argv[3]), sys.argv[4])
 """Dies with its fifth outcome in the journal."""
 LONGEST = 600
 """[s] Ends what hangs; no load makes a wait this long."""
+
+
+@pytest.mark.parametrize("mask, mode", [(0o022, 0o644), (0o007, 0o660)])
+def test_results_may_be_read_by_whom_the_mask_says(tmp_path, mask, mode):
+    file, results = tmp_path / "own.parquet", pyarrow.table({"run": [0], "x": [0.1]}, metadata={"study": "own"})
+    before = os.umask(mask)
+    try:
+        for _ in range(2):
+            save(results, file)
+    finally:
+        os.umask(before)
+    assert file.stat().st_mode & 0o777 == mode and list(tmp_path.iterdir()) == [file]
+    assert load(file)["x"].to_list() == [0.1] and load(file).attrs["study"] == "own"
 
 
 @contextmanager
