@@ -21,7 +21,7 @@ from scipy.optimize import minimize as descend
 
 from .gradient import gradient
 from .recipe import Recipe, RunError
-from .study import plan
+from .study import check_bounds, plan
 from .unit import Unit
 
 Method = Literal["differential_evolution", "nelder_mead", "gradient"]
@@ -65,7 +65,7 @@ def minimise(
     tolerance: float = 1e-3,
     seed: int = 0,
 ) -> Optimum:
-    """The least (or greatest) value of a kept quantity over parameters within `bounds` (SI units).
+    """The least (or greatest) value of a kept quantity over real parameters within `bounds` (SI units).
 
     A study's [run] and [keep] say how each evaluation is run; its grid, draws and table have no part in it. One
     evaluation is one run through FMPy in this process; a run that fails counts as infinitely bad. The search ends
@@ -74,17 +74,21 @@ def minimise(
     same seed gives the same search. `gradient` and Nelder-Mead find the optimum next to the middle, differential
     evolution searches everywhere.
     """
+    if evaluations < 1:
+        raise ValueError(f"evaluations = {evaluations}: wanted at least 1")
+    check_bounds(bounds)
     recipe = plan(file).recipe
     if quantity not in recipe.keep:
         raise KeyError(f"{file} keeps no `{quantity}`: {', '.join(recipe.keep)}")
     if method not in SEARCHES:
         raise ValueError(f"method = {method!r}: wanted {', '.join(SEARCHES)}")
-    for name, (low, high) in bounds.items():
-        if not low < high:
-            raise ValueError(f"`{name}`: {low} is not below {high}")
     recipe = replace(recipe, keep={quantity: recipe.keep[quantity]})
     with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
         unit = Unit(Path(fmu), Path(folder))
+        for name in bounds:
+            variable = unit.variable(name)
+            if variable.type != unit.calls.real or variable.causality not in ("parameter", "input"):
+                raise ValueError(f"`{name}` is not a real parameter or input")
         search = _Search(unit, recipe, quantity, bounds, -1.0 if maximise else 1.0, evaluations, tolerance, seed)
         try:
             SEARCHES[method](search)

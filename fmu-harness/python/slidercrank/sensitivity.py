@@ -10,7 +10,7 @@ import pandas
 from SALib.analyze import sobol as indices
 from SALib.sample import sobol as design
 
-from .study import read, study
+from .study import check_bounds, read, study
 
 
 def sobol(
@@ -36,9 +36,7 @@ def sobol(
         raise ValueError(f"{file}: [{others[0]}] would run every point of the design many times")
     if samples < 2 or samples & (samples - 1):
         raise ValueError(f"samples = {samples}: wanted a power of two")
-    for name, (low, high) in bounds.items():
-        if not low < high:
-            raise ValueError(f"`{name}`: {low} is not below {high}")
+    check_bounds(bounds)
     problem = {"num_vars": len(bounds), "names": list(bounds), "bounds": [list(pair) for pair in bounds.values()]}
     points = design.sample(problem, samples, calc_second_order=False, seed=seed)
     write(Path(file).parent / told["table"], list(bounds), points.tolist())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -49,6 +50,15 @@ def study(file: str | Path, workers: int | None = None, output: str | Path | Non
         if not results.exists() or results.stat().st_mtime_ns == before:
             raise
     return load(results)
+
+
+def check_bounds(bounds: Mapping[str, tuple[float, float]]) -> None:
+    """A `ValueError` unless there are parameters, each with a range."""
+    if not bounds:
+        raise ValueError("there are no bounds: wanted those of at least one parameter")
+    for name, (low, high) in bounds.items():
+        if not low < high:
+            raise ValueError(f"`{name}`: {low} is not below {high}")
 
 
 def plan(file: str | Path) -> Plan:

@@ -4,6 +4,7 @@ import numpy
 import pytest
 
 from slidercrank.optimise import minimise
+from slidercrank.recipe import RunError
 from slidercrank.sensitivity import sobol
 
 from conftest import fmu
@@ -56,6 +57,7 @@ def test_indices_of_a_sum_are_the_shares_of_its_variance(write, tmp_path):
         (REACH + "[grid]\n\"slider.mass\" = [0.1, 0.2]\n", BOUNDS, 8, "grid"),
         (REACH, BOUNDS, 12, "power of two"),
         (REACH, {"crank.length": (0.05, 0.05)}, 8, "not below"),
+        (REACH, {}, 8, "there are no bounds"),
         (BALANCE.replace("[run]", 'table = "design.csv"\n[run]'), {"crank.length": (0.13, 0.3)}, 2, "runs failed"),
     ],
 )
@@ -118,6 +120,27 @@ def test_where_derivatives_tell_nothing_the_search_goes_on_without(write):
         found = minimise(file, fmu("ideal"), "force", {"slider.mass": (0.1, 0.2)}, method="gradient", evaluations=6)
         assert found.method == "Nelder-Mead" and why in found.reason
         assert len(found.evaluations["slider.mass"].unique()) > 2
+
+
+@pytest.mark.parametrize(
+    "bounds, evaluations, why",
+    [
+        ({}, 6, "there are no bounds"),
+        (BOUNDS, 0, "evaluations = 0: wanted at least 1"),
+        (BOUNDS, -1, "evaluations = -1: wanted at least 1"),
+        (BOUNDS | {"rod.flexible.bending_modes": (0, 3)}, 6, "`rod.flexible.bending_modes` is not a real parameter or input"),
+        ({"energy.audit": (0, 1)}, 6, "`energy.audit` is not a real parameter"),
+        ({"slider.x": (0.0, 1.0)}, 6, "`slider.x` is not a real parameter"),
+    ],
+)
+def test_a_search_that_has_no_runs_or_no_room_is_refused(write, bounds, evaluations, why):
+    with pytest.raises(ValueError, match=why):
+        minimise(write(BALANCE), fmu("ideal"), "force", bounds, evaluations=evaluations)
+
+
+def test_a_search_over_nothing_known_is_refused(write):
+    with pytest.raises(RunError, match="no variable `crank.size`"):
+        minimise(write(BALANCE), fmu("ideal"), "force", {"crank.size": (0.0, 1.0)})
 
 
 def test_a_search_is_its_seed_s(write):
