@@ -28,7 +28,7 @@ def force(run: pandas.DataFrame, joint: str) -> pandas.Series:
 def cycles(series: pandas.Series) -> pandas.DataFrame:
     """Rainflow cycles of a series over time: range and mean in its unit, count (0.5 or 1), first and last time."""
     if not numpy.isfinite(series).all():
-        raise ValueError(f"{series.name} has values that are no finite numbers")
+        raise ValueError(f"{series.name} has values that are not finite")
     time = series.index.to_numpy()
     found = [
         (span, mean, count, time[first], time[last])
@@ -65,12 +65,12 @@ def spectrum(run: pandas.DataFrame, joints: Iterable[str] = JOINTS, classes: int
     return table
 
 
-def strokes(run: pandas.DataFrame, of: Iterable[str]) -> pandas.DataFrame:
-    """Smallest, mean and largest value of outputs in every whole stroke: a turn of the crank from its start.
+def strokes(run: pandas.DataFrame, of: str | Iterable[str]) -> pandas.DataFrame:
+    """Smallest, mean and largest value of one output or several in every whole stroke: a turn of the crank from its start.
 
     A row is a stroke, its index the number. The columns are pairs of an output and `min`, `mean` or `max`.
     """
-    outputs = list(of)
+    outputs = [of] if isinstance(of, str) else list(of)
     angle = run["crank.angle"].to_numpy()
     turned = numpy.abs(angle - angle[0]) / TURN
     passed = numpy.floor(turned + ROUNDING).astype(int)

@@ -17,7 +17,10 @@ def placements(study: pandas.DataFrame) -> pandas.DataFrame:
     """
     sizes = {}
     for joint in JOINTS:
-        size = study[f"joint.{joint}.clearance"]
+        name = f"joint.{joint}.clearance"
+        if name not in study:
+            raise KeyError(f"the study has no `{name}`: the clearances of joints A, B and C are in its table or grid")
+        size = study[name]
         model = f"joint.{joint}.model"
         sizes[joint] = size.where(study[model] != IDEAL, 0.0) if model in study else size
     kept = study[[name for name in study.columns if not name.startswith("joint.")]]

@@ -64,11 +64,12 @@ def test_a_run_of_whole_turns_has_all_its_strokes():
         angle = math.pi + math.tau * 5.0 * (0.001 * numpy.arange(200 * turns + 1))
         run = pandas.DataFrame({"crank.angle": angle, "slider.x": numpy.cos(angle)})
         assert list(strokes(run, ["slider.x"]).index) == list(range(turns))
+    assert strokes(run, "slider.x").equals(strokes(run, ["slider.x"]))
 
 
 def test_forces_that_do_not_change_have_no_cycles_and_gaps_are_refused():
     run = pandas.DataFrame({"joint.C.force.x": [0.0] * 5, "joint.C.force.y": [0.0] * 5}, index=numpy.arange(5.0))
     assert spectrum(run, ["C"], classes=4)["C"].tolist() == [0.0] * 4
     run.loc[2.0, "joint.C.force.x"] = math.nan
-    with pytest.raises(ValueError, match="joint.C.force has values that are no finite numbers"):
+    with pytest.raises(ValueError, match="joint.C.force has values that are not finite"):
         spectrum(run, ["C"])

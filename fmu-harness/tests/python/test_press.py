@@ -169,6 +169,12 @@ def test_a_joint_that_a_study_does_not_vary_keeps_its_size():
     assert list(table.index) == [(1e-4, 0.0, 1e-4), (2e-4, 2e-4, 2e-4)] and table["force"].to_list() == [1.0, 2.0]
 
 
+def test_a_study_without_a_clearance_has_no_placements():
+    frame = pandas.DataFrame({"joint.B.clearance": [1e-4], "joint.C.clearance": [1e-4], "force": [1.0]})
+    with pytest.raises(KeyError, match="the study has no `joint.A.clearance`: "):
+        placements(frame)
+
+
 def test_a_figure_of_placements_tells_every_value(ma_qian):
     table = placements(ma_qian)
     panels = plots.placements(table, "peak_force_C")
