@@ -42,8 +42,7 @@ impl Lot {
     }
 
     fn contact(&mut self, contact: &mut Contact) {
-        let laws: Vec<DampingLaw> = (1..=11).filter_map(DampingLaw::from_value).collect();
-        contact.law = self.one_of(&laws);
+        contact.law = self.one_of(DampingLaw::ALL);
         contact.restitution = self.between(0.05, 1.0);
         contact.ratio_limit = self.one_of(&[1.0, 1.0, 1.0, 0.0, 0.5, 2.0]);
         contact.speed_floor = self.one_of(&[1e-3, 1e-3, 1e-2, 0.1]);

@@ -33,7 +33,7 @@ def simulate(
 
     `stop` and `step` [s] are the FMU's own unless they are given. `settings` are start values by name; an item of an
     enumeration is given by its number or its name. `inputs` is a frame whose index is time [s], in order, and whose columns
-    are inputs, straight between its rows: steps of any length find the same. An FMU of FMI 3.0 cannot be told slopes, and
+    are inputs, straight between its rows: steps of any length find the same. An FMU of FMI 3.0 has no slopes of inputs, and
     each step holds its first values until it ends or a row comes. Two rows of one time are a jump. Without `outputs`, a name
     or several, all numbers that the FMU gives are kept.
     """

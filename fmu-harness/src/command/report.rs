@@ -73,7 +73,7 @@ impl Report {
         sections.push(or_why("Accuracy of the slider", accuracy_of(file, &bar)));
         if !self.unmeasured {
             let subject = Subject { file, fmu: &fmu, lengths: Lengths::OF_SCENE };
-            sections.push(or_why("Price of accuracy", price(&subject, &bar)));
+            sections.push(or_why("Cost of accuracy", price(&subject, &bar)));
         }
         bar.finish_and_clear();
 
@@ -166,7 +166,7 @@ fn price(subject: &Subject, bar: &ProgressBar) -> Result<Section> {
     let diagram = Diagram::of(subject, &ruler, &reference, &Budget::QUICK, |_, _| bar.tick())?;
     let diagrams = [diagram];
     let [diagram] = &diagrams;
-    let section = Section::new("Price of accuracy").saying(reports::precision::sentence(diagram));
+    let section = Section::new("Cost of accuracy").saying(reports::precision::sentence(diagram));
     let mut section = section.showing(&reports::precision::sheet(diagram));
     section.legend.clear();
     let section = section.telling(reports::precision::cheapest(&diagrams));

@@ -32,7 +32,7 @@ fn quantile(numbers: &[f64], share: f64) -> f64 {
 /// Statistics of each quantity over all runs that did not fail.
 pub fn summary(study: &Study, frame: &Frame) -> Table {
     let mut table = Table::default();
-    table.row(["quantity", "runs", "mean", "95 % of it", "deviation", "least", "5 %", "median", "95 %", "greatest"]);
+    table.row(["quantity", "runs", "mean", "± 95 %", "deviation", "least", "5 %", "median", "95 %", "greatest"]);
     for name in study.keep.keys() {
         let Some(values) = frame.column(name) else { continue };
         let mut kept: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
@@ -60,7 +60,7 @@ pub fn summary(study: &Study, frame: &Frame) -> Table {
 pub fn linear(linear: &Linear, frame: &Frame) -> ([Table; 2], Vec<String>) {
     let mut table = Table::default();
     let mut sentences = vec![];
-    table.row(["quantity", "deviation", "95 % of it", "linear", "ratio", "explained", "verdict"]);
+    table.row(["quantity", "deviation", "± 95 %", "linear", "ratio", "explained", "verdict"]);
     for (name, row) in &linear.rows {
         match linear.compare(name, row, frame) {
             Ok(found) => {

@@ -97,7 +97,7 @@ def test_figures_are_there_with_their_curves(opened):
         "Journals in their bearings",
         "In the long run",
         "Accuracy of the slider",
-        "Price of accuracy",
+        "Cost of accuracy",
     ]
     points = page.evaluate(
         "[...document.querySelectorAll('figure.plot')].map(f => f.data.reduce((n, trace) => n + trace.x.length, 0))"
