@@ -241,10 +241,13 @@ pub trait System: Events + Linearizable + SeveralInstants {}
 
 impl<S: Events + Linearizable + SeveralInstants + ?Sized> System for S {}
 
+/// Writes the rates of a state at a time [s].
+pub type RatesAt<'a> = dyn Fn(f64, &[f64], &mut [f64]) + 'a;
+
 /// [`SeveralInstants::rates_in_row`] by one evaluation per state: `of` writes the rates of one state at its time. Written out
 /// for each place and each caller, the copies would take 30 kB of code each.
 #[inline(never)]
-pub fn one_by_one(of: &dyn Fn(f64, &[f64], &mut [f64]), t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
+pub fn one_by_one(of: &RatesAt<'_>, t: &F64x8, y: &[F64x8], rates: &mut [F64x8]) {
     let (mut at, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
     let (at, found) = (&mut at[..y.len()], &mut found[..y.len()]);
     for (node, t) in t.numbers().into_iter().enumerate() {
