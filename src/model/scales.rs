@@ -103,7 +103,8 @@ impl Scale {
 /// for, or if the motion has an error that controls the step. The rod's angle has a branch point where r·sin θ = h ± l for complex
 /// angles, h being the height of the pin's line: acosh((l − |h|)/r) beside the real axis.
 fn smooth_rotation(scene: &Scene) -> f64 {
-    if !(scene.energy.audit && scene.drive.mode == DriveMode::Speed) {
+    let modes = scene.rod.flexible.bending_modes + scene.rod.flexible.axial_modes;
+    if !(scene.energy.audit && scene.drive.mode == DriveMode::Speed && modes == 0) {
         return f64::INFINITY;
     }
     let IdealMechanism { crank, rod, height } = IdealMechanism::new(scene);
