@@ -3,7 +3,7 @@
 use super::dots::{Dot, Dots};
 use super::plot::{Role, Sheet};
 use super::table::Table;
-use super::units::three_digits;
+use super::units::{grouped, three_digits};
 use crate::frame::{Column, Frame};
 use crate::laws::{Case, Comparison, JointLoads, Loads};
 use crate::sweep::quantity::Reduction;
@@ -48,6 +48,8 @@ fn cell(number: f64) -> String {
         number if !number.is_finite() => "–".into(),
         // What is left of a loss that is none, such as -2.4e-8 J.
         number if number != 0.0 && number.abs() < 1e-3 => format!("{number:.1e}"),
+        // A count.
+        number if number.fract() == 0.0 => grouped(number),
         number => three_digits(number),
     }
 }
