@@ -3,9 +3,10 @@
 //! Positions follow the quintic through position, velocity and acceleration at both ends, which needs no evaluation.
 //! Where the quintic is not accurate enough for the tolerance, three accelerations inside the step, at its quarters,
 //! correct it to degree eight: q(s) = quintic(s) + (s·(1 − s))³·(e0 + e1·x + e2·x²), x = s − ½ (Birkhoff interpolation;
-//! the coefficients follow from q̈ at x = −¼, 0, ¼). Velocities are the derivative of positions. Where the quintic differs from
-//! the integral of the velocities' cubic by the rounding of the positions only, it is that integral: divided by a short step,
-//! the rounding would become an error of velocities and, in a stiff damper, of forces.
+//! the coefficients follow from q̈ at x = −¼, 0, ¼). Velocities are the derivative of positions. The end of a quintic is
+//! the integral of the velocities' cubic and what the positions add to it, less as much of it as may be their rounding: divided by
+//! a short step, the rounding would become an error of velocities and, in a stiff damper, of forces. What is left depends
+//! continuously on the positions, so that neighbouring motions remain neighbours.
 //!
 //! First-order states follow the cubic through value and rate at both ends, always corrected to degree five by the
 //! rates at the quarters: z(s) = cubic(s) + (s·(1 − s))²·(e0 + e1·x).
@@ -14,8 +15,8 @@ use super::system::{Ode, StateLayout};
 
 /// The quintic is accepted if its error is below this many times the tolerance of a step.
 const SLACK: f64 = 30.0;
-/// A difference of positions below this share of their sum is rounding: one or two units in the last place.
-const ROUNDING: f64 = 0.5 * f64::EPSILON;
+/// Rounding of a difference of positions as a share of the sum of both: half a unit in the last place.
+const ROUNDING: f64 = 0.25 * f64::EPSILON;
 
 /// An accepted step from `t` over `h`: the states and rates at both ends.
 #[derive(Clone, Copy, Debug)]
@@ -173,9 +174,11 @@ impl Step<'_> {
         // Differences at the end between the states and the Taylor polynomial of the start.
         let dv = v1 - v0 - a0;
         let da = a1 - a0;
-        let (of_states, of_velocities) = (self.y1[i] - q0 - v0 - 0.5 * a0, 0.5 * dv - da / 12.0);
+        let of_velocities = 0.5 * dv - da / 12.0;
+        let more = self.y1[i] - q0 - v0 - 0.5 * a0 - of_velocities;
         let rounding = ROUNDING * (q0.abs() + self.y1[i].abs());
-        let dq = if (of_states - of_velocities).abs() <= rounding { of_velocities } else { of_states };
+        // Not by `clamp`, which panics if a diverged state is not a number.
+        let dq = of_velocities + (more - more.max(-rounding).min(rounding));
         let c3 = 10.0 * dq - 4.0 * dv + 0.5 * da;
         let c4 = -15.0 * dq + 7.0 * dv - da;
         let c5 = 6.0 * dq - 3.0 * dv + 0.5 * da;
