@@ -9,18 +9,22 @@ use slidercrank::model::signals::{EnergyOutputs, Outputs};
 /// # Errors
 /// If there is no such output.
 pub fn check_column(name: &str) -> Result<()> {
-    let is_output = |name: &str| {
-        VARIABLES.iter().any(|variable| {
-            variable.name == name
-                && matches!(
-                    variable.access,
-                    Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_)
-                )
-        })
-    };
-    let is_vector = || ["x", "y"].iter().all(|axis| is_output(&format!("{name}.{axis}")));
-    ensure!(is_output(name) || is_vector(), "`{name}` is neither an output nor a vector of two");
+    let found = components(name, |access| match access {
+        Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => Some(()),
+        _ => None,
+    });
+    ensure!(found.is_some(), "`{name}` is neither an output nor a vector of two");
     Ok(())
+}
+
+/// What `of` takes from the variable of this name, or from those of the components x and y.
+fn components<T>(name: &str, of: impl Fn(&Access) -> Option<T>) -> Option<Vec<T>> {
+    let find =
+        |name: &str| VARIABLES.iter().find(|variable| variable.name == name).and_then(|variable| of(&variable.access));
+    match find(name) {
+        Some(one) => Some(vec![one]),
+        None => ["x", "y"].iter().map(|axis| find(&format!("{name}.{axis}"))).collect(),
+    }
 }
 
 /// A real output, or a vector with the components x and y, whose length is taken.
@@ -35,20 +39,12 @@ impl Output {
     /// # Errors
     /// If there is no such real output.
     pub fn named(name: &str) -> Result<Self> {
-        let output = |name: &str| {
-            VARIABLES.iter().find(|variable| variable.name == name).and_then(|variable| match variable.access {
-                Access::RealOutput(get) => Some(get),
-                _ => None,
-            })
-        };
-        let components = match output(name) {
-            Some(get) => vec![get],
-            None => ["x", "y"]
-                .iter()
-                .map(|axis| output(&format!("{name}.{axis}")))
-                .collect::<Option<_>>()
-                .with_context(|| format!("`{name}` is neither a real output nor a vector of two"))?,
-        };
+        let components = components(name, |access| match access {
+            Access::RealOutput(get) => Some(*get),
+            _ => None,
+        });
+        let components =
+            components.with_context(|| format!("`{name}` is neither a real output nor a vector of two"))?;
         Ok(Self { components })
     }
 

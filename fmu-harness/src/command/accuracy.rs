@@ -1,6 +1,6 @@
 //! `accuracy`: the effect of clearances on the slider's motion.
 
-use super::{out_directory, say, shown};
+use super::{out_directory, say, shown, write};
 use crate::accuracy::{Plan, comparisons};
 use crate::frame::ended;
 use crate::report::accuracy as report;
@@ -58,7 +58,7 @@ impl Accuracy {
         bar.finish_and_clear();
         let base = out.join(format!("accuracy-{name}"));
         report::frame(&all, &found).save(&base)?;
-        fs::write(ended(&base, "md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
+        write(&base, "md", &page)?;
         ["md", "csv", "parquet"].iter().for_each(|ending| say(shown(&ended(&base, ending))));
         Table::complete(&tables)
     }

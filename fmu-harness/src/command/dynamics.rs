@@ -1,6 +1,6 @@
 //! `dynamics`: classification of a motion over many turns.
 
-use super::{out_directory, say, shown};
+use super::{out_directory, say, shown, write};
 use crate::dynamics::bifurcation::{Branch as Simulated, From, Range};
 use crate::dynamics::continuation::{Branch, Continuation};
 use crate::dynamics::orbit::Orbit;
@@ -258,10 +258,4 @@ impl Diagram {
         }
         Ok(written)
     }
-}
-
-fn write(base: &Path, ending: &str, text: &str) -> Result<PathBuf> {
-    let file = ended(base, ending);
-    fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
-    Ok(file)
 }

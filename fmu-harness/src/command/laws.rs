@@ -1,6 +1,6 @@
 //! `laws`: peak forces and errors by elasticity and damping law.
 
-use super::{out_directory, say, shown};
+use super::{out_directory, say, shown, write};
 use crate::frame::ended;
 use crate::host::Setting;
 use crate::laws::Comparison;
@@ -73,8 +73,7 @@ impl Laws {
         frame.origin.push(("version".into(), env!("CARGO_PKG_VERSION").into()));
         frame.save(&base)?;
         for (ending, text) in [("md", table.markdown()), ("svg", report::sheet(&comparison, &rows).svg()?)] {
-            let file = ended(&base, ending);
-            fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
+            write(&base, ending, &text)?;
         }
         ["md", "csv", "parquet", "svg"].iter().for_each(|ending| say(shown(&ended(&base, ending))));
         Table::complete([&table])

@@ -34,14 +34,24 @@ pub use ssp::Ssp;
 pub use sweep::Sweep;
 pub use wear::Wear;
 
+use crate::frame::ended;
 use crate::package::build::workspace;
 use crate::report::say::say;
+use anyhow::{Context, Result};
 use std::env;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The default directory of results.
 fn out_directory() -> PathBuf {
     workspace().join("target").join("out")
+}
+
+/// Writes the file `BASE.ENDING` and returns its path.
+fn write(base: &Path, ending: &str, text: &str) -> Result<PathBuf> {
+    let file = ended(base, ending);
+    fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok(file)
 }
 
 /// A path relative to the working directory, if it is inside that directory.

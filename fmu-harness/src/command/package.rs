@@ -45,13 +45,13 @@ impl Package {
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
         let file = self.output.clone().unwrap_or_else(|| out_directory().join(format!("{}.fmu", scenario.name)));
         let mut packages = vec![];
-        for (ending, stock) in self.stocks()? {
-            packages.push((ended(&file, ending), stock.package_for(self.fmi, &scenario)?));
+        for (suffix, stock) in self.stocks()? {
+            packages.push((with_suffix(&file, suffix), stock.package_for(self.fmi, &scenario)?));
         }
         packages.iter().try_for_each(|(file, package)| save(package, file))
     }
 
-    /// The libraries for each file, with the ending of the file's name.
+    /// The libraries for each file, with the suffix of the file's name.
     fn stocks(&self) -> Result<Vec<(&'static str, Stock)>> {
         let mut platforms =
             if self.all_platforms { Platform::value_variants().to_vec() } else { self.platforms.clone() };
@@ -66,13 +66,13 @@ impl Package {
     }
 }
 
-/// Adds an ending to a file's name, before the extension.
-fn ended(file: &Path, ending: &str) -> PathBuf {
-    if ending.is_empty() {
+/// Adds a suffix to a file's name, before the extension.
+fn with_suffix(file: &Path, suffix: &str) -> PathBuf {
+    if suffix.is_empty() {
         return file.to_path_buf();
     }
     let mut name = file.file_stem().unwrap_or_default().to_owned();
-    name.push(ending);
+    name.push(suffix);
     if let Some(extension) = file.extension() {
         name.push(".");
         name.push(extension);

@@ -1,6 +1,6 @@
 //! `sensitivity`: derivatives of quantities of a run by parameters.
 
-use super::{out_directory, say, shown};
+use super::{out_directory, say, shown, write};
 use crate::frame::ended;
 use crate::host::Setting;
 use crate::report::sensitivity as report;
@@ -72,9 +72,8 @@ impl Sensitivity {
         left_out.iter().for_each(say);
         let base = out.join(format!("sensitivity-{}", scenario.name));
         report::frame(&found, checked.as_deref()).save(&base)?;
-        let file = ended(&base, "md");
         let page = tables.iter().map(Table::markdown).chain(left_out).collect::<Vec<_>>().join("\n");
-        fs::write(&file, page).with_context(|| format!("cannot write {}", file.display()))?;
+        write(&base, "md", &page)?;
         ["md", "csv", "parquet"].iter().for_each(|ending| say(shown(&ended(&base, ending))));
         Table::complete(&tables)
     }

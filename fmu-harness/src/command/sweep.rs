@@ -1,6 +1,6 @@
 //! `sweep`: runs a study.
 
-use super::{out_directory, say, shown};
+use super::{out_directory, say, shown, write};
 use crate::frame::ended;
 use crate::package::Stock;
 use crate::report::study as report;
@@ -86,7 +86,7 @@ impl Sweep {
             report::derivatives(&linear).save(&file)?;
             written.extend(["parquet", "csv"].map(|ending| ended(&file, ending)));
         }
-        fs::write(ended(&base, "md"), page).with_context(|| format!("cannot write {}.md", base.display()))?;
+        write(&base, "md", &page)?;
         written.iter().for_each(|file| say(shown(file)));
         Table::complete([&table])
     }

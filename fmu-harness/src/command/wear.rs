@@ -1,6 +1,6 @@
 //! `wear`: joints that wear over many strokes.
 
-use super::{out_directory, say, shown};
+use super::{out_directory, say, shown, write};
 use crate::frame::ended;
 use crate::host::{Fmu, Setting};
 use crate::package::Stock;
@@ -96,8 +96,7 @@ impl Wear {
         let page = tables.map(|table| table.markdown()).join("\n") + &format!("\n{told}\n");
         let drawing = report::sheet(&scenario.name, &worn, joints).svg()?;
         for (ending, text) in [("md", page), ("svg", drawing)] {
-            let file = ended(&base, ending);
-            fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
+            write(&base, ending, &text)?;
         }
         report::history_frame(&worn, joints).save(&base)?;
         let depth = out.join(format!("wear-{}-depth", scenario.name));

@@ -149,9 +149,10 @@ pub struct Path<'a, D> {
 }
 
 impl Flow {
-    /// Memory for a system with the states of `layout` and for `columns` directions.
-    pub fn new(layout: StateLayout, columns: usize) -> Self {
+    /// Memory for a system with the states of `layout`, with these `scales`, and for `columns` directions.
+    pub fn new(layout: StateLayout, scales: &[f64], columns: usize) -> Self {
         let StateLayout { positions, states, .. } = layout;
+        let weight = |scale: &f64| if *scale > 0.0 { 1.0 / scale } else { 0.0 };
         let (forced, zeros) = (states - positions, || vec![0.0; states * columns]);
         Self {
             legendre: Legendre::new(),
@@ -166,7 +167,7 @@ impl Flow {
             before: zeros(),
             inner: zeros(),
             found: zeros(),
-            weights: vec![0.0; states],
+            weights: scales.iter().take(states).map(weight).collect(),
             moving: vec![],
             least: vec![],
         }
@@ -182,9 +183,6 @@ impl Flow {
         self.moving = (0..tangents.ncols()).filter(|&column| moves(column)).collect();
         self.least = self.moving.iter().map(|&column| path.least[column]).collect();
         let StateLayout { positions, states, .. } = path.step.layout;
-        for (weight, scale) in self.weights.iter_mut().zip(path.system.system().scales()) {
-            *weight = if *scale > 0.0 { 1.0 / scale } else { 0.0 };
-        }
         let length = self.moving.len() * states;
         for matrix in
             [&mut self.before, &mut self.inner, &mut self.found, &mut self.moved].into_iter().chain(&mut self.stages)

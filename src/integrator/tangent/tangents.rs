@@ -52,7 +52,7 @@ impl<D: Copy> Tangents<D> {
         let n = state.front().y.len();
         assert_eq!(directions.nrows(), n + system.memories(), "a row for each state and memory");
         assert_eq!(parameters.shape(), (system.parameters(), directions.ncols()), "a row for each parameter");
-        let flow = Flow::new(system.system().layout(), directions.ncols());
+        let flow = Flow::new(system.system().layout(), system.system().scales(), directions.ncols());
         let front = Placed { point: state.front().clone(), directions, crossed: true };
         Self { start: front.clone(), front, parameters, least, tolerance, flow, grazing: None }
     }

@@ -37,7 +37,7 @@ pub struct FacePenetration<R = f64> {
 }
 
 /// The part of a face in contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactZone<R = f64> {
     /// [m] ∫max(0, δ)dx/(2a).
     pub mean: R,
