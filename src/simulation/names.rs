@@ -26,15 +26,17 @@ impl Names {
         let name = |place: usize| state_variables(&self.scene).into_iter().nth(place).map(|state| state.name);
         let state = |place: usize| name(place).unwrap_or_else(|| "a state".into());
         let subject_of = |event: usize| subject_of_event(&self.scene, event);
+        // A step that nothing has judged may have led anywhere.
+        let hint = if self.scene.solver.method.has("fixed step") { "; solver.step may be too long" } else { "" };
         let cause = match error {
             IntegrationError::StepUnderflow { step, component, .. } => {
                 format!("a step of {step:.1e} s no longer moves time; the error of {} is the largest", state(component))
             }
             IntegrationError::NotFinite { component, .. } => {
-                format!("the rate of {} is not finite, or too large to continue", state(component))
+                format!("the rate of {} is not finite, or too large to continue{hint}", state(component))
             }
             IntegrationError::EventsAccumulate { event, .. } => {
-                format!("events accumulate at {}", subject_of(event))
+                format!("events accumulate at {}{hint}", subject_of(event))
             }
             IntegrationError::OutOfRange { event, .. } => {
                 format!(
