@@ -24,9 +24,10 @@
 //! in which the last stage stands twice; `second_order` eliminates the positions.
 //!
 //! Newton's method begins with the polynomial of the last step or, without one, with constant accelerations. It has
-//! converged once the error that is left, which follows from the ratio of two corrections, is a small share of the
-//! tolerance. If it does not converge, the step is repeated, shorter. A step after which it would hardly converge is not
-//! made: the ratio of the corrections bounds the next step through the error.
+//! converged once the error that is left is a small share of the tolerance. What is left follows from the ratio of two
+//! corrections, and after the first from the ratio of the last step. If it does not converge, the step is repeated, shorter.
+//! So is one whose error estimate is too large, whatever is left, without further corrections. A step after which
+//! Newton's method would hardly converge is not made: the ratio of the corrections bounds the next step through the error.
 //!
 //! Error estimate: the difference from a quadrature of order 7 with the additional node 0, of weight h/λ₁, filtered by
 //! (1 − h/λ₁·J)⁻¹ so that it stays bounded in stiff motion: (1 − h/λ₁·J)⁻¹·(h/λ₁·f(t, y) + Σ e_i·z_i).
@@ -52,8 +53,15 @@ const MAX_ITERATIONS: usize = 10;
 /// Newton's method has converged once the error that is left is this share of the tolerance: the errors of all steps have the
 /// same sign, and add up.
 const CONVERGED: f64 = 0.005;
-/// Ratio of two corrections that is assumed after the first.
+/// Ratio of two corrections that is assumed after the first, at most and without a last step.
 const FIRST_RATIO: f64 = 0.1;
+/// Least ratio of two corrections that is assumed after the first.
+const LEAST_RATIO: f64 = 1e-3;
+/// The ratio of two corrections is assumed to be this many times that of the last step.
+const CAUTION: f64 = 2.0;
+/// Share of what is left by which the error estimate may be too large before Newton's method has converged. The rest is assumed
+/// with caution: with all of it, machines take 1.02 of the evaluations.
+const DOUBT: f64 = 0.3;
 /// Newton's method does not converge if a correction is larger than this share of the one before.
 const MAX_RATIO: f64 = 0.9;
 /// A ratio of two corrections that a step should have. The ratio is about proportional to the step.
@@ -89,14 +97,18 @@ struct History {
     changes: Vec<F64x8>,
     /// Whether the motion has gone on without an event since then, so that the polynomial predicts the next step.
     goes_on: bool,
+    /// [1/s] Largest ratio of two corrections over the step, or the one that was assumed.
+    ratio: f64,
 }
 
 /// The seven-stage method.
 #[derive(Clone, Debug)]
 pub struct Radau13 {
     history: History,
-    /// Whether `changes` are those of a step: whether Newton's method has converged.
+    /// Whether `changes` are those of a step: whether Newton's method has converged, or close enough to tell the error.
     converged: bool,
+    /// [1/s] That of the last attempt for the [`History`].
+    ratio: f64,
     jacobian: Jacobian,
     factors: FourFactors,
     /// z: changes of the states from the step's start to its stages.
@@ -117,8 +129,9 @@ impl Radau13 {
         let rows = || vec![F64x8::ZERO; states];
         let modes = || vec![Complex4::ZERO; states];
         Self {
-            history: History { begin: 0.0, end: 0.0, changes: rows(), goes_on: false },
+            history: History { begin: 0.0, end: 0.0, changes: rows(), goes_on: false, ratio: 0.0 },
             converged: false,
+            ratio: 0.0,
             jacobian: Jacobian::new(states),
             factors: FourFactors::with_capacity(states),
             changes: rows(),
@@ -169,26 +182,28 @@ impl Radau13 {
         factors.of(states - positions, |i, j| second_order::element(jacobian, positions, shift, i, j));
     }
 
-    /// Solves for z by Newton's method. Returns the number of iterations and the largest ratio of two successive corrections;
-    /// [`converged`](Self::converged) is then known.
+    /// Solves for z by Newton's method, in which two corrections are `assumed` to have this ratio before it is known. Returns the
+    /// number of iterations and the largest ratio of two successive corrections; [`converged`](Self::converged) is then known,
+    /// and with it the error.
     #[inline(never)] // keeps the frame below the equations' own small
     fn iterate<D: Copy>(
         &mut self,
         system: &dyn System<Discrete = D>,
         start: &StepPoint<D>,
         h: f64,
+        assumed: f64,
         attempt: &mut Attempt,
     ) -> (usize, f64) {
-        let Self { converged, jacobian, factors, changes, modes, correction, y, rates, .. } = self;
         let layout = system.layout();
         let (shift, per_step) = (EIGENVALUES.reciprocal() * h, EIGENVALUES * (1.0 / h));
-        for (mode, change) in modes.iter_mut().zip(&*changes) {
+        for (mode, change) in self.modes.iter_mut().zip(&self.changes) {
             *mode = to_modes(*change);
         }
         let t = NODES.multiply_add(h, F64x8::constant(start.t));
         let (mut before, mut worst) = (f64::INFINITY, 0.0_f64);
-        *converged = false;
+        self.converged = false;
         for iteration in 1..=MAX_ITERATIONS {
+            let Self { jacobian, factors, changes, modes, correction, y, rates, .. } = self;
             for ((y, change), start) in y.iter_mut().zip(&*changes).zip(&start.y) {
                 *y = *change + *start;
             }
@@ -212,7 +227,7 @@ impl Radau13 {
             if !size.is_finite() {
                 return (iteration, f64::INFINITY);
             }
-            let mut ratio = FIRST_RATIO;
+            let mut ratio = assumed;
             if iteration > 1 {
                 ratio = size / before;
                 worst = worst.max(ratio);
@@ -221,9 +236,17 @@ impl Radau13 {
                 let shrinkage = (0..iterations).fold(1.0, |product, _| product * ratio);
                 shrinkage * size * ratio / (1.0 - ratio.min(MAX_RATIO))
             };
-            if left(0) <= 1.0 {
-                *converged = true;
-                return (iteration, worst);
+            let is_solved = left(0) <= 1.0;
+            if is_solved || attempt.judged_by.is_finite() {
+                self.estimate(start, h, layout.positions, &mut attempt.error);
+                let rest = left(0) * CONVERGED * attempt.tolerance;
+                self.converged = is_solved || {
+                    let error = norm(attempt, &start.y, system.scales(), layout, false, attempt.judged_by);
+                    error > 1.0 + DOUBT * rest / attempt.judged_by
+                };
+                if self.converged {
+                    return (iteration, worst);
+                }
             }
             if iteration > 1 && (ratio > MAX_RATIO || left(MAX_ITERATIONS - iteration) > 1.0) {
                 return (iteration, worst);
@@ -283,11 +306,12 @@ impl<D: Copy> Method<D> for Radau13 {
         let positions = layout.positions;
         self.predict(start, h, positions);
         attempt.unseen.fill(0.0);
+        let assumed = self.history.assumed_ratio(start.t, h);
         let (mut evaluations, mut ratio) = (0, 0.0);
         for _ in 0..MAX_JACOBIANS {
             self.linearise(system, start, h, &mut end.y);
             let iterations;
-            (iterations, ratio) = self.iterate(system, start, h, attempt);
+            (iterations, ratio) = self.iterate(system, start, h, assumed, attempt);
             attempt.jacobians += 1;
             // The Jacobian counts as one evaluation.
             evaluations += STAGES * iterations + 1;
@@ -296,8 +320,8 @@ impl<D: Copy> Method<D> for Radau13 {
                 break;
             }
         }
+        self.ratio = if ratio > 0.0 { ratio } else { assumed } / h;
         if self.converged {
-            self.estimate(start, h, positions, &mut attempt.error);
             let tolerance = ERROR_SHARE * attempt.tolerance;
             let size = norm(attempt, &start.y, system.scales(), layout, false, tolerance);
             let least = (0..ERROR_POWER).fold(1.0, |power, _| power * (SAFETY * ratio / GOOD_RATIO)).min(1.0);
@@ -318,9 +342,9 @@ impl<D: Copy> Method<D> for Radau13 {
     }
 
     fn remember(&mut self, start: &StepPoint<D>, end: f64) {
-        let Self { history, changes, converged, .. } = self;
+        let Self { history, changes, converged, ratio, .. } = self;
         if *converged {
-            (history.begin, history.end, history.goes_on) = (start.t, end, true);
+            (history.begin, history.end, history.goes_on, history.ratio) = (start.t, end, true, *ratio);
             history.changes.copy_from_slice(changes);
         }
     }
@@ -338,27 +362,27 @@ impl<D: Copy> Method<D> for Radau13 {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let History { begin, end, changes, goes_on } = &self.history;
+        let History { begin, end, changes, goes_on, ratio } = &self.history;
         snapshot.integers.extend([end > begin, *goes_on].map(u64::from));
         if end > begin {
-            snapshot.reals.extend([begin, end]);
+            snapshot.reals.extend([begin, end, ratio]);
             snapshot.reals.extend(changes.iter().flat_map(|row| row.numbers().into_iter().take(STAGES)));
         }
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let History { begin, end, changes, goes_on } = &mut self.history;
+        let History { begin, end, changes, goes_on, ratio } = &mut self.history;
         (*begin, *end) = (0.0, 0.0);
         let known = reader.integer()? != 0;
         *goes_on = reader.integer()? != 0;
         if known {
-            [*begin, *end] = reader.reals()?;
+            [*begin, *end, *ratio] = reader.reals()?;
             for row in changes {
                 let stages: [f64; STAGES] = reader.reals()?;
                 *row = F64x8::of(std::array::from_fn(|stage| stages[stage.min(STAGES - 1)]));
             }
         }
-        (*begin <= *end).then_some(())
+        (*begin <= *end && *ratio >= 0.0).then_some(())
     }
 }
 
@@ -374,6 +398,12 @@ impl History {
         } else {
             (t == self.begin).then_some(0.0)
         }
+    }
+
+    /// The ratio of two corrections that a step of `h` [s] from `t` is assumed to have. One that is never measured grows.
+    fn assumed_ratio(&self, t: f64, h: f64) -> f64 {
+        let last = self.origin(t, h).map_or(f64::INFINITY, |_| self.ratio * h);
+        (CAUTION * last).clamp(LEAST_RATIO, FIRST_RATIO)
     }
 
     /// Whether `t` lies in the step, which started at `start`.
