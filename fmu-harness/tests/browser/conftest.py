@@ -74,13 +74,30 @@ class Opened:
 
 
 @pytest.fixture
-def opened(browser):
+def fresh(browser):
+    """Opens a page as a reader finds it."""
     pages = []
 
-    def opened(scene, device=SCREEN):
+    def fresh(scene, device=SCREEN):
         pages.append(Opened(browser, scene, device))
         return pages[-1]
 
-    yield opened
+    yield fresh
     for page in pages:
+        page.context.close()
+
+
+@pytest.fixture(scope="session")
+def opened(browser):
+    """Opens a page once for all tests that set what they rely on: drawing it takes seconds."""
+    pages = {}
+
+    def opened(scene, device=SCREEN):
+        key = scene, str(device)
+        if key not in pages:
+            pages[key] = Opened(browser, scene, device)
+        return pages[key]
+
+    yield opened
+    for page in pages.values():
         page.context.close()

@@ -19,8 +19,8 @@ def test_it_loads_without_a_complaint_and_without_a_network(opened, scene, devic
     assert page.page.locator("h1").text_content() == scene
 
 
-def test_the_play_button_moves_the_slider_and_stops_it(opened):
-    page = opened("wornpin")
+def test_the_play_button_moves_the_slider_and_stops_it(fresh):
+    page = fresh("wornpin")
     start = page.slider()
     page.page.click("#play")
     page.page.wait_for_timeout(400)
@@ -113,8 +113,8 @@ def test_figures_are_there_with_their_curves(opened):
     assert page.locator("#accuracy-of-the-slider tr").count() == 17 + 6 + 6
 
 
-def test_a_curve_zooms_and_the_others_over_turns_with_it(opened):
-    page = opened("wornpin").page
+def test_a_curve_zooms_and_the_others_over_turns_with_it(fresh):
+    page = fresh("wornpin").page
     figure = page.locator('figure[data-over="turns"]').first
     figure.scroll_into_view_if_needed()
     box = figure.locator(".nsewdrag").first.bounding_box()
@@ -132,8 +132,8 @@ def test_a_curve_zooms_and_the_others_over_turns_with_it(opened):
     assert ranges.count(ranges[0]) == 8
 
 
-def test_a_click_on_a_curve_shows_the_mechanism_there(opened):
-    opened = opened("wornpin")
+def test_a_click_on_a_curve_shows_the_mechanism_there(fresh):
+    opened = fresh("wornpin")
     page = opened.page
     figure = page.locator('figure[data-over="turns"]').first
     figure.scroll_into_view_if_needed()
