@@ -8,6 +8,7 @@ use slidercrank::model::ideal::IdealMechanism;
 use slidercrank::model::rod::Rod;
 use slidercrank::model::signals::Outputs;
 use slidercrank::scene::check::MAX_ROUGHNESS;
+use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::read::SceneFile;
 use slidercrank::scene::{JointModel, Lubrication, Scene};
 use std::f64::consts::{PI, TAU};
@@ -17,14 +18,35 @@ const POINTS: usize = 7200;
 
 /// [rad] Crank angle at which the slider of the ideal mechanism is farthest from the crank: crank and rod are in line.
 pub fn farthest(scene: &Scene) -> f64 {
-    let IdealMechanism { crank, rod, height } = IdealMechanism::new(scene);
-    (height / (rod + crank)).asin()
+    sine_in_line(&IdealMechanism::new(scene), 1.0).asin()
 }
 
 /// [rad] Crank angle at which the slider of the ideal mechanism is nearest to the crank.
 pub fn nearest(scene: &Scene) -> f64 {
-    let IdealMechanism { crank, rod, height } = IdealMechanism::new(scene);
-    PI + (height / (rod - crank)).asin()
+    PI + sine_in_line(&IdealMechanism::new(scene), -1.0).asin()
+}
+
+/// [rad per unit of the parameter] Derivative of the angle by a parameter: of that of [`farthest`] if `side` is 1, of that of
+/// [`nearest`] if it is −1.
+pub fn slope_of_dead_centre(scene: &Scene, side: f64, parameter: &Parameter) -> f64 {
+    let Kind::Real { get, set, .. } = parameter.kind else { return 0.0 };
+    // The dimensions are linear in all parameters.
+    let [less, more] = [-1.0, 1.0].map(|change| {
+        let mut changed = scene.clone();
+        set(&mut changed, get(scene) + change);
+        IdealMechanism::new(&changed)
+    });
+    let slope = |of: fn(&IdealMechanism) -> f64| (of(&more) - of(&less)) / 2.0;
+    let ideal = IdealMechanism::new(scene);
+    let sine = sine_in_line(&ideal, side);
+    let lengths = slope(|ideal| ideal.rod) + side * slope(|ideal| ideal.crank);
+    let length = ideal.rod + side * ideal.crank;
+    (slope(|ideal| ideal.height) - sine * lengths) / (length * ((1.0 - sine) * (1.0 + sine)).sqrt())
+}
+
+/// Sine of the angle to the guide of crank and rod in line, one behind the other (1) or side by side (−1).
+fn sine_in_line(ideal: &IdealMechanism, side: f64) -> f64 {
+    ideal.height / (ideal.rod + side * ideal.crank)
 }
 
 /// Length of a run.

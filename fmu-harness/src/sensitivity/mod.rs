@@ -1,6 +1,7 @@
 //! Derivatives of quantities of a run by parameters, from the tangent of the motion: exact through impacts.
 //!
-//! A quantity at a crank angle is differentiated at that angle, which neighbours pass at other times. The largest value
+//! A quantity at a crank angle is differentiated at that angle, which neighbours pass at other times; at a dead centre, at
+//! each neighbour's own. The largest value
 //! of an output is differentiated where it is reached, on both sides if it lies in a corner.
 //!
 //! Where a motion is chaotic, derivatives grow like the motion's largest exponent, and the changes for which they hold
@@ -9,7 +10,7 @@
 
 mod extremum;
 
-use crate::accuracy::{farthest, nearest};
+use crate::accuracy::{farthest, nearest, slope_of_dead_centre};
 use crate::dynamics::machine::Simulated;
 use crate::dynamics::tangent::Tangent;
 use crate::dynamics::{Flow, Machine};
@@ -113,6 +114,15 @@ impl At {
             Self::InnerDeadCentre => nearest(scene),
         }
     }
+
+    /// [rad per unit of the parameter] Derivative of the angle by a parameter.
+    fn slope(self, file: &SceneFile, parameter: &Parameter) -> f64 {
+        match self {
+            Self::Angle(_) => 0.0,
+            Self::OuterDeadCentre => slope_of_dead_centre(&file.scene, 1.0, parameter),
+            Self::InnerDeadCentre => slope_of_dead_centre(&file.scene, -1.0, parameter),
+        }
+    }
 }
 
 impl Wanted {
@@ -133,23 +143,24 @@ impl Wanted {
         }
     }
 
-    /// What outputs, their rates and their derivatives at a time [s] say about it; with `at_angle` its derivatives are those
-    /// at a constant crank angle.
+    /// What outputs, their rates and their derivatives at a time [s] say about it. Its derivatives are those at a constant time
+    /// or, with derivatives of a crank angle [rad], at that angle.
     fn reading(
         &self,
         time: f64,
         outputs: &Outputs,
         rates: &Outputs,
         slopes: Result<&[Outputs], &Error>,
-        at_angle: bool,
+        angle: Option<&[f64]>,
     ) -> Reading {
         let rate = self.of.slope(outputs, rates);
-        let slope = |slopes: &Outputs| {
-            // At the same angle, which comes later by −δθ/θ̇.
-            let late = if at_angle { slopes.crank.angle / outputs.crank.speed } else { 0.0 };
-            self.of.slope(outputs, slopes) - rate * late
+        let slope = |(place, slopes): (usize, &Outputs)| {
+            // A neighbour is at its angle earlier by what it is ahead of it.
+            let early = angle.map_or(0.0, |angle| (slopes.crank.angle - angle[place]) / outputs.crank.speed);
+            self.of.slope(outputs, slopes) - rate * early
         };
-        let slopes = slopes.map(|slopes| slopes.iter().map(slope).collect()).map_err(|error| anyhow!("{error:#}"));
+        let slopes = slopes.map(|slopes| slopes.iter().enumerate().map(slope).collect());
+        let slopes = slopes.map_err(|error| anyhow!("{error:#}"));
         Reading { time, value: self.of.value(outputs), rate, slopes }
     }
 }
@@ -285,7 +296,7 @@ impl Experiment<'_> {
             })
         };
         let window = self.window(&file)?;
-        let readings = self.readings(&file, window, wanted, &mut machine, derivatives)?;
+        let readings = self.readings(&file, window, wanted, parameters, &mut machine, derivatives)?;
         machine.advance(window[1])?;
         let (reach, growth) = match machine.directions() {
             Ok(end) => {
@@ -320,7 +331,7 @@ impl Experiment<'_> {
     fn values_within(&self, window: [f64; 2], wanted: &[Wanted]) -> Result<Vec<f64>> {
         let file = self.accurate();
         let mut machine = Machine::start(&file)?;
-        let readings = self.readings(&file, window, wanted, &mut machine, |_| Ok(vec![]))?;
+        let readings = self.readings(&file, window, wanted, &[], &mut machine, |_| Ok(vec![]))?;
         let value = |(wanted, readings): (&Wanted, Vec<Reading>)| {
             wanted.value(&readings.iter().map(|reading| reading.value).collect::<Vec<_>>())
         };
@@ -334,17 +345,22 @@ impl Experiment<'_> {
     }
 
     /// Runs `machine` and reads each quantity at each of its instants within the window [s], in order. `derivatives` gives
-    /// those of the outputs at the time reached.
+    /// those of the outputs at the time reached by the parameters.
     fn readings<S: Simulated>(
         &self,
         file: &SceneFile,
         window: [f64; 2],
         wanted: &[Wanted],
+        parameters: &[&'static Parameter],
         machine: &mut Machine<S>,
         derivatives: impl Fn(&mut Machine<S>) -> Result<Vec<Outputs>>,
     ) -> Result<Vec<Vec<Reading>>> {
         let instants = wanted.iter().map(|wanted| self.instants(file, window, wanted)).collect::<Result<Vec<_>>>()?;
         let at_edge = |time: f64| window.iter().any(|edge| (time - edge).abs() <= SAME_TURN * window[1]);
+        // Turns are counted from the start.
+        let edge: Vec<f64> = parameters.iter().map(|of| f64::from(of.name == "crank.angle_start")).collect();
+        let slopes_at = |at: At| parameters.iter().map(|parameter| at.slope(file, parameter)).collect();
+        let angles: Vec<Option<Vec<f64>>> = wanted.iter().map(|wanted| wanted.at.map(slopes_at)).collect();
         let mut times: Vec<(f64, usize)> = vec![];
         for (i, instants) in instants.iter().enumerate() {
             times.extend(instants.iter().flat_map(|instant| instant.times()).map(|time| (time, i)));
@@ -355,8 +371,9 @@ impl Experiment<'_> {
             machine.advance(together[0].0)?;
             let (outputs, rates, slopes) = (machine.outputs(), machine.output_rates(), derivatives(machine));
             for &(time, i) in together {
-                let at_angle = wanted[i].at.is_some() || self.counted && at_edge(time);
-                read[i].push(wanted[i].reading(time, &outputs, &rates, slopes.as_ref().map(Vec::as_slice), at_angle));
+                let angle = angles[i].as_ref().or_else(|| (self.counted && at_edge(time)).then_some(&edge));
+                let slopes = slopes.as_ref().map(Vec::as_slice);
+                read[i].push(wanted[i].reading(time, &outputs, &rates, slopes, angle.map(Vec::as_slice)));
             }
         }
         let taken = instants.into_iter().zip(read).map(|(instants, read)| {

@@ -144,7 +144,12 @@ fn a_periodic_motion_is_the_simulated_one_and_its_multipliers_are_how_neighbours
 }
 
 /// Asserts that derivatives of a run's quantities are difference quotients of neighbouring runs within a share of them.
-fn assert_differences(file: &SceneFile, wanted: &[&str], names: [&str; 2], share: f64) -> Sensitivities {
+fn assert_differences<const N: usize>(
+    file: &SceneFile,
+    wanted: &[&str],
+    names: [&str; N],
+    share: f64,
+) -> Sensitivities {
     let experiment = Experiment { file, turns: 0.2, transient: 0.0, counted: false };
     let wanted: Vec<Wanted> = wanted.iter().map(|text| text.parse().expect("a quantity")).collect();
     let names = names.map(|name| parameters(name).expect("a parameter")[0]);
@@ -183,6 +188,26 @@ fn inputs_over_the_crank_angle_have_their_share_in_every_derivative() {
         let wanted = ["slider.a", "joint.C.force.x", "drive.torque", "slider.v"];
         assert_differences(&file, &wanted, ["crank.speed_start", "crank.angle_start"], 1e-5);
         assert_differences(&file, &["joint.C.force.x@40deg", "slider.a@40deg"], ["slider.mass", "crank.length"], 1e-5);
+    }
+}
+
+/// Each neighbour has dead centres of its own.
+#[test]
+fn a_quantity_at_a_dead_centre_has_its_derivative_there() {
+    let mut file = Scenario::find("ideal").expect("a shipped scene").file;
+    file.scene.guide.offset = 0.1 * file.scene.rod.length;
+    let dimensions = ["crank.length", "rod.length", "guide.offset", "slider.centre.y"];
+    file.scene.crank.angle_start = 2.8;
+    assert_differences(&file, &["crank.angle@tdc", "slider.a@tdc", "joint.C.force.x@tdc"], dimensions, 1e-5);
+    file.scene.crank.angle_start = -0.3;
+    let found = assert_differences(&file, &["crank.angle@bdc", "slider.a@bdc", "joint.T.force.y@bdc"], dimensions, 1e-5);
+    let slopes = found.rows[0].slopes.as_ref().expect("slopes");
+    // sin θ is the offset over the length of crank and rod in line.
+    let (crank, rod, offset) = (file.scene.crank.length, file.scene.rod.length, file.scene.guide.offset);
+    let straight = ((rod + crank).powi(2) - offset.powi(2)).sqrt();
+    let exact = [-offset / (rod + crank), -offset / (rod + crank), 1.0, -1.0].map(|rise| rise / straight);
+    for (slope, exact) in slopes.iter().zip(exact) {
+        assert!((slope - exact).abs() < 1e-12 * exact.abs(), "{slopes:?} {exact}");
     }
 }
 

@@ -24,10 +24,10 @@
 //! in which the last stage stands twice; `second_order` eliminates the positions.
 //!
 //! Newton's method begins with the polynomial of the last step or, without one, with constant accelerations. It has
-//! converged once the error that is left is a small share of the tolerance. What is left follows from the ratio of two
-//! corrections, and after the first from the ratio of the last step. If it does not converge, the step is repeated, shorter.
-//! So is one whose error estimate is too large, whatever is left, without further corrections. A step after which
-//! Newton's method would hardly converge is not made: the ratio of the corrections bounds the next step through the error.
+//! converged once the error that is left, which follows from the ratio of two corrections, is a small share of the
+//! tolerance. If it does not converge, the step is repeated, shorter. So is one whose error estimate is too large, whatever is
+//! left, without further corrections. A step after which Newton's method would hardly converge is not made: the ratio of the
+//! corrections bounds the next step through the error.
 //!
 //! Error estimate: the difference from a quadrature of order 7 with the additional node 0, of weight h/λ₁, filtered by
 //! (1 − h/λ₁·J)⁻¹ so that it stays bounded in stiff motion: (1 − h/λ₁·J)⁻¹·(h/λ₁·f(t, y) + Σ e_i·z_i).
@@ -53,12 +53,8 @@ const MAX_ITERATIONS: usize = 10;
 /// Newton's method has converged once the error that is left is this share of the tolerance: the errors of all steps have the
 /// same sign, and add up.
 const CONVERGED: f64 = 0.005;
-/// Ratio of two corrections that is assumed after the first, at most and without a last step.
+/// Ratio of two corrections that is assumed after the first.
 const FIRST_RATIO: f64 = 0.1;
-/// Least ratio of two corrections that is assumed after the first.
-const LEAST_RATIO: f64 = 1e-3;
-/// The ratio of two corrections is assumed to be this many times that of the last step.
-const CAUTION: f64 = 2.0;
 /// Share of what is left by which the error estimate may be too large before Newton's method has converged. The rest is assumed
 /// with caution: with all of it, machines take 1.02 of the evaluations.
 const DOUBT: f64 = 0.3;
@@ -97,8 +93,6 @@ struct History {
     changes: Vec<F64x8>,
     /// Whether the motion has gone on without an event since then, so that the polynomial predicts the next step.
     goes_on: bool,
-    /// [1/s] Largest ratio of two corrections over the step, or the one that was assumed.
-    ratio: f64,
 }
 
 /// The seven-stage method.
@@ -107,8 +101,6 @@ pub struct Radau13 {
     history: History,
     /// Whether `changes` are those of a step: whether Newton's method has converged, or close enough to tell the error.
     converged: bool,
-    /// [1/s] That of the last attempt for the [`History`].
-    ratio: f64,
     jacobian: Jacobian,
     factors: FourFactors,
     /// z: changes of the states from the step's start to its stages.
@@ -129,9 +121,8 @@ impl Radau13 {
         let rows = || vec![F64x8::ZERO; states];
         let modes = || vec![Complex4::ZERO; states];
         Self {
-            history: History { begin: 0.0, end: 0.0, changes: rows(), goes_on: false, ratio: 0.0 },
+            history: History { begin: 0.0, end: 0.0, changes: rows(), goes_on: false },
             converged: false,
-            ratio: 0.0,
             jacobian: Jacobian::new(states),
             factors: FourFactors::with_capacity(states),
             changes: rows(),
@@ -182,16 +173,14 @@ impl Radau13 {
         factors.of(states - positions, |i, j| second_order::element(jacobian, positions, shift, i, j));
     }
 
-    /// Solves for z by Newton's method, in which two corrections are `assumed` to have this ratio before it is known. Returns the
-    /// number of iterations and the largest ratio of two successive corrections; [`converged`](Self::converged) is then known,
-    /// and with it the error.
+    /// Solves for z by Newton's method. Returns the number of iterations and the largest ratio of two successive corrections;
+    /// [`converged`](Self::converged) is then known, and with it the error.
     #[inline(never)] // keeps the frame below the equations' own small
     fn iterate<D: Copy>(
         &mut self,
         system: &dyn System<Discrete = D>,
         start: &StepPoint<D>,
         h: f64,
-        assumed: f64,
         attempt: &mut Attempt,
     ) -> (usize, f64) {
         let layout = system.layout();
@@ -227,7 +216,7 @@ impl Radau13 {
             if !size.is_finite() {
                 return (iteration, f64::INFINITY);
             }
-            let mut ratio = assumed;
+            let mut ratio = FIRST_RATIO;
             if iteration > 1 {
                 ratio = size / before;
                 worst = worst.max(ratio);
@@ -306,12 +295,11 @@ impl<D: Copy> Method<D> for Radau13 {
         let positions = layout.positions;
         self.predict(start, h, positions);
         attempt.unseen.fill(0.0);
-        let assumed = self.history.assumed_ratio(start.t, h);
         let (mut evaluations, mut ratio) = (0, 0.0);
         for _ in 0..MAX_JACOBIANS {
             self.linearise(system, start, h, &mut end.y);
             let iterations;
-            (iterations, ratio) = self.iterate(system, start, h, assumed, attempt);
+            (iterations, ratio) = self.iterate(system, start, h, attempt);
             attempt.jacobians += 1;
             // The Jacobian counts as one evaluation.
             evaluations += STAGES * iterations + 1;
@@ -320,7 +308,6 @@ impl<D: Copy> Method<D> for Radau13 {
                 break;
             }
         }
-        self.ratio = if ratio > 0.0 { ratio } else { assumed } / h;
         if self.converged {
             let tolerance = ERROR_SHARE * attempt.tolerance;
             let size = norm(attempt, &start.y, system.scales(), layout, false, tolerance);
@@ -342,9 +329,9 @@ impl<D: Copy> Method<D> for Radau13 {
     }
 
     fn remember(&mut self, start: &StepPoint<D>, end: f64) {
-        let Self { history, changes, converged, ratio, .. } = self;
+        let Self { history, changes, converged, .. } = self;
         if *converged {
-            (history.begin, history.end, history.goes_on, history.ratio) = (start.t, end, true, *ratio);
+            (history.begin, history.end, history.goes_on) = (start.t, end, true);
             history.changes.copy_from_slice(changes);
         }
     }
@@ -362,27 +349,27 @@ impl<D: Copy> Method<D> for Radau13 {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let History { begin, end, changes, goes_on, ratio } = &self.history;
+        let History { begin, end, changes, goes_on } = &self.history;
         snapshot.integers.extend([end > begin, *goes_on].map(u64::from));
         if end > begin {
-            snapshot.reals.extend([begin, end, ratio]);
+            snapshot.reals.extend([begin, end]);
             snapshot.reals.extend(changes.iter().flat_map(|row| row.numbers().into_iter().take(STAGES)));
         }
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let History { begin, end, changes, goes_on, ratio } = &mut self.history;
+        let History { begin, end, changes, goes_on } = &mut self.history;
         (*begin, *end) = (0.0, 0.0);
         let known = reader.integer()? != 0;
         *goes_on = reader.integer()? != 0;
         if known {
-            [*begin, *end, *ratio] = reader.reals()?;
+            [*begin, *end] = reader.reals()?;
             for row in changes {
                 let stages: [f64; STAGES] = reader.reals()?;
                 *row = F64x8::of(std::array::from_fn(|stage| stages[stage.min(STAGES - 1)]));
             }
         }
-        (*begin <= *end && *ratio >= 0.0).then_some(())
+        (*begin <= *end).then_some(())
     }
 }
 
@@ -398,12 +385,6 @@ impl History {
         } else {
             (t == self.begin).then_some(0.0)
         }
-    }
-
-    /// The ratio of two corrections that a step of `h` [s] from `t` is assumed to have. One that is never measured grows.
-    fn assumed_ratio(&self, t: f64, h: f64) -> f64 {
-        let last = self.origin(t, h).map_or(f64::INFINITY, |_| self.ratio * h);
-        (CAUTION * last).clamp(LEAST_RATIO, FIRST_RATIO)
     }
 
     /// Whether `t` lies in the step, which started at `start`.
