@@ -55,6 +55,9 @@ static SEARCH: [[f64; SAMPLES]; SEARCHED + 1] = {
 };
 /// [share of the step] Distances over which the top of a maximum is refined.
 const NEAR: [f64; 3] = [1e-2, 2e-3, 2e-4];
+/// A top may lie this many grid steps beside the middle of three, where no others are beyond them: at most one, but for the error
+/// of the parabola.
+const BESIDE: f64 = 1.1;
 /// Most maxima of one joint in a step.
 const MAX_MAXIMA: usize = 4;
 /// Most zeros of sliding velocities in a step.
@@ -358,7 +361,8 @@ impl IntervalAudit {
         for joint in 0..JOINTS {
             let forces = self.source(joint, &contacts);
             if forces != Source::Nothing {
-                let of = |t| run.at(t, Asked { forces, sliding: false }).joints[joint];
+                let asked = Asked { forces, sliding: false };
+                let of = |t| if t < end { run.at(t, asked) } else { run.at_end(asked) }.joints[joint];
                 found.maxima[joint] = maxima(&samples.each_ref().map(|sample| sample.joints[joint]), span, of);
             }
         }
@@ -430,17 +434,25 @@ fn maxima(
     let mut found = NOTHING.maxima[0];
     let sum = |weights: &[f64; SAMPLES]| weights.iter().zip(samples).map(|(weight, sample)| weight * sample).sum();
     let polynomial: [f64; SEARCHED + 1] = SEARCH.each_ref().map(sum);
-    let tops = (1..SEARCHED).filter(|&i| polynomial[i - 1] < polynomial[i] && polynomial[i] >= polynomial[i + 1]);
-    for (i, found) in tops.zip(&mut found) {
+    // Parabolas through three neighbours find tops between the outermost two, too.
+    let tops = (1..SEARCHED).filter_map(|i| {
         let [before, here, after] = [i - 1, i, i + 1].map(|i| polynomial[i]);
-        let mut top = (i as f64 + 0.5 * (after - before) / (2.0 * here - before - after)) / SEARCHED as f64;
+        let (bend, slope) = (2.0 * here - before - after, 0.5 * (after - before));
+        let rises = before < here || i == 1 && slope > -BESIDE * bend;
+        let falls = here >= after || i == SEARCHED - 1 && slope < BESIDE * bend;
+        (rises && falls).then(|| ((i as f64 + slope / bend) / SEARCHED as f64).clamp(0.0, 1.0))
+    });
+    for (mut top, found) in tops.zip(&mut found) {
         // From there on the tops of parabolas through the function itself.
-        let time = |s: f64| start + (end - start) * s;
+        let time = |s: f64| if s < 1.0 { start + (end - start) * s } else { end };
         let mut best = (time(top), of(time(top)));
         for step in NEAR {
-            let [before, after] = [of(time(top - step)), of(time(top + step))];
-            let bend = 2.0 * best.1 - before - after;
-            let better = top + if bend > 0.0 { (0.5 * step * (after - before) / bend).clamp(-step, step) } else { 0.0 };
+            let middle = top.clamp(step, 1.0 - step);
+            let here = if middle == top { best.1 } else { of(time(middle)) };
+            let [before, after] = [of(time(middle - step)), of(time(middle + step))];
+            let bend = 2.0 * here - before - after;
+            let better =
+                if bend > 0.0 { middle + (0.5 * step * (after - before) / bend).clamp(-step, step) } else { top };
             let value = of(time(better));
             if value > best.1 {
                 (top, best) = (better, (time(better), value));
@@ -530,6 +542,24 @@ mod tests {
             let slope = (force(time + 1e-6) - force(time - 1e-6)) / 2e-6;
             // F″ is 2 000: the place is known to 1e-6, the value to 1e-9.
             assert!(slope.abs() < 2e-3, "{time}: {slope}");
+        }
+    }
+
+    #[test]
+    fn a_top_beside_an_end_of_the_step_is_found() {
+        // The first grid point inside is 0.0104 from the end.
+        for top in [2.0001, 2.002, 2.005, 2.0104, 2.4896, 2.495, 2.498, 2.4999] {
+            let force = |t: f64| 5.0 + (8.0 * (t - top)).cos();
+            let found = maxima(&samples(force), [2.0, 2.5], force);
+            let largest = found.iter().map(|(_, value)| *value).fold(0.0, f64::max);
+            assert!((largest - 6.0).abs() < 1e-12, "{top}: {largest}");
+            assert!(found.iter().all(|(time, _)| time.is_infinite() || (2.0..=2.5).contains(time)), "{found:?}");
+        }
+        for outside in [1.999, 2.501] {
+            let force = |t: f64| 5.0 + (8.0 * (t - outside)).cos();
+            let found = maxima(&samples(force), [2.0, 2.5], force);
+            let ends = force(2.0).max(force(2.5));
+            assert!(found.iter().all(|(_, value)| *value <= ends), "{found:?}");
         }
     }
 

@@ -200,7 +200,8 @@ fn a_quantity_at_a_dead_centre_has_its_derivative_there() {
     file.scene.crank.angle_start = 2.8;
     assert_differences(&file, &["crank.angle@tdc", "slider.a@tdc", "joint.C.force.x@tdc"], dimensions, 1e-5);
     file.scene.crank.angle_start = -0.3;
-    let found = assert_differences(&file, &["crank.angle@bdc", "slider.a@bdc", "joint.T.force.y@bdc"], dimensions, 1e-5);
+    let found =
+        assert_differences(&file, &["crank.angle@bdc", "slider.a@bdc", "joint.T.force.y@bdc"], dimensions, 1e-5);
     let slopes = found.rows[0].slopes.as_ref().expect("slopes");
     // sin θ is the offset over the length of crank and rod in line.
     let (crank, rod, offset) = (file.scene.crank.length, file.scene.rod.length, file.scene.guide.offset);
