@@ -62,9 +62,6 @@ impl MethodKind {
 pub struct Attempt {
     /// The tolerance, in scales of the states, for a method that iterates.
     pub tolerance: f64,
-    /// The tolerance, in scales of the states, by which the error will be judged, for a method that can tell early that it is too
-    /// large; infinite if nothing judges it.
-    pub judged_by: f64,
     /// Number of Jacobians that the attempt has computed and factorised.
     pub jacobians: u64,
     /// Estimated error of each state.
@@ -83,15 +80,7 @@ impl Attempt {
     pub fn new(states: usize, tolerance: f64) -> Self {
         let zeros = || vec![0.0; states];
         let events = [Default::default(); MAX_EVENTS];
-        Self {
-            tolerance,
-            judged_by: f64::INFINITY,
-            jacobians: 0,
-            error: zeros(),
-            coarse_error: zeros(),
-            unseen: zeros(),
-            events,
-        }
+        Self { tolerance, jacobians: 0, error: zeros(), coarse_error: zeros(), unseen: zeros(), events }
     }
 }
 

@@ -75,7 +75,7 @@ pub fn accepted<D: Copy>(
             Err(reached) => shortest = shortest.min(reached),
         }
     }
-    stepper.attempt(system, shortest, f64::INFINITY);
+    stepper.attempt(system, shortest);
     let component = control::worst_component(&stepper.attempt, system);
     Err(IntegrationError::StepUnderflow { time, step: shortest, component })
 }
@@ -113,9 +113,7 @@ fn fitted<D: Copy>(
         if h <= 0.0 {
             break;
         }
-        // With a budget the tolerance depends on the work of the attempt.
-        let judged_by = if stepper.deadline.is_some() { f64::INFINITY } else { nominal };
-        stepper.attempt(system, h, judged_by);
+        stepper.attempt(system, h);
         let looseness = stepper.looseness();
         let tolerance = nominal * looseness;
         let (full, keeps_length) = (stepper.properties.error_power, stepper.properties.keeps_length);

@@ -104,18 +104,17 @@ impl<D: Copy> Stepper<D> {
         self.deadline.map_or(1.0, |_| self.state.account.looseness)
     }
 
-    /// Attempts a step of length `h` [s] from the start of the present step, and counts its work. Its error will be judged by
-    /// the tolerance `judged_by`.
-    pub(super) fn attempt(&mut self, system: &dyn System<Discrete = D>, h: f64, judged_by: f64) {
-        let evaluations = self.attempt_uncounted(system, h, judged_by);
+    /// Attempts a step of length `h` [s] from the start of the present step, and counts its work.
+    pub(super) fn attempt(&mut self, system: &dyn System<Discrete = D>, h: f64) {
+        let evaluations = self.attempt_uncounted(system, h);
         self.state.statistics.evaluations += evaluations;
         self.state.account.jacobians += deadline::work_of(self.attempt.jacobians, self.layout.states);
     }
 
     /// As [`attempt`](Self::attempt), but counts nothing. Returns the number of evaluations.
-    fn attempt_uncounted(&mut self, system: &dyn System<Discrete = D>, h: f64, judged_by: f64) -> u64 {
+    fn attempt_uncounted(&mut self, system: &dyn System<Discrete = D>, h: f64) -> u64 {
         self.attempt.tolerance = self.allowed_looseness() * self.settings.tolerance;
-        (self.attempt.judged_by, self.attempt.jacobians) = (judged_by, 0);
+        self.attempt.jacobians = 0;
         let (start, end) = self.state.ends();
         self.method.attempt(system, start, h, end, &mut self.attempt)
     }
@@ -124,7 +123,7 @@ impl<D: Copy> Stepper<D> {
     pub(super) fn attempt_to(&mut self, system: &dyn System<Discrete = D>, t: f64) {
         let start = self.state.start().t;
         let h = t - start;
-        self.attempt(system, h, f64::INFINITY);
+        self.attempt(system, h);
         // The end of a rounded step differs from `t`.
         if self.gives_end() && start + h != t {
             self.evaluate_end(system, t);
@@ -220,7 +219,7 @@ impl<D: Copy> Stepper<D> {
         if self.properties.interpolates || t <= self.state.start().t {
             return false;
         }
-        self.attempt_uncounted(system, t - self.state.start().t, f64::INFINITY);
+        self.attempt_uncounted(system, t - self.state.start().t);
         first_invalid(&self.state.attempt().y).is_none()
     }
 

@@ -17,7 +17,7 @@ use super::observation::observe;
 use super::record::Discrete;
 use super::start::pose;
 use crate::integrator::{MAX_STATES, Reader, Snapshot};
-use crate::math::Real;
+use crate::math::{PORTABLE, Real};
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
@@ -159,9 +159,11 @@ impl HostedMechanism {
         Update { states_changed: before != self.states, dead_end }
     }
 
-    /// Outputs; the integrator's counters stay at 0.
+    /// Outputs; the integrator's counters and tolerance stay at 0.
     pub fn outputs(&self) -> Outputs {
-        self.observe(&self.states, &self.conditions)
+        let mut outputs = self.observe(&self.states, &self.conditions);
+        outputs.solver.portable_used = PORTABLE;
+        outputs
     }
 
     /// Their time derivatives along the motion.

@@ -95,6 +95,13 @@ fn co_simulation_tells_states_and_derivatives_as_well() {
     assert_eq!(real(&slave, FIRST_DERIVATIVE + 4), slave.get("crank.acceleration"));
 }
 
+/// An importer's integrator calls the library that it has loaded.
+#[test]
+fn the_portable_library_says_that_it_computes() {
+    let slave = running();
+    assert_eq!(slave.get_boolean("solver.portable_used"), 1);
+}
+
 #[test]
 fn time_is_the_importers() {
     let slave = started(1.0e3);

@@ -211,7 +211,6 @@ impl Series {
     /// Builds the library, for processors of the series' level if it has one. cargo makes a shared library of a Rust library
     /// for one target at a time.
     fn library(&self, workspace: &Path, platform: Platform, triple: &'static str) -> Result<Library> {
-        let mut command = self.program()?;
         let linker = match self.linker {
             Linker::Own => "",
             Linker::Zig(_) => "-zig",
@@ -219,6 +218,7 @@ impl Series {
         };
         let level = self.level.map(|level| format!("-{level}")).unwrap_or_default();
         let directory = workspace.join("target").join(format!("library{linker}{level}"));
+        let mut command = self.program(&directory)?;
         command
             .args(["--profile", self.profile.name(), "--lib", "--crate-type", "cdylib", "--package", "slidercrank"])
             .arg("--target-dir")
@@ -242,17 +242,17 @@ impl Series {
         Ok(Library { platform, triple, level: self.level, file })
     }
 
-    /// cargo or cargo-zigbuild, set up for the linker.
-    fn program(&self) -> Result<Command> {
+    /// cargo or cargo-zigbuild, set up for the linker, for builds in a directory.
+    fn program(&self, directory: &Path) -> Result<Command> {
         let mut command = match &self.linker {
             Linker::Own | Linker::MinGw => cargo(),
             Linker::Zig(folder) => {
                 let mut command = Command::new(folder.join("cargo-zigbuild"));
                 command.current_dir(workspace()).env("PATH", tools::path_with(folder)?).env("CARGO", own_cargo());
                 let cache = workspace().join("target").join("zig-cache");
-                for variable in ["CARGO_ZIGBUILD_CACHE_DIR", "ZIG_GLOBAL_CACHE_DIR", "ZIG_LOCAL_CACHE_DIR"] {
-                    command.env(variable, &cache);
-                }
+                command.env("ZIG_GLOBAL_CACHE_DIR", &cache).env("ZIG_LOCAL_CACHE_DIR", &cache);
+                // It makes its wrappers there, and fails if another series makes the same ones at that moment.
+                command.env("CARGO_ZIGBUILD_CACHE_DIR", directory.join("zigbuild"));
                 command
             }
         };
