@@ -13,11 +13,11 @@ use super::assemble::model;
 use super::contacts::{ContactReport, ContactWatch, Instant};
 use super::derivatives::{sensitivity, slopes};
 use super::error::SimulationError;
-use super::observation::observe;
+use super::observation::{observe, with_settings};
 use super::record::Discrete;
 use super::start::pose;
 use crate::integrator::{MAX_STATES, Reader, Snapshot};
-use crate::math::{PORTABLE, Real};
+use crate::math::Real;
 use crate::model::drive::InputSignal;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
@@ -161,9 +161,7 @@ impl HostedMechanism {
 
     /// Outputs; the integrator's counters and tolerance stay at 0.
     pub fn outputs(&self) -> Outputs {
-        let mut outputs = self.observe(&self.states, &self.conditions);
-        outputs.solver.portable_used = PORTABLE;
-        outputs
+        with_settings(self.observe(&self.states, &self.conditions), 0.0)
     }
 
     /// Their time derivatives along the motion.

@@ -157,17 +157,15 @@ const NOTHING: Examination = Examination {
 };
 
 impl Examined<'_> {
-    /// What is asked at `t` in the last step.
+    /// What is asked at `t` in the last step; at its end, before the events there.
     #[inline(never)]
     fn at(&mut self, t: f64, asked: Asked) -> Forces {
+        let StepPoint { t: end, y, discrete, .. } = self.integrator.state().end();
+        if t >= *end {
+            return forces(self.model, self.observer, discrete, *end, y, asked);
+        }
         let (y, conditions) = self.integrator.state_at(self.model, t);
         forces(self.model, self.observer, &conditions, t, y, asked)
-    }
-
-    /// What is asked at the end of the last step, before the events there.
-    fn at_end(&self, asked: Asked) -> Forces {
-        let StepPoint { t, y, discrete, .. } = self.integrator.state().end();
-        forces(self.model, self.observer, discrete, *t, y, asked)
     }
 
     /// The contacts during the last step.
@@ -349,20 +347,13 @@ impl IntervalAudit {
         if asked.forces == Source::Nothing && !asked.sliding {
             return found;
         }
-        let time = |sample: usize| if sample == SAMPLES - 1 { end } else { start + (end - start) * PLACES[sample] };
-        // At the end the step is seen before the events there.
-        let samples: [Forces; SAMPLES] =
-            std::array::from_fn(
-                |sample| {
-                    if sample == SAMPLES - 1 { run.at_end(asked) } else { run.at(time(sample), asked) }
-                },
-            );
+        let time = |sample: usize| place(span, PLACES[sample]);
+        let samples: [Forces; SAMPLES] = std::array::from_fn(|sample| run.at(time(sample), asked));
         found.at_end = samples[SAMPLES - 1].joints;
         for joint in 0..JOINTS {
             let forces = self.source(joint, &contacts);
             if forces != Source::Nothing {
-                let asked = Asked { forces, sliding: false };
-                let of = |t| if t < end { run.at(t, asked) } else { run.at_end(asked) }.joints[joint];
+                let of = |t| run.at(t, Asked { forces, sliding: false }).joints[joint];
                 found.maxima[joint] = maxima(&samples.each_ref().map(|sample| sample.joints[joint]), span, of);
             }
         }
@@ -424,13 +415,14 @@ fn integrated(run: &mut Examined<'_>, kinks: &[f64; MAX_KINKS], [start, end]: [f
     sums
 }
 
+/// [s] The time after a share of a span [s], which ends exactly where it does.
+fn place([start, end]: [f64; 2], share: f64) -> f64 {
+    if share < 1.0 { start + (end - start) * share } else { end }
+}
+
 /// Time [s] and value of the local maxima inside a step, given samples at Chebyshev's extrema of `span` [s] and the
 /// function itself.
-fn maxima(
-    samples: &[f64; SAMPLES],
-    [start, end]: [f64; 2],
-    mut of: impl FnMut(f64) -> f64,
-) -> [(f64, f64); MAX_MAXIMA] {
+fn maxima(samples: &[f64; SAMPLES], span: [f64; 2], mut of: impl FnMut(f64) -> f64) -> [(f64, f64); MAX_MAXIMA] {
     let mut found = NOTHING.maxima[0];
     let sum = |weights: &[f64; SAMPLES]| weights.iter().zip(samples).map(|(weight, sample)| weight * sample).sum();
     let polynomial: [f64; SEARCHED + 1] = SEARCH.each_ref().map(sum);
@@ -444,7 +436,7 @@ fn maxima(
     });
     for (mut top, found) in tops.zip(&mut found) {
         // From there on the tops of parabolas through the function itself.
-        let time = |s: f64| if s < 1.0 { start + (end - start) * s } else { end };
+        let time = |share: f64| place(span, share);
         let mut best = (time(top), of(time(top)));
         for step in NEAR {
             let middle = top.clamp(step, 1.0 - step);

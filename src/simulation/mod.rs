@@ -33,12 +33,12 @@ pub use side::Side;
 pub use system::System;
 
 use crate::integrator::{IntegrationError, MAX_STATES, Reader, WorkLimit};
-use crate::math::PORTABLE;
 use crate::model::drive::InputSignal;
 use crate::model::signals::{Inputs, Outputs};
 use crate::scene::Scene;
 use motion::Motion;
 use names::Names;
+use observation::with_settings;
 
 /// A mechanism at a communication point.
 ///
@@ -281,10 +281,4 @@ impl Simulation {
             )),
         }
     }
-}
-
-/// Outputs with the settings in use.
-fn with_settings(mut outputs: Outputs, tolerance: f64) -> Outputs {
-    (outputs.solver.tolerance_used, outputs.solver.portable_used) = (tolerance, PORTABLE);
-    outputs
 }

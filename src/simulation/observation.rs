@@ -1,6 +1,7 @@
 //! Outputs of a mechanism and of its integrator.
 
 use crate::integrator::{Account, Statistics};
+use crate::math::PORTABLE;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
 use crate::model::signals::{Outputs, SolverOutputs};
@@ -30,4 +31,10 @@ pub fn solver_outputs(statistics: Statistics, account: &Account, relative: f64) 
         error_estimate: relative * account.error,
         ..SolverOutputs::default()
     }
+}
+
+/// Outputs with the settings in use: the tolerance and the library.
+pub fn with_settings(mut outputs: Outputs, tolerance: f64) -> Outputs {
+    (outputs.solver.tolerance_used, outputs.solver.portable_used) = (tolerance, PORTABLE);
+    outputs
 }

@@ -5,9 +5,10 @@
 
 use super::contacts::{contacts, subject, subject_of_event};
 use super::error::SimulationError;
+use super::observation::with_settings;
 use super::phase::Phase;
 use super::variation::{Grazing, Seed, Variation};
-use super::{Simulation, Snapshot, with_settings};
+use super::{Simulation, Snapshot};
 use crate::model::coordinates::{Role, state_variables};
 use crate::model::signals::Outputs;
 use crate::model::state::CONTACTS;

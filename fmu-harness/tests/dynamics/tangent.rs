@@ -212,6 +212,22 @@ fn a_quantity_at_a_dead_centre_has_its_derivative_there() {
     }
 }
 
+/// Turns are counted from where the crank starts.
+#[test]
+fn where_turns_are_counted_the_end_of_the_window_moves_with_the_start() {
+    let file = Scenario::find("ideal").expect("a shipped scene").file;
+    let experiment = Experiment { file: &file, turns: 0.2, transient: 0.0, counted: true };
+    let wanted = ["slider.x", "crank.angle"].map(|text| text.parse().expect("a quantity"));
+    let parameter = parameters("crank.angle_start").expect("a parameter")[0];
+    let found = experiment.run(&wanted, &[parameter]).expect("a run");
+    let differences = differences(&experiment, &wanted, parameter).expect("neighbours");
+    for (row, difference) in found.rows.iter().zip(differences) {
+        let slope = row.slopes.as_ref().expect("slopes")[0];
+        assert!((slope - difference).abs() <= 1e-6 * difference.abs(), "{}: {slope} {difference}", row.wanted.text);
+    }
+    assert!((found.rows[1].slopes.as_ref().expect("slopes")[0] - 1.0).abs() < 1e-12);
+}
+
 #[test]
 fn neighbours_of_another_speed_run_as_long() {
     let file = Scenario::find("ideal").expect("a shipped scene").file;
