@@ -143,8 +143,8 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let StiffnessSwitch { kind, steps, check_interval, balance, block, reach, explicit } = self.switch;
-        snapshot.reals.extend([balance, block, reach, explicit]);
+        let StiffnessSwitch { kind, steps, check_interval, balance, block, reach, explicit, waste } = self.switch;
+        snapshot.reals.extend([balance, block, reach, explicit, waste]);
         snapshot.integers.extend([self.kind as u64, kind as u64]);
         snapshot.integers.extend([steps, check_interval].map(u64::from));
         Method::<D>::save(&self.block, snapshot);
@@ -152,7 +152,7 @@ impl<D: Copy> Method<D> for Automatic {
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let [balance, block, reach, explicit] = reader.reals()?;
+        let [balance, block, reach, explicit, waste] = reader.reals()?;
         self.kind = read_kind(reader)?;
         self.switch = StiffnessSwitch {
             kind: read_kind(reader)?,
@@ -162,6 +162,7 @@ impl<D: Copy> Method<D> for Automatic {
             block,
             reach,
             explicit,
+            waste,
         };
         Method::<D>::load(&mut self.block, reader)?;
         Method::<D>::load(&mut self.implicit, reader)?;

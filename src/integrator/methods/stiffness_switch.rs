@@ -7,9 +7,10 @@
 //!
 //! Stiffness is suspected where an explicit step is no longer short against the fastest motion, as two stages at the same
 //! instant reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
-//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer, unless
-//! explicit steps are near their stability bound: an implicit step is longer there, and events have often changed the
-//! motion since the last trial. Explicit steps need not be at their stability bound for a trial to pay: at tight tolerances
+//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer. It comes
+//! sooner where explicit steps are near their stability bound, for an implicit step is longer there, and events have often
+//! changed the motion since the last trial; but not before explicit steps have done several times the work that the last
+//! trial wasted. Explicit steps need not be at their stability bound for a trial to pay: at tight tolerances
 //! accuracy bounds them first, and steps of a higher order are longer. Where the rates are not cheap, implicit steps are
 //! therefore compared with explicit ones as long as those before the trial, in times of the fastest motion. Where they are
 //! cheap, a trial costs more than it may gain: the comparison is with steps at the bound.
@@ -31,6 +32,8 @@ const MIN_CHECK_INTERVAL: u32 = 32;
 const MAX_CHECK_INTERVAL: u32 = 256;
 /// Number of explicit steps between two looks for steps near the stability bound.
 const EARLY_CHECK_INTERVAL: u32 = 16;
+/// Explicit steps before the next early look, for each explicit step that the last trial wasted.
+const PATIENCE: f64 = 8.0;
 /// Share of the stability bound from which on a step is near it: two stages reveal less than the fastest rate.
 const NEAR_BOUND: f64 = 0.4;
 /// Share of the stability bound at which explicit steps begin after a series of implicit ones.
@@ -53,7 +56,7 @@ const IMPLICIT_SERIES: u32 = 256;
 /// A trial, and a series of steps that has paid, ends where its balance falls below this. A step changes the balance by
 /// what it gains over a step of the other kind, by 1 at most.
 const OVERDRAFT: f64 = -2.0;
-/// Largest balance of a series of steps that has paid.
+/// Largest balance of a series of steps that has paid, and the most that a step makes up of wasted work, in times its own.
 const CREDIT: f64 = 6.0;
 /// A step of a trial that does not pay yet costs nothing if the next step is longer by this factor.
 const GROWING: f64 = 1.5;
@@ -76,14 +79,16 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// The terms of a system with `positions` positions. The costs are as measured with three to twelve positions.
+    /// The terms of a system with `positions` positions. The costs are as measured with three to twelve positions where rates
+    /// are cheap and with 17 to 20 where they are not. With fewer, those of rates that are not cheap are up to a third less
+    /// than measured: a trial that pays in evaluations, which the limit of work counts, may take a little more time.
     pub fn new(bound: f64, positions: usize, rates_are_cheap: bool) -> Self {
         let positions = positions as f64;
         if rates_are_cheap {
             // What two stages reveal is less than the bound where the fastest motion is at rest.
             Self { bound, suspected: 0.3 * bound, least_reach: bound, cost: 0.08 + 0.033 * positions }
         } else {
-            Self { bound, suspected: 0.1 * bound, least_reach: USUAL_REACH, cost: 0.1 + 0.01 * positions }
+            Self { bound, suspected: 0.1 * bound, least_reach: USUAL_REACH, cost: 0.1 + 0.001 * positions * positions }
         }
     }
 }
@@ -105,6 +110,8 @@ pub struct StiffnessSwitch {
     pub reach: f64,
     /// [s] Usual length of the last explicit steps; 0 if there were none.
     pub explicit: f64,
+    /// Work of the last series of implicit steps less that of explicit steps in the same time, in explicit steps.
+    pub waste: f64,
 }
 
 impl StiffnessSwitch {
@@ -117,6 +124,7 @@ impl StiffnessSwitch {
         block: 0.0,
         reach: 0.0,
         explicit: 0.0,
+        waste: 0.0,
     };
     /// Start of a motion of a system that suits blocks.
     pub const BLOCKS: Self = Self { kind: MethodKind::Block, ..Self::NON_STIFF };
@@ -130,6 +138,7 @@ impl StiffnessSwitch {
             && self.explicit.is_finite()
             && self.explicit >= 0.0
             && self.reach >= 0.0
+            && self.waste.is_finite()
     }
 
     /// Records an accepted block of length `h` [s]. `fastest` computes the fastest rate [1/s] at its end and is called
@@ -138,7 +147,8 @@ impl StiffnessSwitch {
         if self.check_is_due(self.check_interval) {
             let reach = h * fastest();
             if reach > SUSPECTED_REACH {
-                *self = Self { kind: MethodKind::Implicit, block: h, reach: reach.max(USUAL_REACH), ..*self };
+                let reach = reach.max(USUAL_REACH);
+                *self = Self { kind: MethodKind::Implicit, block: h, reach, waste: 0.0, ..*self };
             }
         }
     }
@@ -148,7 +158,7 @@ impl StiffnessSwitch {
     pub fn after_explicit(&mut self, h: f64, terms: &Terms, stiffness: impl FnOnce() -> f64) {
         self.note_explicit(h);
         if self.suspicion(self.check_interval, terms, stiffness) == Some(true) {
-            *self = Self { kind: MethodKind::Implicit, steps: 0, reach: 0.0, ..*self };
+            *self = Self { kind: MethodKind::Implicit, steps: 0, reach: 0.0, waste: 0.0, ..*self };
         }
     }
 
@@ -173,7 +183,9 @@ impl StiffnessSwitch {
         if self.check_is_due(check_interval) {
             return Some(stiffness() > terms.suspected);
         }
-        let is_near = self.steps.is_multiple_of(EARLY_CHECK_INTERVAL) && stiffness() > NEAR_BOUND * terms.bound;
+        let is_early =
+            self.steps.is_multiple_of(EARLY_CHECK_INTERVAL) && f64::from(self.steps) >= PATIENCE * self.waste;
+        let is_near = is_early && stiffness() > NEAR_BOUND * terms.bound;
         is_near.then_some(true)
     }
 
@@ -207,9 +219,9 @@ impl StiffnessSwitch {
             self.reach = if self.explicit > 0.0 { usual } else { bound };
         }
         let of_other = if self.block > 0.0 { EXPLICIT_COST_IN_BLOCKS } else { 1.0 };
-        // The length times the fastest rate from which on a step pays.
-        let worth = work.evaluations as f64 * cost * of_other * self.reach;
-        let gain = h * fastest / worth;
+        let work_in_steps = work.evaluations as f64 * cost * of_other;
+        let gain = h * fastest / (work_in_steps * self.reach);
+        self.waste += work_in_steps * (1.0 - gain).max(-CREDIT);
         let is_growing = self.steps < MIN_PAID_STEPS && work.next > GROWING * h;
         if gain > 1.0 || !is_growing {
             self.enter(gain);
@@ -217,7 +229,7 @@ impl StiffnessSwitch {
         if self.balance > OVERDRAFT && self.steps < IMPLICIT_SERIES {
             return None;
         }
-        self.end_trial(Self { block: self.block, explicit: self.explicit, ..Self::NON_STIFF });
+        self.end_trial(Self { block: self.block, explicit: self.explicit, waste: self.waste, ..Self::NON_STIFF });
         Some(STABLE_SHARE * bound / fastest)
     }
 
@@ -330,7 +342,10 @@ mod tests {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
             switch.after_implicit(h, work(h), &COSTLY, 4e6).is_some()
         });
-        assert_eq!((ends, switch), (Some(28), StiffnessSwitch { explicit: 9e-7, ..StiffnessSwitch::NON_STIFF }));
+        assert_eq!(
+            (ends, switch),
+            (Some(28), StiffnessSwitch { explicit: 9e-7, waste: switch.waste, ..StiffnessSwitch::NON_STIFF })
+        );
     }
 
     #[test]
@@ -377,6 +392,27 @@ mod tests {
             switch.after_explicit(1e-6, &CHEAP, || 2.0);
             assert_eq!((switch.kind, switch.steps), (MethodKind::Implicit, 0));
         }
+    }
+
+    #[test]
+    fn explicit_steps_near_the_bound_outweigh_what_a_trial_wasted_before_the_next() {
+        // A step of 0.1/ω does what 0.1/4.6 explicit steps do and takes the work of 15·0.146.
+        let mut switch = StiffnessSwitch { kind: MethodKind::Implicit, explicit: 1e-6, ..StiffnessSwitch::NON_STIFF };
+        let after = |switch: &mut StiffnessSwitch, h: f64, next: f64| {
+            switch.after_implicit(h, StepWork { evaluations: 15, next }, &CHEAP, 1e6);
+        };
+        (0..3).for_each(|_| after(&mut switch, 1e-7, 1e-7));
+        assert!((switch.waste - 3.0 * (15.0 * 0.146 - 0.1 / 4.6)).abs() < 1e-12, "{}", switch.waste);
+        let next = (1..).find(|_| {
+            switch.after_explicit(1e-6, &CHEAP, || 2.0);
+            switch.kind == MethodKind::Implicit
+        });
+        assert_eq!(next, Some(64)); // Eight times 6.5 steps are 52, and every sixteenth is looked at.
+        // One that has paid wastes nothing.
+        (0..12).for_each(|_| after(&mut switch, 3e-5, 3e-5));
+        assert!(switch.waste < 0.0 && switch.is_sound());
+        (0..12).for_each(|_| after(&mut switch, f64::INFINITY, 1e-7));
+        assert!(switch.is_sound());
     }
 
     #[test]
