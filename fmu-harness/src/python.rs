@@ -33,10 +33,18 @@ pub fn environment(name: &str, missing: Missing) -> Result<PathBuf> {
     Ok(PathBuf::from(output(&mut command)?.trim()))
 }
 
+/// An environment's interpreter. What it compiles lies under `target/`, not beside the sources.
+pub fn interpreter(python: &Path) -> Command {
+    let mut command = Command::new(python);
+    command.env("PYTHONPYCACHEPREFIX", workspace().join("target").join("pycache"));
+    command.env_remove("PYTHONDONTWRITEBYTECODE").env_remove("PYTHONPATH").env_remove("LD_LIBRARY_PATH");
+    command
+}
+
 /// A script of [`sources`], run by an environment's interpreter.
 pub fn script(python: &Path, name: &str) -> Command {
-    let mut command = Command::new(python);
-    command.arg("-B").arg(sources().join(name)).env_remove("PYTHONPATH").env_remove("LD_LIBRARY_PATH");
+    let mut command = interpreter(python);
+    command.arg(sources().join(name));
     command
 }
 

@@ -62,13 +62,13 @@ impl Tools {
                 Ok(command)
             }
             Kind::Python(script) => {
-                let mut command = Command::new(self.python.as_ref()?);
-                command.args(["-B", "-W", "ignore"]).arg(sources().join(script)).arg(job).arg(program.word);
+                let mut command = python::interpreter(self.python.as_ref()?);
+                command.args(["-W", "ignore"]).arg(sources().join(script)).arg(job).arg(program.word);
                 // One thread for each program, since CPU times are compared.
                 command.env("NUMBA_CACHE_DIR", self.directory.join("numba")).env("OMP_NUM_THREADS", "1");
                 // Where heyoka keeps what it has compiled.
                 command.env("XDG_CACHE_HOME", self.directory.join("cache"));
-                command.env_remove("PYTHONPATH").env("OPENBLAS_NUM_THREADS", "1");
+                command.env("OPENBLAS_NUM_THREADS", "1");
                 Ok(command)
             }
         }

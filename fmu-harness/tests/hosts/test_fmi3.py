@@ -289,7 +289,7 @@ def test_ecos_runs_the_package_without_clocks():
     assert not [variable for variable in read_model_description(str(file)).modelVariables if variable.type == "Clock"]
     assert validate_fmu(str(file)) == []
     script = Path(__file__).with_name("in_ecos_alone.py")
-    command = [sys.executable, "-B", str(script), str(file), str(step), str(points), *signals]
+    command = [sys.executable, str(script), str(file), str(step), str(points), *signals]
     # libtbb.so.12, which ecos needs, came with the environment.
     environment = dict(os.environ, LD_LIBRARY_PATH=str(Path(sys.prefix) / "lib"))
     done = subprocess.run(command, capture_output=True, text=True, env=environment)

@@ -1,11 +1,10 @@
 //! Files of Python tests, run by pytest in an environment that `fmu_harness::python` makes under `target/`.
 #![allow(clippy::panic, reason = "a test's way to fail")]
 
-use fmu_harness::python::{Missing, environment};
+use fmu_harness::python::{Missing, environment, interpreter};
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::OnceLock;
 
 /// The Python tests of one folder.
@@ -39,10 +38,10 @@ impl Suite {
     /// Runs one file and fails with its output. What pytest sums up is always shown.
     pub fn run(&self, file: &str) {
         let (python, folder) = (self.python(), self.folder());
-        let mut command = Command::new(python);
-        command.args(["-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", "--tb=short", "-rfEs"]);
+        let mut command = interpreter(python);
+        command.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "--tb=short", "-rfEs"]);
         command.arg(folder.join(file)).current_dir(&folder);
-        command.envs((self.variables)()).env("PYTHONDONTWRITEBYTECODE", "1").env_remove("LD_LIBRARY_PATH");
+        command.envs((self.variables)());
         let output = command.output().unwrap_or_else(|error| panic!("{} cannot be started: {error}", python.display()));
         let text = String::from_utf8_lossy(&output.stdout);
         let told = text.lines().filter(|line| line.starts_with("SKIPPED")).chain(text.lines().last());

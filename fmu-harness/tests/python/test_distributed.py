@@ -73,11 +73,17 @@ def client():
         yield client
 
 
-@pytest.fixture
-def mortals():
-    """A client of two workers, of which a test kills what it likes; a nanny starts others in their place."""
+@pytest.fixture(scope="module")
+def pair():
     with cluster_of(2) as client:
         yield client
+
+
+@pytest.fixture
+def mortals(pair):
+    """A client of two workers, of which a test kills what it likes; a nanny starts others in their place."""
+    pair.wait_for_workers(2, timeout=LONGEST)
+    return pair
 
 
 @pytest.fixture(scope="module")
@@ -220,7 +226,7 @@ def test_a_study_waits_for_workers_and_says_so_when_none_comes(write, tmp_path, 
 def test_a_client_that_was_killed_goes_on_and_sweep_can_too(write, tmp_path, client, wanted):
     file, journal = write(WORN_PIN), path(tmp_path / "dask", "own")
     arguments = [file, fmu("wornpin"), client.scheduler.address, tmp_path / "dask"]
-    killed = subprocess.run([sys.executable, "-B", "-c", CLIENT, *map(str, arguments)])
+    killed = subprocess.run([sys.executable, "-c", CLIENT, *map(str, arguments)])
     assert killed.returncode == -signal.SIGKILL
     done = finished(journal)
     assert len(done) == 5
