@@ -238,7 +238,15 @@ impl<'i> Reader<'i> {
     fn profile(&mut self, key: &str, value: &Value<'i>, unit: &str) -> Result<Profile, Fault> {
         match value.get_ref() {
             DeValue::Table(table) => {
-                read_profile::points(self.text, key, table, value.span().start, unit).or_else(|(offset, fault)| {
+                // `slider.load` is an input, `slider.load.offset` a parameter.
+                let is_parameter = |name: &str| Parameter::named(&format!("{key}.{name}")).is_some();
+                let (parameters, points): (DeTable, DeTable) =
+                    table.clone().into_iter().partition(|(name, _)| is_parameter(name.get_ref()));
+                self.table(key, &parameters);
+                if points.is_empty() && !parameters.is_empty() {
+                    return Ok(Profile::default());
+                }
+                read_profile::points(self.text, key, &points, value.span().start, unit).or_else(|(offset, fault)| {
                     self.faults.push((offset, fault));
                     Ok(Profile::default())
                 })

@@ -200,6 +200,24 @@ fn every_fault_is_told_in_the_file_s_order() {
 }
 
 #[test]
+fn an_input_with_a_parameter_below_it_may_be_a_table() {
+    let points = "against = \"time\", points = [[0, 5], [1, 7]]";
+    for (text, load) in [
+        ("[slider]\n\"load.offset\" = \"1 mm\"".to_owned(), false),
+        ("[slider]\nload.offset = \"1 mm\"".to_owned(), false),
+        ("slider.load.offset = \"1 mm\"".to_owned(), false),
+        (format!("[slider]\nload = {{ offset = \"1 mm\", {points} }}"), true),
+    ] {
+        let file = read(&text, "own.toml").expect(&text);
+        assert_eq!(file.scene.slider.load_offset, 1e-3, "{text}");
+        let wanted = if load { 6.0 } else { 0.0 };
+        assert_eq!(file.inputs.slider_load.value(0.5, 0.0), wanted, "{text}");
+    }
+    assert!(refused("[slider]\nload = { offset = \"1 mm\", poins = [] }").contains("slider.load.poins"));
+    assert!(refused("[slider]\nload.offset = \"1 mm\"\n\"load.offset\" = 0").contains("twice"));
+}
+
+#[test]
 fn points_rise_and_the_turn_closes() {
     let load = |points: &str| refused(&format!("slider.load = {{ against = \"crank.angle\", points = {points} }}"));
     assert!(load("[[0, 0], [0, 1]]").contains("rising angles from 0 to 360 deg"));
