@@ -109,6 +109,8 @@ fn the_documents_name_files_that_exist() {
         let document = format!("fmu-harness/docs/{document}");
         exist(&read(&root().join(&document)), &document);
     }
+    let page = read(&root().join("modelDescription/page.html"));
+    exist(&page.replace("<code>", "`").replace("</code>", "`"), "modelDescription/page.html");
 }
 
 /// Every path of this tree that stands between backticks in `text` exists.

@@ -41,18 +41,19 @@ def strokes(package, job):
         out.writerow(table)
         out.writerows(map(repr, row) for row in numpy.array(list(table.values())).T.tolist())
     turns = (table["press.crank.angle"] - pi) / tau
-    whole = turns <= numpy.floor(turns[-1])
+    count = numpy.floor(turns[-1])
+    whole = turns <= count
     torque, limit = table["controller.torque"][whole], number(package, "controller", "limit")
     return {
-        "strokes": float(numpy.floor(turns[-1])),
-        "lasts": float(table["time"][whole][-1] / numpy.floor(turns[-1])),
+        "strokes": float(count),
+        "lasts": float(numpy.interp(count, turns, table["time"]) / count),
         "torque": float(numpy.abs(torque).max()),
         "rms_torque": float(numpy.sqrt(numpy.mean(torque**2))),
         "limited": float(numpy.mean(numpy.abs(torque) >= limit)),
         "limit": limit,
         "slowest": float(table["press.crank.speed"].min()),
         "fastest": float(table["press.crank.speed"].max()),
-        "cut": float(table["sheet.work"][whole][-1] / numpy.floor(turns[-1])),
+        "cut": float(numpy.interp(count, turns, table["sheet.work"]) / count),
         "ports": books(run),
     }
 

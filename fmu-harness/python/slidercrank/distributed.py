@@ -23,6 +23,7 @@ import pandas
 from dask.typing import Key
 from distributed import Client, Future, KilledWorker, get_worker
 from distributed.client import FutureCancelledError
+from fmpy import read_model_description
 
 from .journal import Journal, Outcome, path
 from .recipe import Recipe, RunError, StoppedError
@@ -94,6 +95,9 @@ def check_scene(fmu: Path, recipe: Recipe) -> None:
         texts = {name: archive.read(file).decode() for name, file in files.items() if file in held}
     if any(texts.get(name) != recipe.origin.get(name) for name in files):
         raise StudyError(f"{fmu} is not the study's scene `{recipe.scene}` as it stands: package it anew")
+    if any(own.points for own in recipe.inputs) and not read_model_description(str(fmu)).fmiVersion.startswith("2."):
+        # Its results would differ from those of `sweep`, under the same digest.
+        raise StudyError(f"{fmu} holds inputs from point to point, which follow lines in the study: package it for FMI 2.0")
 
 
 class Hand:

@@ -43,10 +43,14 @@ def equivalent(counted: pandas.DataFrame, exponent: float, repetitions: float = 
 
     Palmgren and Miner's sum with a Wöhler curve of slope `exponent`: (Σ count·range^m / repetitions)^(1/m).
     """
-    if exponent <= 0.0 or repetitions <= 0.0:
-        raise ValueError(f"exponent {exponent} and repetitions {repetitions} must be above 0")
-    damage = (counted["count"] * counted["range"] ** exponent).sum()
-    return float((damage / repetitions) ** (1.0 / exponent))
+    if not (0.0 < exponent < numpy.inf and 0.0 < repetitions < numpy.inf):
+        raise ValueError(f"exponent {exponent} and repetitions {repetitions} must be finite and above 0")
+    largest = counted["range"].max() if len(counted) else 0.0
+    if largest == 0.0:
+        return 0.0
+    # In shares of the largest range, whose powers do not overflow.
+    damage = (counted["count"] * (counted["range"] / largest) ** exponent).sum()
+    return float(largest * (damage / repetitions) ** (1.0 / exponent))
 
 
 def spectrum(run: pandas.DataFrame, joints: Iterable[str] = JOINTS, classes: int = 32) -> pandas.DataFrame:
@@ -55,6 +59,8 @@ def spectrum(run: pandas.DataFrame, joints: Iterable[str] = JOINTS, classes: int
     A row is a class, its index the upper bound of the range. For each joint there is a column with the cycles in the
     class, and a column `J.exceeding` with the cycles of this class and all above it.
     """
+    if classes < 1:
+        raise ValueError(f"classes = {classes}: wanted at least 1")
     counted = {joint: cycles(force(run, joint)) for joint in joints}
     largest = max((frame["range"].max() for frame in counted.values() if len(frame)), default=0.0)
     bounds = numpy.linspace(0.0, largest or 1.0, classes + 1)

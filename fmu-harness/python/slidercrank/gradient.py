@@ -24,6 +24,8 @@ from .unit import Instance, Unit
 
 STEP = 1e-3
 """Steps of differences at the start, as shares of the parameters."""
+LEAST = 1e-3
+"""What shares are taken of, at least, of a parameter that may be negative: an offset [m] or an angle [rad] near 0."""
 CENTRAL = [(-2.0, 1 / 12), (-1.0, -8 / 12), (1.0, 8 / 12), (2.0, -1 / 12)]
 """Places of a difference in steps, with their weights."""
 
@@ -45,10 +47,10 @@ def gradient(
 ) -> Gradient:
     """A kept quantity of a run with these parameters, and its derivatives by the real parameters `names`.
 
-    Where there is no derivative, near grazing, with rigid contacts, of discrete outputs and of sums since the start, there
+    Inputs among `names` are constant during the run. Where there is no derivative, near grazing, with rigid contacts, of discrete outputs and of sums since the start, there
     is a `RunError` that says so.
     """
-    kept = recipe.keep[quantity]
+    kept, recipe = recipe.keep[quantity], recipe.holding(names)
     try:
         crank = [ANGLE, RATE]
         outputs = [*crank, *(output for output in kept.outputs(unit.outputs) if output not in crank)]
@@ -92,13 +94,18 @@ def start(
     columns = []
     for name in names:
         value = settings[name]
-        step = abs(value) * STEP or STEP
+        least = LEAST if _may_be_negative(unit.variable(name)) else 0.0
+        step = max(abs(value), least) * STEP or STEP
         columns.append(
             sum(share / step * _started(unit, recipe, {**settings, name: value + place * step}, outputs)
                 for place, share in CENTRAL)
         )
     table = numpy.array(columns).T
     return Start(list(names), table[len(outputs) :], table[: len(outputs)])
+
+
+def _may_be_negative(variable: ModelVariable) -> bool:
+    return variable.min is None or float(variable.min) < 0.0
 
 
 def _started(unit: Unit, recipe: Recipe, settings: Mapping[str, float], outputs: list[str]) -> numpy.ndarray:

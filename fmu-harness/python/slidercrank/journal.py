@@ -6,11 +6,15 @@ import json
 import math
 import operator
 import os
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any
+
+if sys.platform != "win32":
+    import fcntl
 
 
 class JournalError(RuntimeError):
@@ -41,11 +45,27 @@ def path(directory: Path, study: str) -> Path:
 
 
 class Journal:
-    """The runs of one study that are finished. A line that was cut off is dropped when it is opened."""
+    """The runs of one study that are finished. A line that was cut off is dropped when it is opened.
+
+    While it is open no other program can open it, `sweep` or Python; on Windows only `sweep` sees to that.
+    """
 
     def __init__(self, file: Path, digest: str):
         self.outcomes: dict[int, Outcome] = {}
-        text = file.read_bytes() if file.exists() else b""
+        self._file = os.open(file, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+        try:
+            self._begin(file, digest)
+        except BaseException:
+            os.close(self._file)
+            raise
+
+    def _begin(self, file: Path, digest: str) -> None:
+        if sys.platform != "win32":
+            try:
+                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                raise JournalError(f"another program is at work on the study of {file}") from error
+        text = file.read_bytes()
         whole = text[: text.rfind(b"\n") + 1]
         for number, row in enumerate(whole.splitlines(), 1):
             try:
@@ -60,7 +80,6 @@ class Journal:
                 known = None
             if number == 1 and known != digest:
                 raise JournalError(f"{file} belongs to another study: choose another directory, or remove the file")
-        self._file = os.open(file, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
         os.ftruncate(self._file, len(whole))
         if not whole:
             self._write({"digest": digest})

@@ -67,7 +67,8 @@ def minimise(
 ) -> Optimum:
     """The least (or greatest) value of a kept quantity over real parameters within `bounds` (SI units).
 
-    A study's [run] and [keep] say how each evaluation is run; its grid, draws and table have no part in it. One
+    A study's [run] and [keep] say how each evaluation is run; its grid, draws and table have no part in it. An input with
+    bounds is constant during a run. One
     evaluation is one run through FMPy in this process; a run that fails counts as infinitely bad. The search ends
     after so many evaluations, or where parameters vary by less than `tolerance` of their ranges (Nelder-Mead and
     `gradient`, which start in the middle) or values by less than that share of their mean (differential evolution). The
@@ -82,7 +83,7 @@ def minimise(
         raise KeyError(f"{file} keeps no `{quantity}`: {', '.join(recipe.keep)}")
     if method not in SEARCHES:
         raise ValueError(f"method = {method!r}: wanted {', '.join(SEARCHES)}")
-    recipe = replace(recipe, keep={quantity: recipe.keep[quantity]})
+    recipe = replace(recipe, keep={quantity: recipe.keep[quantity]}).holding(bounds)
     with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
         unit = Unit(Path(fmu), Path(folder))
         for name in bounds:

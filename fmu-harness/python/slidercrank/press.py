@@ -98,7 +98,7 @@ def stack_up(
     pull, push = (readings(fmu, scene, levels, sign) for sign in (1.0, -1.0))
 
     rows = {joint: (0.0, 0.0, 0.0) for joint in JOINTS}
-    travel = (pull["travel"] - push["travel"]).to_numpy() * math.cos(scene.angle)
+    travel = (pull["travel"] - push["travel"]).to_numpy().copy()
     unsure = 0.0
     for joint, clearance in scene.clearances.items():
         ways = [unloaded(way[f"{joint}.force"], way[f"{joint}.eccentricity"]) for way in (pull, push)]
@@ -183,11 +183,13 @@ def readings(fmu: str | Path, scene: Scene, levels: Values, sign: float) -> pand
         times = [time for step in range(len(steps)) for time in (2 * step * rest, (2 * step + 1) * rest)]
         load = [sign * level for level in steps for _ in range(2)]
         inputs = pandas.DataFrame({"crank.torque": 0.0, "slider.load": load}, index=times)
-        names = ["slider.x", "rod.stretch"]
+        names = ["slider.x", "slider.y", "rod.stretch"]
         for joint in scene.clearances:
             names += [f"joint.{joint}.{vector}.{axis}" for vector in ("eccentricity", "force") for axis in "xy"]
         run = simulate(fmu, times[-1], rest / REST_POINTS, scene.settings, inputs, names)
-        read = pandas.DataFrame({"travel": run["slider.x"] - run["rod.stretch"]})
+        # Along crank and rod, which are in line.
+        along = run["slider.x"] * math.cos(scene.angle) + run["slider.y"] * math.sin(scene.angle)
+        read = pandas.DataFrame({"travel": along - run["rod.stretch"]})
         for joint in scene.clearances:
             for vector in ("eccentricity", "force"):
                 read[f"{joint}.{vector}"] = numpy.hypot(*(run[f"joint.{joint}.{vector}.{axis}"] for axis in "xy"))
@@ -260,8 +262,9 @@ def parallelism(
     planned = over_offsets(fmu, offsets, turns, start(SPEED))
     recipe = planned.recipe
     if load is not None:
-        others = tuple(own for own in recipe.inputs if own.name != "slider.load")
+        others = recipe.holding(["slider.load"]).inputs
         recipe = replace(recipe, inputs=(*others, Input("slider.load", load, None, ())))
+    recipe = recipe.holding(settings or {}) if load is None else recipe
     strokes = {}
     with TemporaryDirectory() as folder:
         unit = Unit(Path(fmu), Path(folder))

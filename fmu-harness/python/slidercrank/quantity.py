@@ -16,11 +16,19 @@ RATE = "crank.speed"
 TIME = "time"
 """[s] The communication points, beside the outputs."""
 
+ROUNDING = 1e-9
+"""[turns] By how much rounding may shift a communication point that is at an angle, or at the end of whole turns."""
+
 Column = NDArray[numpy.float64]
 
 
 class QuantityError(ValueError):
     """Why a quantity has no value."""
+
+
+def plain(number: float) -> str:
+    """A number in the fewest digits, without an exponent."""
+    return numpy.format_float_positional(number, trim="-")
 
 
 def total(values: Column) -> float:
@@ -142,10 +150,12 @@ class Quantity:
             if self.at is None and self.reduce in OVER_TIME:
                 found = OVER_TIME[self.reduce](values, weights_of(columns[TIME][first:]))
             else:
-                found = REDUCTIONS[self.reduce](values if self.at is None else passages(angles, values, self.at))
+                values = values if self.at is None else passages(angles, values, self.at)
+                found = REDUCTIONS[self.reduce](values)
         if not math.isfinite(found):
             shown = "NaN" if math.isnan(found) else str(found)
-            raise QuantityError(f"{self.of} of {len(values)} values is {shown}")
+            what = "values" if self.at is None else f"passages of {plain(self.at)} rad"
+            raise QuantityError(f"{self.of} of {len(values)} {what} is {shown}")
         return found
 
     def slope(self, columns: Mapping[str, Column], slopes: Mapping[str, Column], transient: float) -> Column:
@@ -181,14 +191,15 @@ class Quantity:
     def _first(self, columns: Mapping[str, Column], transient: float) -> int:
         """The first sample that counts."""
         angles = columns[ANGLE]
-        kept = numpy.abs(angles - angles[0]) >= math.tau * transient
+        kept = numpy.abs(angles - angles[0]) >= math.tau * (transient - ROUNDING)
         return int(numpy.argmax(kept)) if kept.any() else len(kept)
 
 
 def passages(angles: Column, values: Column, at: float) -> Column:
     """Values where the angle passes `at`, whichever way, each interpolated between two communication points.
 
-    A run that starts there has not passed it, one that ends there has.
+    A run that starts there has not passed it, one that ends there has; a communication point that is off the angle by
+    rounding is there.
     """
     place, share = _passed(angles, at)
     return values[place] + share * (values[place + 1] - values[place])
@@ -209,6 +220,7 @@ def passage_slopes(angles: Column, values: Column, by_angles: Column, by_values:
 def _passed(angles: Column, at: float) -> tuple[NDArray[numpy.intp], Column]:
     """Samples before each passage, and the passage's share of the way to the next."""
     turns = (angles - at) / math.tau
+    turns = numpy.where(numpy.abs(turns - numpy.round(turns)) < ROUNDING, numpy.round(turns), turns)
     before, after = turns[:-1], turns[1:]
     forwards = after >= before
     last = numpy.where(forwards, numpy.floor(before), numpy.ceil(before))

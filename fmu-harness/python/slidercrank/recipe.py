@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Container, Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy
-
-from .quantity import Quantity
+from .quantity import Quantity, plain
 
 SPEED = "crank.speed_start"
 """Parameter that says how long turns may take."""
@@ -134,6 +132,10 @@ class Recipe:
             origin=dict(told["origin"]),
         )
 
+    def holding(self, names: Container[str]) -> Recipe:
+        """The recipe without the inputs of these names: they hold the values that the settings give them."""
+        return replace(self, inputs=tuple(own for own in self.inputs if own.name not in names))
+
     def latest(self, settings: Mapping[str, float]) -> float:
         """[s] When a run has taken too long for its turns."""
         speed = abs(settings.get(SPEED, self.speed))
@@ -158,8 +160,3 @@ class Recipe:
     def _too_many(self) -> RunError:
         points = f"more than {MOST_POINTS} communication points"
         return RunError(f"with a communication step of {plain(self.step)} s the run has {points}")
-
-
-def plain(number: float) -> str:
-    """A number in the fewest digits, without an exponent."""
-    return numpy.format_float_positional(number, trim="-")

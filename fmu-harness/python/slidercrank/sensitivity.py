@@ -6,11 +6,15 @@ import csv
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy
 import pandas
 from SALib.analyze import sobol as indices
 from SALib.sample import sobol as design
 
 from .study import check_bounds, read, study
+
+ROUNDING = 1e-13
+"""Share of its size by which a quantity that does not vary may seem to."""
 
 
 def sobol(
@@ -46,7 +50,10 @@ def sobol(
         raise ValueError(f"{len(failed)} of {len(frame)} runs failed, the first: {failed['status'].iloc[0]}")
     rows = []
     for quantity in sorted(told["keep"]):
-        values = frame[quantity].to_numpy()
+        values = frame[quantity].to_numpy(float)
+        # What varies by rounding alone has no parts: the indices of a constant are not numbers.
+        if numpy.ptp(values) <= ROUNDING * numpy.abs(values).max():
+            values = numpy.full_like(values, values[0])
         found = indices.analyze(problem, values, calc_second_order=False, conf_level=confidence, seed=seed)
         for place, name in enumerate(bounds):
             numbers = {key: float(found[key][place]) for key in ("S1", "S1_conf", "ST", "ST_conf")}

@@ -10,11 +10,13 @@ from tempfile import TemporaryDirectory
 import numpy
 import pandas
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
 from .calls import kinds_of
-from .recipe import plain
+from .quantity import plain
+from .recipe import RunError
 from .setting import Value, value_of
 
 ROUNDING = 1e-6
@@ -35,7 +37,7 @@ def simulate(
     enumeration is given by its number or its name. `inputs` is a frame whose index is time [s], in order, and whose columns
     are inputs, straight between its rows: steps of any length find the same. An FMU of FMI 3.0 has no slopes of inputs, and
     each step holds its first values until it ends or a row comes. Two rows of one time are a jump. Without `outputs`, a name
-    or several, all numbers that the FMU gives are kept.
+    or several, all numbers that the FMU gives are kept. What the FMU refuses is a `RunError` in its own words.
     """
     description = read_model_description(str(fmu))
     known = {variable.name: variable for variable in description.modelVariables}
@@ -51,7 +53,9 @@ def simulate(
     if inputs is not None:
         check(inputs, starts)
     with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
-        instance = instantiate_fmu(extract(str(fmu), folder), description, "CoSimulation")
+        said: list[bytes] = []
+        hear = lambda *told: said.append(told[-1])
+        instance = instantiate_fmu(extract(str(fmu), folder), description, "CoSimulation", logger=hear)
         if inputs is not None:
             instance.doStep = Signals(instance, inputs, [known[name].valueReference for name in inputs.columns]).step
             starts |= dict(zip(inputs.columns, inputs.to_numpy(float)[0]))
@@ -66,6 +70,8 @@ def simulate(
                 model_description=description,
                 fmu_instance=instance,
             )
+        except FMICallException as error:
+            raise RunError("\n".join(text.decode(errors="replace") for text in said) or str(error)) from error
         finally:
             instance.freeInstance()
     columns = {name: result[name] for name in outputs}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -57,8 +58,8 @@ def check_bounds(bounds: Mapping[str, tuple[float, float]]) -> None:
     if not bounds:
         raise ValueError("there are no bounds: wanted those of at least one parameter")
     for name, (low, high) in bounds.items():
-        if not low < high:
-            raise ValueError(f"`{name}`: {low} is not below {high}")
+        if not (math.isfinite(low) and math.isfinite(high) and low < high):
+            raise ValueError(f"`{name}`: {low} is not below {high}, or one of them is not finite")
 
 
 def plan(file: str | Path) -> Plan:

@@ -19,8 +19,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelVariable
 
 from .calls import Number, load
-from .quantity import ANGLE, RATE, TIME, Column, QuantityError
-from .recipe import Recipe, RunError, StoppedError, plain
+from .quantity import ANGLE, RATE, TIME, Column, QuantityError, plain
+from .recipe import Recipe, RunError, StoppedError
 from .setting import Value, limits, value_of
 
 STATUS = ["OK", "Warning", "Discard", "Error", "Fatal", "Pending"]

@@ -40,7 +40,8 @@ pub fn strokes(study: &Study) -> Result<Table> {
     table.row(["torque, largest".into(), newton_metres(strokes.torque)]);
     table.row(["torque, root mean square".into(), newton_metres(strokes.rms_torque)]);
     table.row(["time at the torque limit".into(), format!("{} %", three_digits(1e2 * strokes.limited))]);
-    table.row(["work on the sheet in a stroke".into(), format!("{} J", significant(strokes.cut))]);
+    table
+        .row(["work on the sheet in a stroke, by the sheet's books".into(), format!("{} J", significant(strokes.cut))]);
     for name in PORTS {
         let port = strokes.ports.get(name).copied().unwrap_or_default();
         table.row([format!("into the press through the {name}, whole run"), energy(&port)]);

@@ -82,7 +82,7 @@ pub struct Strokes {
     pub slowest: f64,
     /// [rad/s] Maximum speed of the crank.
     pub fastest: f64,
-    /// [J] Work on the sheet in one stroke.
+    /// [J] Work on the sheet in one stroke, as the sheet counts it: by the velocity at the start of each step.
     pub cut: f64,
     /// Energy through each port.
     pub ports: Ports,

@@ -3,8 +3,8 @@
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions};
-use std::io::Write;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -44,18 +44,24 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of the study with this digest, or starts one. An incomplete last line is dropped.
+    /// Opens the journal of the study with this digest, or starts one. An incomplete last line is dropped. While the journal
+    /// is open no other program can open it.
     ///
     /// # Errors
-    /// If the journal belongs to another study, or the file cannot be read or written.
+    /// If the journal belongs to another study, another program has it open, or the file cannot be read or written.
     pub fn open(path: &Path, digest: &str) -> Result<Self> {
         let context = || format!("cannot use {}", path.display());
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
-            Err(error) => return Err(error).with_context(context),
-        };
-        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let mut file = OpenOptions::new().create(true).read(true).append(true).open(path).with_context(context)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => bail!("another program is at work on the study of {}", path.display()),
+            Err(TryLockError::Error(error)) => return Err(error).with_context(context),
+        }
+        let mut text = Vec::new();
+        file.read_to_end(&mut text).with_context(context)?;
+        // A line may have been torn within a character.
+        let whole = &text[..text.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1)];
+        let whole = std::str::from_utf8(whole).with_context(context)?;
         let mut rows = whole.lines();
         let mut lines = BTreeMap::new();
         if let Some(head) = rows.next() {
@@ -69,9 +75,7 @@ impl Journal {
                 lines.insert(line.run, line);
             }
         }
-        let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(path).with_context(context)?;
         file.set_len(whole.len() as u64).with_context(context)?;
-        std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).with_context(context)?;
         if whole.is_empty() {
             let head = serde_json::to_string(&Head { digest: digest.into() })?;
             file.write_all(format!("{head}\n").as_bytes()).with_context(context)?;
@@ -126,6 +130,7 @@ pub fn path(directory: &Path, study: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn line(run: usize, value: f64) -> Line {
         Line { run, outcome: Outcome::Values(vec![value]) }
@@ -140,18 +145,35 @@ mod tests {
         for (run, value) in values.into_iter().enumerate() {
             journal.add(&line(run, value)).expect("a line");
         }
+        drop(journal);
         let whole = fs::read(&file).expect("a file");
         for cut in 1..=whole.len() {
             fs::write(&file, &whole[..cut]).expect("a file");
             let journal = Journal::open(&file, "digest").expect("a journal");
             let lines = whole[..cut].iter().filter(|byte| **byte == b'\n').count().saturating_sub(1);
             assert_eq!(journal.len(), lines, "{cut}");
+            let second = Journal::open(&file, "digest").err().expect("a refusal");
+            assert!(second.to_string().contains("another program is at work"), "{second}");
             for (run, value) in values.into_iter().enumerate().skip(lines) {
                 journal.add(&line(run, value)).expect("a line");
             }
             assert_eq!(fs::read(&file).expect("a file"), whole, "{cut}");
             assert!(journal.lines().values().zip(values).all(|(found, value)| *found == line(found.run, value)));
         }
+    }
+
+    #[test]
+    fn a_line_that_was_cut_off_within_a_character_is_dropped() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let file = path(directory.path(), "own");
+        let failed = Line { run: 1, outcome: Outcome::Failed("35 °C".into()) };
+        let journal = Journal::open(&file, "digest").expect("a journal");
+        journal.add(&line(0, 1.0)).and_then(|()| journal.add(&failed)).expect("lines");
+        drop(journal);
+        let text = fs::read(&file).expect("a file");
+        let degree = text.iter().position(|byte| *byte == 0xc2).expect("a character of two bytes");
+        fs::write(&file, &text[..=degree]).expect("a file");
+        assert_eq!(Journal::open(&file, "digest").expect("a journal").len(), 1);
     }
 
     #[test]

@@ -21,6 +21,9 @@ pub struct Quantity {
     pub at: Option<f64>,
 }
 
+/// [turns] By how much rounding may shift a communication point that is at an angle, or at the end of whole turns.
+const ROUNDING: f64 = 1e-9;
+
 /// The reduction of many values to one. Sums run from the first to the last value. Over time, mean, root mean square and
 /// standard deviation are those of the function between the communication points, by the trapezoidal rule.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
@@ -68,13 +71,17 @@ impl Quantity {
         };
         let angles = trajectory.column(ANGLE)?;
         let start = angles.first().copied().unwrap_or_default();
-        let first = angles.iter().position(|angle| (angle - start).abs() >= TAU * transient).unwrap_or(angles.len());
+        let kept = TAU * (transient - ROUNDING);
+        let first = angles.iter().position(|angle| (angle - start).abs() >= kept).unwrap_or(angles.len());
         let (angles, values) = (&angles[first..], &values[first..]);
-        let value = match self.at {
-            None => self.reduce.over(values, &shares(&trajectory.times()[first..])),
-            Some(at) => self.reduce.of(&passages(angles, values, at)),
+        let Some(at) = self.at else {
+            let value = self.reduce.over(values, &shares(&trajectory.times()[first..]));
+            ensure!(value.is_finite(), "{} of {} values is {value}", self.of, values.len());
+            return Ok(value);
         };
-        ensure!(value.is_finite(), "{} of {} values is {value}", self.of, values.len());
+        let passed = passages(angles, values, at);
+        let value = self.reduce.of(&passed);
+        ensure!(value.is_finite(), "{} of {} passages of {at} rad is {value}", self.of, passed.len());
         Ok(value)
     }
 }
@@ -87,9 +94,12 @@ pub fn shares(times: &[f64]) -> Vec<f64> {
 }
 
 /// Values at the angle `at`, in either direction of rotation. A run that starts there has not passed it, one that ends there
-/// has.
+/// has; a communication point that is off the angle by rounding is there.
 fn passages(angles: &[f64], values: &[f64], at: f64) -> Vec<f64> {
-    let turns = |angle: f64| (angle - at) / TAU;
+    let turns = |angle: f64| {
+        let turns = (angle - at) / TAU;
+        if (turns - turns.round()).abs() < ROUNDING { turns.round() } else { turns }
+    };
     let mut found = Vec::new();
     for i in 1..angles.len() {
         let (before, after) = (turns(angles[i - 1]), turns(angles[i]));
@@ -214,10 +224,35 @@ mod tests {
     }
 
     #[test]
+    fn rounding_takes_neither_a_passage_nor_a_sample_away() {
+        let (angles, values) = ([0.0, 0.5, 1.0, 1.5, 2.0].map(|turns: f64| TAU * turns), [0.0, 1.0, 2.0, 3.0, 4.0]);
+        for off in [-1e-10, 0.0, 1e-10] {
+            for place in 0..5 {
+                let mut near = angles;
+                near[place] += off;
+                let (passed, back) = (passages(&near, &values, 0.0), passages(&near.map(|angle| -angle), &values, 0.0));
+                assert!(
+                    passed.len() == 2 && (passed[0] - 2.0).abs() < 1e-9 && (passed[1] - 4.0).abs() < 1e-9,
+                    "{passed:?}"
+                );
+                assert_eq!(passed, back);
+                let mut trajectory = Trajectory::new([ANGLE, "v"].map(String::from));
+                for (time, (angle, value)) in near.into_iter().zip(values).enumerate() {
+                    trajectory.push(time as f64, &[angle, value]);
+                }
+                let mean = Quantity { of: "v".into(), reduce: Reduction::Mean, at: None };
+                assert_eq!(mean.of(&trajectory, 1.0).ok(), Some(3.0));
+            }
+        }
+    }
+
+    #[test]
     fn what_is_not_there_is_named() {
-        for (of, at, transient, word) in
-            [("w", None, 0.0, "`w`"), ("v", Some(1.0), 3.9, "NaN"), ("v", None, 9.0, "0 values")]
-        {
+        for (of, at, transient, word) in [
+            ("w", None, 0.0, "`w`"),
+            ("v", Some(1.0), 3.9, "of 0 passages of 1 rad is NaN"),
+            ("v", None, 9.0, "0 values"),
+        ] {
             let error = value(of, Reduction::Mean, at, transient).expect_err(of);
             assert!(error.to_string().contains(word), "{error}");
         }

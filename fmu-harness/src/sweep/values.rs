@@ -177,7 +177,8 @@ impl<'de> Deserialize<'de> for Values {
 
 /// A number in this SI unit.
 fn in_unit<'de, D: Deserializer<'de>>(deserializer: D, unit: &str) -> Result<f64, D::Error> {
-    Number::deserialize(deserializer)?.in_unit(unit).map_err(D::Error::custom)
+    let number = Number::deserialize(deserializer)?.in_unit(unit).map_err(D::Error::custom)?;
+    if number.is_finite() { Ok(number) } else { Err(D::Error::custom(format!("{number} {unit} is not finite"))) }
 }
 
 /// A time [s].

@@ -42,6 +42,7 @@ fn packages() -> &'static Path {
             ("wornpin", "wornpin", Version::Fmi2),
             ("ideal3", "ideal", Version::Fmi3),
             ("wornpin3", "wornpin", Version::Fmi3),
+            ("press3", "press", Version::Fmi3),
         ] {
             let scenario = Scenario::find(scene).expect("a shipped scene");
             let file = directory.join(format!("{name}.fmu"));

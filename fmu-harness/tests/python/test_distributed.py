@@ -256,6 +256,11 @@ def test_an_fmu_of_another_scene_is_refused_before_anything_is_run(write, tmp_pa
     assert not path(tmp_path, "own").exists()
 
 
+def test_an_fmu_that_holds_inputs_is_refused_where_the_study_s_follow_lines(write):
+    with pytest.raises(StudyError, match="package it for FMI 2.0"):
+        distributed.check_scene(fmu("press3"), plan(write(PRESS)).recipe)
+
+
 def test_an_fmu_with_another_table_of_modes_is_refused(write, tmp_path):
     recipe = plan(write(WORN_PIN)).recipe
     file = tmp_path / "flexible.fmu"

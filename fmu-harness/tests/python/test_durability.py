@@ -30,8 +30,10 @@ def test_equal_cycles_are_equivalent_to_themselves():
     assert counted["count"].sum() == pytest.approx(50.0)
     assert equivalent(counted, 3.0, repetitions=50.0) == pytest.approx(10.0)
     assert equivalent(counted, 3.0) == pytest.approx(10.0 * 50.0 ** (1 / 3))
-    with pytest.raises(ValueError, match="exponent 0"):
-        equivalent(counted, 0.0)
+    assert equivalent(counted, 400.0) == pytest.approx(10.0 * 50.0 ** (1 / 400))
+    for exponent in (0.0, math.inf, math.nan):
+        with pytest.raises(ValueError, match=f"exponent {exponent}"):
+            equivalent(counted, exponent)
 
 
 def test_a_spectrum_has_every_cycle_once():

@@ -63,6 +63,26 @@ def test_forces_follow_a_load_over_the_angle_at_once(unit):
             assert found == pytest.approx(difference, rel=2e-4), quantity
 
 
+def test_a_parameter_that_is_zero_but_for_rounding_has_the_derivative_at_zero(unit):
+    settings, name = {**LENGTHS, **DRIVEN}, "crank.com.y"
+    recipe = replace(RUN, turns=0.2, step=1e-4, keep={"rms": Quantity("joint.A.force", "rms")})
+    at = lambda value: gradient(unit, recipe, {**settings, name: value}, "rms", [name]).by_parameters[0]
+    size = 1e-4
+    run = lambda value: unit.run(recipe, {**settings, name: value})[0]
+    assert at(0.0) == pytest.approx((run(size) - run(-size)) / (2 * size), rel=1e-4)
+    for value in (1.2e-16, 1e-12, 1e-8):
+        assert at(value) == pytest.approx(at(0.0), rel=1e-4), value
+
+
+def test_an_input_that_is_asked_for_is_constant(unit):
+    settings, name = {**LENGTHS, **DRIVEN, "slider.load": 200.0}, "slider.load"
+    recipe = replace(RUN, turns=0.2, step=1e-4, keep={"rms": Quantity("joint.C.force", "rms")})
+    constant = lambda load: unit.run(replace(recipe, inputs=(Input(name, load, None, ()),)), settings)[0]
+    found = gradient(unit, recipe, settings, "rms", [name])
+    assert found.value == constant(200.0)
+    assert found.by_parameters[0] == pytest.approx((constant(201.0) - constant(199.0)) / 2.0, rel=1e-4)
+
+
 def test_both_versions_of_fmi_give_the_same_gradient(unit):
     # FMI 3.0 holds inputs that change.
     constant = (Input("slider.load", -300.0, None, ()),)

@@ -30,9 +30,22 @@ def test_what_was_cut_off_is_run_again_and_nothing_else(tmp_path):
         assert journal.outcomes == dict(enumerate(OUTCOMES))
 
 
+def test_two_programs_are_not_at_work_on_one_study(tmp_path):
+    file = tmp_path / "own.toml"
+    file.write_text(WORN_PIN)
+    with Journal(path(tmp_path, "own"), plan(file).recipe.digest) as journal:
+        journal.add(0, OUTCOMES[0])
+        with pytest.raises(JournalError, match="another program is at work"):
+            Journal(path(tmp_path, "own"), "digest")
+        with pytest.raises(SourceError, match="another program is at work"):
+            study(file, output=tmp_path)
+    assert path(tmp_path, "own").read_bytes().count(b"\n") == 2
+
+
 def test_another_study_s_journal_is_left_alone(tmp_path):
     file = path(tmp_path, "own")
-    Journal(file, "one").add(0, OUTCOMES[0])
+    with Journal(file, "one") as journal:
+        journal.add(0, OUTCOMES[0])
     before = file.read_bytes()
     with pytest.raises(JournalError, match="another study"):
         Journal(file, "another")
@@ -69,7 +82,8 @@ def test_sweep_believes_the_lines_that_are_written_here_and_runs_the_others(writ
 
 
 def test_sweep_refuses_the_journal_of_another_study_too(write, tmp_path):
-    Journal(path(tmp_path, "own"), "digest")
+    with Journal(path(tmp_path, "own"), "digest"):
+        pass
     with pytest.raises(SourceError, match="another study"):
         study(write(WORN_PIN), output=tmp_path)
     assert json.loads(path(tmp_path, "own").read_text()) == {"digest": "digest"}

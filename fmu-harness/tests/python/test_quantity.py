@@ -56,8 +56,18 @@ def test_passages_are_interpolated_forwards_and_backwards():
     assert passages(angles, numpy.arange(5.0), 0.0).tolist() == [2.0, 4.0]
 
 
+@pytest.mark.parametrize("off", [-1e-10, 0.0, 1e-10])
+@pytest.mark.parametrize("place", range(5))
+def test_rounding_takes_neither_a_passage_nor_a_sample_away(off, place):
+    angles, values = math.tau * numpy.array([0.0, 0.5, 1.0, 1.5, 2.0]), numpy.arange(5.0)
+    angles[place] += off
+    assert passages(angles, values, 0.0) == pytest.approx([2.0, 4.0], abs=1e-9)
+    assert passages(-angles, values, 0.0).tolist() == passages(angles, values, 0.0).tolist()
+    assert Quantity("v", "mean").value({TIME: numpy.arange(5.0), ANGLE: angles, "v": values}, 1.0) == 3.0
+
+
 def test_what_is_not_there_is_named():
-    for of, at, transient, word in [("w", None, 0.0, "`w`"), ("v", 1.0, 3.9, "NaN"), ("v", None, 9.0, "0 values")]:
+    for of, at, transient, word in [("w", None, 0.0, "`w`"), ("v", 1.0, 3.9, "of 0 passages of 1 rad is NaN"), ("v", None, 9.0, "0 values")]:
         with pytest.raises(QuantityError, match=word):
             value(of, "mean", at, transient)
 

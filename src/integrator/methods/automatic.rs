@@ -39,12 +39,10 @@ impl Automatic {
             others,
             ..*properties
         };
-        let implicit_properties = with(Method::<()>::properties(&implicit), &[MethodKind::Explicit, MethodKind::Block]);
         let properties = [
             with(Method::<()>::properties(&block), &[MethodKind::Explicit, MethodKind::Implicit]),
             with(explicit.properties(), &[MethodKind::Implicit, MethodKind::Block]),
-            // In stiff motion the errors of earlier steps decay.
-            Properties { error_share: 1.0, ..implicit_properties },
+            with(Method::<()>::properties(&implicit), &[MethodKind::Explicit, MethodKind::Block]),
         ];
         let switch = StiffnessSwitch::NON_STIFF;
         Self { kind: switch.kind, switch, block, explicit, implicit, properties }

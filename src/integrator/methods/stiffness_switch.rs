@@ -7,13 +7,15 @@
 //!
 //! Stiffness is suspected where an explicit step is no longer short against the fastest motion, as two stages at the same
 //! instant reveal (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2, on stiffness detection). The
-//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next trial waits longer. It comes
-//! sooner where explicit steps are near their stability bound, for an implicit step is longer there, and events have often
-//! changed the motion since the last trial; but not before explicit steps have done several times the work that the last
-//! trial wasted. Explicit steps need not be at their stability bound for a trial to pay: at tight tolerances
-//! accuracy bounds them first, and steps of a higher order are longer. Where the rates are not cheap, implicit steps are
-//! therefore compared with explicit ones as long as those before the trial, in times of the fastest motion. Where they are
-//! cheap, a trial costs more than it may gain: the comparison is with steps at the bound.
+//! implicit method is then tried. A trial that does not pay ends after a few steps, and the next check waits longer. Between two
+//! checks, early ones see whether explicit steps are near their stability bound, where an implicit step is longer and events
+//! have often changed the motion since the last trial. No early check comes before explicit steps have done several times the
+//! work that the last trial wasted.
+//!
+//! Explicit steps need not be at their stability bound for a trial to pay: at tight tolerances accuracy bounds them first, and
+//! steps of a higher order are longer. Where the rates are not cheap, implicit steps are therefore compared with explicit ones
+//! as long as those before the trial, in times of the fastest motion. Where they are cheap, a trial costs more than it may
+//! gain: the comparison is with steps at the bound.
 //!
 //! A block is the cheapest kind where the system suits it, and the first to be short in fast motion: its corrector converges
 //! slowly there. The implicit method, whose stages are evaluated together like those of a block, is then tried and kept while

@@ -125,9 +125,17 @@ impl Level {
     }
 }
 
+/// Size of a parameter; 0 if it may be negative and is closer to 0 than the longest step there, as an offset that is 0 but for
+/// rounding.
+pub fn size(parameter: &Parameter, scene: &Scene) -> f64 {
+    let size = parameter.value(scene).abs();
+    let is_near_zero = size < MOST && matches!(parameter.kind, Kind::Real { min, .. } if min < 0.0);
+    if is_near_zero { 0.0 } else { size }
+}
+
 /// The longest step of a parameter.
 fn longest(parameter: &Parameter, scene: &Scene) -> f64 {
-    match (parameter.value(scene).abs(), &parameter.kind) {
+    match (size(parameter, scene), &parameter.kind) {
         (0.0, Kind::Real { max, .. }) => (OF_RANGE * max).min(MOST),
         (size, Kind::Real { unit: "rad", .. }) => LONGEST * size.min(1.0),
         (size, _) => LONGEST * size,

@@ -343,7 +343,7 @@ fn least(scene: &Scene, scales: &PhaseScales, seeds: &[Seed]) -> Vec<f64> {
     let of = |seed: &Seed| match seed {
         Seed::State(place) => positive(scales.states.get(*place).copied().unwrap_or_default()),
         Seed::Approach(_) => positive(scales.approach),
-        Seed::Parameter(parameter) => positive(parameter.value(scene).abs()),
+        Seed::Parameter(parameter) => positive(levels::size(parameter, scene)),
         Seed::CrankTorque | Seed::SliderLoad => 1.0,
     };
     seeds.iter().map(|seed| 1.0 / of(seed)).collect()

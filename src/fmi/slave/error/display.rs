@@ -80,7 +80,13 @@ impl fmt::Display for SavedStateError {
             }
             Self::NotOurs => write!(f, "these bytes are not a state of this FMU"),
             Self::Version { found, known } => {
-                write!(f, "the state has format version {found}; this FMU reads version {known}")
+                // The upper half is 3 for FMI 3.0.
+                let told = |format: u32| match format >> 16 {
+                    0 => format!("version {format} for FMI 2.0"),
+                    3 => format!("version {} for FMI 3.0", format & 0xffff),
+                    _ => format!("version {format}"),
+                };
+                write!(f, "the state has format {}; this FMU reads {}", told(*found), told(*known))
             }
             Self::Declaration => f.write_str("the state is of an FMU with other variables"),
             Self::Length { expected, given } => {
