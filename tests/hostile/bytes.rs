@@ -100,8 +100,12 @@ fn each_kind_of_damage_is_told_in_words_of_its_own<F: Face>() {
         refused(&slave, &damaged, words, words);
     };
     let known = F::Content::FORMAT;
+    let of_fmi = |format: u32| match format >> 16 {
+        3 => format!("version {} for FMI 3.0", format & 0xffff),
+        _ => format!("version {format} for FMI 2.0"),
+    };
     let of_version = |found: u32| {
-        let words = format!("version {found}; this FMU reads version {known}");
+        let words = format!("{}; this FMU reads {}", of_fmi(found), of_fmi(known));
         told(&|bytes| bytes[VERSION].copy_from_slice(&found.to_le_bytes()), &words);
     };
     told(&|bytes| bytes[0] = b'X', "not a state of this FMU");
