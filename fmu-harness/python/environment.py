@@ -54,7 +54,10 @@ def by_pip(directory, requirements):
 
 def by_uv(directory, requirements):
     """Returns whether uv has installed everything."""
-    tools = environment(directory.parent / "uv", requirements.with_name("uv.txt"), by_pip).parent
+    try:
+        tools = environment(directory.parent / "uv", requirements.with_name("uv.txt"), by_pip).parent
+    except SystemExit:  # there is no uv for this machine
+        return False
     settings = subprocess.run([tools / "python", "-m", "pip", "config", "list"], capture_output=True, text=True)
     options = {}  # what the environment says comes first, and counts
     for name, value in (line.split("=", 1) for line in settings.stdout.splitlines() if "=" in line):
