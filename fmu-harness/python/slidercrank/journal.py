@@ -65,6 +65,8 @@ class Journal:
                 fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError as error:
                 raise JournalError(f"another program is at work on the study of {file}") from error
+            except OSError:
+                pass  # a file system without locks
         text = file.read_bytes()
         whole = text[: text.rfind(b"\n") + 1]
         for number, row in enumerate(whole.splitlines(), 1):
