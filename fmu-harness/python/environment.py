@@ -13,7 +13,6 @@ environment `uv` beside the others, installed by pip. Where uv fails, pip instal
 import ast
 import fcntl
 import hashlib
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -72,7 +71,8 @@ def by_uv(directory, requirements):
 
 
 def by_either(directory, requirements):
-    by_uv(directory, requirements) or by_pip(directory, requirements)
+    if not by_uv(directory, requirements):
+        by_pip(directory, requirements)
 
 
 def environment(directory, requirements, make):

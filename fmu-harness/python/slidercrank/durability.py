@@ -13,10 +13,10 @@ import numpy
 import pandas
 import rainflow
 
+from .quantity import ROUNDING
+
 JOINTS = ("A", "B", "C", "T")
 TURN = 2.0 * numpy.pi
-ROUNDING = 1e-9
-"""Share of a turn by which a sample may miss the end of a stroke that it stands for."""
 
 
 def force(run: pandas.DataFrame, joint: str) -> pandas.Series:

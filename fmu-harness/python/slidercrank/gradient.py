@@ -47,8 +47,8 @@ def gradient(
 ) -> Gradient:
     """A kept quantity of a run with these parameters, and its derivatives by the real parameters `names`.
 
-    Inputs among `names` are constant during the run. Where there is no derivative, near grazing, with rigid contacts, of discrete outputs and of sums since the start, there
-    is a `RunError` that says so.
+    Inputs among `names` are constant during the run. Where there is no derivative, near grazing, with rigid contacts, of
+    discrete outputs and of sums since the start, there is a `RunError` that says so.
     """
     kept, recipe = recipe.keep[quantity], recipe.holding(names)
     try:
@@ -94,7 +94,7 @@ def start(
     columns = []
     for name in names:
         value = settings[name]
-        least = LEAST if _may_be_negative(unit.variable(name)) else 0.0
+        least = LEAST if unit.limits(name)[0] < 0.0 else 0.0
         step = max(abs(value), least) * STEP or STEP
         columns.append(
             sum(share / step * _started(unit, recipe, {**settings, name: value + place * step}, outputs)
@@ -102,10 +102,6 @@ def start(
         )
     table = numpy.array(columns).T
     return Start(list(names), table[len(outputs) :], table[: len(outputs)])
-
-
-def _may_be_negative(variable: ModelVariable) -> bool:
-    return variable.min is None or float(variable.min) < 0.0
 
 
 def _started(unit: Unit, recipe: Recipe, settings: Mapping[str, float], outputs: list[str]) -> numpy.ndarray:

@@ -14,7 +14,7 @@ import json
 import math
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -23,8 +23,8 @@ import pandas
 from fmpy import read_model_description
 from numpy.typing import NDArray
 
-from .quantity import ANGLE, passages
-from .recipe import SPEED, Input, RunError
+from .quantity import ANGLE, ROUNDING, passages
+from .recipe import SPEED, RunError
 from .simulation import simulate
 from .study import Plan, plan
 from .unit import Instance, Unit
@@ -98,7 +98,7 @@ def stack_up(
     pull, push = (readings(fmu, scene, levels, sign) for sign in (1.0, -1.0))
 
     rows = {joint: (0.0, 0.0, 0.0) for joint in JOINTS}
-    travel = (pull["travel"] - push["travel"]).to_numpy().copy()
+    travel = numpy.array(pull["travel"] - push["travel"])
     unsure = 0.0
     for joint, clearance in scene.clearances.items():
         ways = [unloaded(way[f"{joint}.force"], way[f"{joint}.eccentricity"]) for way in (pull, push)]
@@ -260,20 +260,17 @@ def parallelism(
     kept = ["slider.angle", "slider.x", "joint.T.moment"]
     start = starts(fmu, settings or {})
     planned = over_offsets(fmu, offsets, turns, start(SPEED))
-    recipe = planned.recipe
-    if load is not None:
-        others = recipe.holding(["slider.load"]).inputs
-        recipe = replace(recipe, inputs=(*others, Input("slider.load", load, None, ())))
-    recipe = recipe.holding(settings or {}) if load is None else recipe
+    given = {**(settings or {}), **({} if load is None else {"slider.load": load})}
+    recipe = planned.recipe.holding(given)
     strokes = {}
     with TemporaryDirectory() as folder:
         unit = Unit(Path(fmu), Path(folder))
         for offset in planned.runs[OFFSET].tolist():
-            own = {**(settings or {}), SPEED: start(SPEED), OFFSET: offset}
+            own = {**given, SPEED: start(SPEED), OFFSET: offset}
             with Instance(unit, recipe, own, [ANGLE, *kept]) as instance:
                 instance.march(recipe.latest(own), BUDGET)
                 columns = instance.columns()
-            last = numpy.abs(columns[ANGLE] - columns[ANGLE][-1]) <= math.tau
+            last = numpy.abs(columns[ANGLE] - columns[ANGLE][-1]) <= math.tau * (1.0 + ROUNDING)
             angles = pandas.Index(columns[ANGLE][last], name=ANGLE)
             strokes[offset] = pandas.DataFrame({name: columns[name][last] for name in kept}, index=angles)
     frame = pandas.concat(strokes, names=["offset"])
@@ -307,7 +304,7 @@ def over_offsets(fmu: str | Path, offsets: Sequence[float], turns: float, speed:
 def at_bottom_dead_centre(strokes: pandas.DataFrame) -> pandas.DataFrame:
     """What `parallelism` found, an offset a row: tilt [rad] at bottom dead centre, and the largest of the stroke.
 
-    `tilt` is the larger one if the stroke begins and ends there. `largest` has its sign; `angle` [rad] in 0 … 2π is
+    `tilt` is that at its end if the stroke begins and ends there. `largest` has its sign; `angle` [rad] in 0 … 2π is
     where the crank is then.
     """
     rows = {}

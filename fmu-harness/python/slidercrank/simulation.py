@@ -53,9 +53,12 @@ def simulate(
     if inputs is not None:
         check(inputs, starts)
     with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
-        said: list[bytes] = []
-        hear = lambda *told: said.append(told[-1])
-        instance = instantiate_fmu(extract(str(fmu), folder), description, "CoSimulation", logger=hear)
+        said: list[str] = []
+        hear = lambda *told: said.append(told[-1].decode(errors="replace"))
+        try:
+            instance = instantiate_fmu(extract(str(fmu), folder), description, "CoSimulation", logger=hear)
+        except Exception as error:
+            raise RunError("\n".join(said) or str(error)) from error
         if inputs is not None:
             instance.doStep = Signals(instance, inputs, [known[name].valueReference for name in inputs.columns]).step
             starts |= dict(zip(inputs.columns, inputs.to_numpy(float)[0]))
@@ -71,9 +74,11 @@ def simulate(
                 fmu_instance=instance,
             )
         except FMICallException as error:
-            raise RunError("\n".join(text.decode(errors="replace") for text in said) or str(error)) from error
+            raise RunError("\n".join(said) or str(error)) from error
         finally:
             instance.freeInstance()
+    for warning in said:
+        print(warning)
     columns = {name: result[name] for name in outputs}
     return pandas.DataFrame(columns, index=pandas.Index(result["time"], name="time"))
 

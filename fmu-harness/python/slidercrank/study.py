@@ -58,7 +58,7 @@ def check_bounds(bounds: Mapping[str, tuple[float, float]]) -> None:
     if not bounds:
         raise ValueError("there are no bounds: wanted those of at least one parameter")
     for name, (low, high) in bounds.items():
-        if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        if not -math.inf < low < high < math.inf:
             raise ValueError(f"`{name}`: {low} is not below {high}, or one of them is not finite")
 
 

@@ -19,7 +19,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelVariable
 
 from .calls import Number, load
-from .quantity import ANGLE, RATE, TIME, Column, QuantityError, plain
+from .quantity import ANGLE, RATE, ROUNDING, TIME, Column, QuantityError, plain
 from .recipe import Recipe, RunError, StoppedError
 from .setting import Value, limits, value_of
 
@@ -387,8 +387,7 @@ class Instance(Session):
             if then >= latest and turned < turns:
                 made = f"the crank has made {turned:.3f} of {plain(turns)} turns by t = {plain(then)} s"
                 raise RunError(f"{made}; give a stop time instead")
-            # A billionth of a turn is what rounding leaves of a whole number of them.
-            if turned / (turns - 1e-9) >= 1.0:
+            if turned / (turns - ROUNDING) >= 1.0:
                 return
             if point % UNWATCHED == 0 and time.monotonic() - clock > budget:
                 raise StoppedError(f"stopped after {plain(budget)} s")

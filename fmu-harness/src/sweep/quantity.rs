@@ -74,14 +74,17 @@ impl Quantity {
         let kept = TAU * (transient - ROUNDING);
         let first = angles.iter().position(|angle| (angle - start).abs() >= kept).unwrap_or(angles.len());
         let (angles, values) = (&angles[first..], &values[first..]);
-        let Some(at) = self.at else {
-            let value = self.reduce.over(values, &shares(&trajectory.times()[first..]));
-            ensure!(value.is_finite(), "{} of {} values is {value}", self.of, values.len());
-            return Ok(value);
+        let (value, from) = match self.at {
+            None => {
+                let value = self.reduce.over(values, &shares(&trajectory.times()[first..]));
+                (value, format!("{} values", values.len()))
+            }
+            Some(at) => {
+                let passed = passages(angles, values, at);
+                (self.reduce.of(&passed), format!("{} passages of {at} rad", passed.len()))
+            }
         };
-        let passed = passages(angles, values, at);
-        let value = self.reduce.of(&passed);
-        ensure!(value.is_finite(), "{} of {} passages of {at} rad is {value}", self.of, passed.len());
+        ensure!(value.is_finite(), "{} of {from} is {value}", self.of);
         Ok(value)
     }
 }
