@@ -1,6 +1,7 @@
 //! A scene: a mechanism, its drive and its solver, as plain data in SI units.
 
 pub mod check;
+pub mod checksum;
 pub mod closure;
 mod data;
 pub mod enumerations;

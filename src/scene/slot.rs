@@ -6,6 +6,7 @@
 //! for the declared start values. The packager searches the library file for the magic and writes a scene's values
 //! behind it.
 
+use super::checksum::crc32;
 use super::data::Scene;
 use super::modal::{MAX_NUMBERS, ModalTable};
 use super::modal_check::TableError;
@@ -102,7 +103,7 @@ pub fn write(library: &mut [u8], scene: &Scene) -> Result<(), SlotError> {
     }
     let mut payload = guid(scene).into_bytes();
     payload.extend(numbers(scene).into_iter().flat_map(f64::to_le_bytes));
-    let words = [payload.len() as u32, crc32fast::hash(&payload)];
+    let words = [payload.len() as u32, crc32(&payload)];
     block[MAGIC + 4..HEADER].copy_from_slice(words.map(u32::to_le_bytes).as_flattened());
     let (front, rest) = block[HEADER..].split_at_mut(payload.len());
     front.copy_from_slice(&payload);
@@ -135,7 +136,7 @@ fn parse(block: &[u8; BLOCK]) -> Result<(Scene, String), SlotError> {
     }
     let payload = block[HEADER..].get(..length as usize).filter(|payload| payload.len() >= PAYLOAD);
     let payload = payload.ok_or(SlotError::Length(length))?;
-    if crc32fast::hash(payload) != checksum {
+    if crc32(payload) != checksum {
         return Err(SlotError::Checksum);
     }
     let (guid, numbers) = payload.split_at(GUID);
@@ -231,7 +232,7 @@ mod tests {
         for length in [PAYLOAD - 8, PAYLOAD + 12, PAYLOAD + 80, BLOCK, usize::MAX >> 32] {
             let mut foreign = patched.clone();
             let end = (777 + HEADER + length).min(777 + BLOCK);
-            let checksum = crc32fast::hash(&foreign[777 + HEADER..end]);
+            let checksum = crc32(&foreign[777 + HEADER..end]);
             foreign[777 + MAGIC + 4..777 + MAGIC + 8].copy_from_slice(&(length as u32).to_le_bytes());
             foreign[777 + MAGIC + 8..777 + HEADER].copy_from_slice(&checksum.to_le_bytes());
             assert_eq!(reread(&foreign), Err(SlotError::Length(length as u32)));

@@ -229,6 +229,7 @@ impl Series {
             _ => triple.to_owned(),
         });
         let mut flags = remapped(workspace);
+        flags.push(compact());
         if let Some(level) = self.level {
             flags.push(format!("\u{1f}-Ctarget-cpu={level}"));
         }
@@ -263,6 +264,14 @@ impl Series {
         }
         Ok(command)
     }
+}
+
+/// Flags that keep the code small, each behind the separator that cargo expects. Loops over states, modes and joints turn a few times:
+/// copies of their bodies beyond what a short loop needs cost memory and, in the equations, time.
+fn compact() -> String {
+    ["inline-threshold=150", "unroll-threshold=100", "unroll-runtime=false", "force-vector-interleave=1"]
+        .map(|flag| format!("\u{1f}-Cllvm-args=--{flag}"))
+        .concat()
 }
 
 /// Flags that replace this machine's paths in panic messages, with the separator that cargo expects between them.

@@ -5,6 +5,7 @@
 //! them, and every value keeps all its bits.
 
 use super::error::SavedStateError;
+use crate::scene::checksum::crc32;
 use crate::scene::parameter::DECLARATION;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -16,7 +17,7 @@ pub fn seal(version: u32, content: &impl Serialize) -> Result<Vec<u8>, SavedStat
     let content = postcard::to_allocvec(content).map_err(|_| SavedStateError::Content)?;
     let length = u32::try_from(content.len()).map_err(|_| SavedStateError::Content)?;
     let sealed = [&MAGIC[..], &version.to_le_bytes(), &DECLARATION, &length.to_le_bytes(), &content].concat();
-    let checksum = crc32fast::hash(&sealed).to_le_bytes();
+    let checksum = crc32(&sealed).to_le_bytes();
     Ok([&sealed[..], &checksum].concat())
 }
 
@@ -39,7 +40,7 @@ pub fn open<T: DeserializeOwned>(version: u32, bytes: &[u8]) -> Result<T, SavedS
     if reader.rest.iter().any(|&byte| byte != 0) {
         return Err(SavedStateError::Length { expected: sealed + 4, given: bytes.len() });
     }
-    if crc32fast::hash(&bytes[..sealed]) != checksum {
+    if crc32(&bytes[..sealed]) != checksum {
         return Err(SavedStateError::Checksum);
     }
     if declaration != DECLARATION {
