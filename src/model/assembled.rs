@@ -69,7 +69,7 @@ impl Model {
         let (compiled, second_order) = (Compiled::of(&mechanism), states == 2 * p);
         Self {
             compiled,
-            rates_are_cheap: compiled.is_special && second_order,
+            rates_are_cheap: compiled.is_quick && second_order,
             suits_blocks: structure.topology.has_one_pin_clearance()
                 && second_order
                 && (mechanism.rod.is_none() || ROWS_WITH_MODES),

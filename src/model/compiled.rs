@@ -1,11 +1,12 @@
 //! The equations of motion compiled for several number types and for constant structures.
 //!
 //! The generic equations are compiled once per number type for any structure: for one state, for eight states and for a
-//! state with derivatives. A flexible rod is computed in the arrays for any rod. If there is little to compute, the
-//! branches on the structure take about as long as the computation, and if the number of modes is unknown, arrays stay in
-//! memory. For the structures listed here, those of the usual studies, the same source is therefore compiled again with the
-//! structure as a constant. `cargo bench --bench compiled` measures the saving in a stage of a step: about a tenth with
-//! four clearances, half with one, and half with a flexible rod. A structure with a smaller saving does not belong here.
+//! state with derivatives. A flexible rod is computed in the arrays for any rod unless its numbers of modes are usual. If there
+//! is little to compute, the branches on the structure take about as long as the computation, and if the number of modes is
+//! unknown, arrays stay in memory. For the structures listed here, those of the usual studies, the same source is therefore
+//! compiled again with the structure as a constant. `cargo bench --bench compiled` measures the saving in a stage of a step:
+//! about a tenth with four clearances, a third to a half with one, and a quarter with a flexible rod of usual numbers of modes,
+//! which are constants for any structure, too. Copies that saved a sixth with play in all joints of a flexible rod were removed.
 //! What is specialised are the stages of a step, where the time goes; code for eight states and the end of a step only where
 //! steps in blocks are usual, whose stages are short.
 //!
@@ -32,14 +33,16 @@ type Rates = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64]);
 type RatesOfEight = fn(&Mechanism, &Conditions, F64x8, &[F64x8], &mut [F64x8]);
 /// Writes the rates of a state and the event functions.
 type Ends = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64], &mut EventFunctions);
+/// Writes the rates of a state with a flexible rod and, where they are asked for, the event functions.
+type FlexibleEnds = fn(&Mechanism, &Conditions, f64, &[f64], &mut [f64], Option<&mut EventFunctions>);
 /// See [`Ode::stages`](crate::integrator::Ode::stages).
 type Stages = fn(&Mechanism, &Tableau, &Conditions, f64, &[f64], f64, &mut [f64]) -> bool;
 
 /// The equations of motion, compiled for one structure or for any.
 #[derive(Clone, Copy, Debug)]
 pub struct Compiled {
-    /// Whether the code is for one structure.
-    pub is_special: bool,
+    /// Whether no loop over modes of unknown number is left in it.
+    pub is_quick: bool,
     /// Rates of one state.
     pub rates: Rates,
     /// Rates of eight states.
@@ -55,7 +58,7 @@ pub struct Compiled {
 macro_rules! code {
     ($structure:ident) => {
         Compiled {
-            is_special: true,
+            is_quick: true,
             rates: if const { $structure.closed } {
                 |mechanism, conditions, t, y, rates| mechanism.rates(&$structure, conditions, t, y, rates)
             } else {
@@ -95,13 +98,10 @@ macro_rules! flexible_code {
             rates: &mut [f64],
             event_functions: Option<&mut EventFunctions>,
         ) {
-            let motion = mechanism.counted_motion::<_, $counts>(&$structure, conditions, t, y, rates);
-            if let (Some(motion), Some(event_functions)) = (motion, event_functions) {
-                motion.event_functions(mechanism, &$structure, &conditions.contacts, event_functions);
-            }
+            mechanism.counted_ends::<$counts>(&$structure, conditions, t, y, rates, event_functions);
         }
         Compiled {
-            is_special: true,
+            is_quick: true,
             rates: |mechanism, conditions, t, y, rates| motion(mechanism, conditions, t, y, rates, None),
             rates_of_eight: if const { suits_blocks(&$structure) && ROWS_WITH_MODES } {
                 |mechanism, conditions, t, y, rates| {
@@ -158,7 +158,7 @@ impl Compiled {
     /// The code for any structure.
     pub fn general(mechanism: &Mechanism) -> Self {
         Self {
-            is_special: false,
+            is_quick: mechanism.rod.as_ref().is_none_or(|rod| of_usual_counts(rod).is_some()),
             rates: Mechanism::rates_of_one,
             rates_of_eight: Mechanism::rates_of_eight,
             ends: Mechanism::ends,
@@ -198,11 +198,24 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
         own! {
             (true true false true true, 3 1)
             (true false false false true, 3 1)
-            (false false false false false, 2 0)
-            (false false false false false, 3 1)
         }
     }
     all
+}
+
+/// The code for any structure with a rod whose numbers of bending and axial modes are usual: loops over modes are written out.
+fn of_usual_counts(rod: &FlexibleRod) -> Option<FlexibleEnds> {
+    macro_rules! usual {
+        ($(($bending:literal $axial:literal))*) => {
+            $(if FixedCounts::<$bending, $axial>::COUNTS == Some(rod.modes.counts) {
+                return Some(Mechanism::ends_of_any::<FixedCounts<$bending, $axial>>);
+            })*
+        };
+    }
+    if rod.modes.room == RodCapacity::Few {
+        usual! { (2 0) (3 1) }
+    }
+    None
 }
 
 /// The loop over the stages of a step for any structure with `states` states; the number of states is a constant in its
@@ -221,15 +234,15 @@ fn stages_of_all(states: usize) -> Stages {
     of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// Code compiled once per number type for any structure; with a flexible rod, in the arrays for any rod, but for eight states,
-/// whose arrays would not fit into a host's stack.
+/// Code compiled once per number type for any structure; with a flexible rod, in the arrays for any rod, but for usual numbers of
+/// modes, and for eight states, whose arrays would not fit into a host's stack.
 impl Mechanism {
     /// Writes the rates of a state.
     #[inline(never)]
     pub fn rates_of_one(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {
         match &self.rod {
             None => self.rates(&self.structure, conditions, t, y, rates),
-            Some(rod) => self.drop_flexible_motion::<f64>(rod, conditions, t, y, rates),
+            Some(rod) => self.flexible_ends(rod, conditions, t, y, rates, None),
         }
     }
 
@@ -267,7 +280,7 @@ impl Mechanism {
     ) {
         match &self.rod {
             None => self.rates_and_event_functions(&self.structure, conditions, t, y, rates, event_functions),
-            Some(rod) => self.flexible_ends(rod, conditions, t, y, rates, event_functions),
+            Some(rod) => self.flexible_ends(rod, conditions, t, y, rates, Some(event_functions)),
         }
     }
 
@@ -352,6 +365,37 @@ impl Mechanism {
         Some(self.flexible_rates::<R, C, 4, 12>(of, rod, conditions, t, y, rates, &mut Inertia::default(), None))
     }
 
+    /// Writes the rates and, where they are asked for, the event functions, with a rod whose counts are known at compile time.
+    #[inline(always)]
+    fn counted_ends<C: CompiledCounts>(
+        &self,
+        of: &Structure,
+        conditions: &Conditions,
+        t: f64,
+        y: &[f64],
+        rates: &mut [f64],
+        event_functions: Option<&mut EventFunctions>,
+    ) {
+        let motion = self.counted_motion::<_, C>(of, conditions, t, y, rates);
+        if let (Some(motion), Some(event_functions)) = (motion, event_functions) {
+            motion.event_functions(self, of, &conditions.contacts, event_functions);
+        }
+    }
+
+    /// As [`Self::counted_ends`], for any structure.
+    #[inline(never)]
+    fn ends_of_any<C: CompiledCounts>(
+        &self,
+        conditions: &Conditions,
+        t: f64,
+        y: &[f64],
+        rates: &mut [f64],
+        event_functions: Option<&mut EventFunctions>,
+    ) {
+        self.counted_ends::<C>(&self.structure, conditions, t, y, rates, event_functions);
+    }
+
+    /// Writes the rates and, where they are asked for, the event functions.
     #[inline(never)]
     fn flexible_ends(
         &self,
@@ -360,10 +404,15 @@ impl Mechanism {
         t: f64,
         y: &[f64],
         rates: &mut [f64],
-        event_functions: &mut EventFunctions,
+        event_functions: Option<&mut EventFunctions>,
     ) {
+        if let Some(ends) = of_usual_counts(rod) {
+            return ends(self, conditions, t, y, rates, event_functions);
+        }
         let motion = self.flexible_motion::<f64>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
-        motion.event_functions(self, &self.structure, &conditions.contacts, event_functions);
+        if let Some(event_functions) = event_functions {
+            motion.event_functions(self, &self.structure, &conditions.contacts, event_functions);
+        }
     }
 
     #[inline(never)]
