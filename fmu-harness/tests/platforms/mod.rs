@@ -127,7 +127,13 @@ fn has_the_bits_of_linux64(platform: Platform, other: &Stock) {
 fn assert_same(found: &machine::Answer, wanted: &machine::Answer, what: &str) {
     let first =
         found.numbers.lines().zip(wanted.numbers.lines()).enumerate().find(|(_, (found, wanted))| found != wanted);
-    assert!(found == wanted, "{what}: first difference (line, (found, wanted)): {first:?}");
+    let [found_lines, wanted_lines] = [found, wanted].map(|answer| answer.numbers.lines().count());
+    assert!(
+        found == wanted,
+        "{what}: {found_lines} lines for {wanted_lines}, success {} for {}, first difference (line, (found, wanted)): {first:?}",
+        found.succeeded,
+        wanted.succeeded
+    );
 }
 
 #[test]

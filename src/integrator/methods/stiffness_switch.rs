@@ -38,9 +38,6 @@ const EARLY_CHECK_INTERVAL: u32 = 16;
 const PATIENCE: f64 = 8.0;
 /// Share of the stability bound from which on a step is near it: two stages reveal less than the fastest rate.
 const NEAR_BOUND: f64 = 0.4;
-/// Share of the stability bound above which stiffness is suspected at a check. What two stages reveal is less than the bound where
-/// the fastest motion is at rest.
-const SUSPECTED: f64 = 0.1;
 /// Share of the stability bound at which explicit steps begin after a series of implicit ones.
 const STABLE_SHARE: f64 = 0.6;
 /// Length of a block times the fastest rate above which the implicit method is tried.
@@ -75,18 +72,26 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 pub struct Terms {
     /// Stability bound of the explicit method: product of step and fastest rate.
     pub bound: f64,
+    /// Product of explicit step and fastest rate above which stiffness is suspected.
+    pub suspected: f64,
+    /// The explicit steps that implicit ones are instead of have at least this product.
+    pub least_reach: f64,
     /// Cost of an evaluation of an implicit step, with its share of the linear algebra, in explicit steps.
     pub cost: f64,
 }
 
 impl Terms {
-    /// The terms of a system with `positions` positions. The costs are those with which CPU times of random machines and of the
-    /// shipped scenes come out least: with three to twelve positions where rates are cheap, with 17 to 20 where they are not.
-    /// Where rates are cheap, a trial that pays in evaluations, which the limit of work counts, may take a little more time.
+    /// The terms of a system with `positions` positions. The costs are as measured with three to twelve positions where rates
+    /// are cheap and with 17 to 20 where they are not. With fewer, those of rates that are not cheap are up to a third less
+    /// than measured: a trial that pays in evaluations, which the limit of work counts, may take a little more time.
     pub fn new(bound: f64, positions: usize, rates_are_cheap: bool) -> Self {
         let positions = positions as f64;
-        let cost = if rates_are_cheap { 0.08 + 0.06 * positions } else { 0.1 + 0.001 * positions * positions };
-        Self { bound, cost }
+        if rates_are_cheap {
+            // What two stages reveal is less than the bound where the fastest motion is at rest.
+            Self { bound, suspected: 0.3 * bound, least_reach: bound, cost: 0.08 + 0.033 * positions }
+        } else {
+            Self { bound, suspected: 0.1 * bound, least_reach: USUAL_REACH, cost: 0.1 + 0.001 * positions * positions }
+        }
     }
 }
 
@@ -178,7 +183,7 @@ impl StiffnessSwitch {
     /// is near the stability bound, and else `None`.
     fn suspicion(&mut self, check_interval: u32, terms: &Terms, stiffness: impl FnOnce() -> f64) -> Option<bool> {
         if self.check_is_due(check_interval) {
-            return Some(stiffness() > SUSPECTED * terms.bound);
+            return Some(stiffness() > terms.suspected);
         }
         let is_early =
             self.steps.is_multiple_of(EARLY_CHECK_INTERVAL) && f64::from(self.steps) >= PATIENCE * self.waste;
@@ -209,10 +214,10 @@ impl StiffnessSwitch {
     /// Records an accepted implicit step of length `h` [s], which took the `work`; `fastest` is the fastest rate [1/s]. Returns
     /// the upper bound of the next step [s] if that is to be explicit.
     pub fn after_implicit(&mut self, h: f64, work: StepWork, terms: &Terms, fastest: f64) -> Option<f64> {
-        let Terms { bound, cost } = *terms;
+        let Terms { bound, least_reach, cost, .. } = *terms;
         self.steps = self.steps.saturating_add(1);
         if self.reach == 0.0 {
-            let usual = (self.explicit * fastest).clamp(USUAL_REACH, bound);
+            let usual = (self.explicit * fastest).clamp(least_reach, bound);
             self.reach = if self.explicit > 0.0 { usual } else { bound };
         }
         let of_other = if self.block > 0.0 { EXPLICIT_COST_IN_BLOCKS } else { 1.0 };
@@ -284,7 +289,8 @@ mod tests {
 
     const EXTENT: StateLayout = StateLayout::second_order(4);
 
-    const TERMS: Terms = Terms { bound: 4.6, cost: 0.146 };
+    const COSTLY: Terms = Terms { bound: 4.6, suspected: 0.46, least_reach: USUAL_REACH, cost: 0.146 };
+    const CHEAP: Terms = Terms { suspected: 1.38, least_reach: 4.6, ..COSTLY };
 
     fn of(elastic: [[f64; 2]; 2], damped: [[f64; 2]; 2], scales: [f64; 4]) -> f64 {
         let mut jacobian = Jacobian::new(4);
@@ -322,10 +328,10 @@ mod tests {
         let mut switch = StiffnessSwitch::NON_STIFF;
         let trial = |switch: &mut StiffnessSwitch| {
             let steps = (1..2000).find(|_| {
-                switch.after_explicit(9e-7, &TERMS, || 1.0);
+                switch.after_explicit(9e-7, &COSTLY, || 1.0);
                 switch.kind == MethodKind::Implicit
             });
-            let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), &TERMS, 4e6).is_some());
+            let ends = (1..2000).find(|_| switch.after_implicit(1e-7, work(1e-7), &COSTLY, 4e6).is_some());
             (steps, ends)
         };
         for check_interval in [32, 64, 128, 256, 256] {
@@ -336,7 +342,7 @@ mod tests {
         switch.kind = MethodKind::Implicit;
         let ends = (0..50).find(|step| {
             let h = if *step < 20 { 1e-3 } else { 1e-7 };
-            switch.after_implicit(h, work(h), &TERMS, 4e6).is_some()
+            switch.after_implicit(h, work(h), &COSTLY, 4e6).is_some()
         });
         assert_eq!(
             (ends, switch),
@@ -348,7 +354,7 @@ mod tests {
     fn a_trial_goes_on_while_its_steps_grow_and_ends_sooner_where_attempts_fail() {
         let steps_of_trial = |work: StepWork| {
             let mut switch = StiffnessSwitch { kind: MethodKind::Implicit, ..StiffnessSwitch::NON_STIFF };
-            (1..100).find(|_| switch.after_implicit(9e-6, work, &TERMS, 1e6).is_some())
+            (1..100).find(|_| switch.after_implicit(9e-6, work, &COSTLY, 1e6).is_some())
         };
         assert_eq!(steps_of_trial(StepWork { evaluations: 15, next: 9e-6 }), Some(19));
         assert_eq!(steps_of_trial(StepWork { evaluations: 60, next: 9e-6 }), Some(3));
@@ -361,47 +367,49 @@ mod tests {
         // A step of 4/ω costs 15·0.146 explicit steps: it pays if these are shorter than 1.83/ω.
         let last = |explicit: f64| {
             let mut switch = StiffnessSwitch::NON_STIFF;
-            (0..32).for_each(|_| switch.after_explicit(explicit, &TERMS, || 1.0));
+            (0..32).for_each(|_| switch.after_explicit(explicit, &COSTLY, || 1.0));
             assert_eq!(switch.kind, MethodKind::Implicit);
-            (1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), &TERMS, 1e6).is_some())
+            (1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), &COSTLY, 1e6).is_some())
         };
         assert_eq!(last(1e-6), None);
         assert_eq!(last(2e-6), Some(24)); // 2/(1 − 1.83/2) steps
         assert_eq!(last(4e-6), Some(4)); // 2/(1 − 1.83/4) steps
         // Short steps are no measure.
         assert_eq!(last(1e-9), None);
+        // Cheap rates: steps of 1/ω are not suspected, and those of 2/ω are taken for steps at the bound.
+        let mut switch = StiffnessSwitch::NON_STIFF;
+        (0..256).for_each(|_| switch.after_explicit(1e-6, &CHEAP, || 1.0));
+        assert_eq!(switch, StiffnessSwitch { explicit: 1e-6, ..StiffnessSwitch::NON_STIFF });
+        (0..32).for_each(|_| switch.after_explicit(2e-6, &CHEAP, || 1.5));
+        assert_eq!(switch.kind, MethodKind::Implicit);
+        assert_eq!((1..100).find(|_| switch.after_implicit(4e-6, work(4e-6), &CHEAP, 1e6).is_some()), Some(4));
     }
 
     #[test]
     fn steps_near_the_stability_bound_do_not_wait_for_the_next_check() {
         for check_interval in [32, 256] {
             let mut switch = StiffnessSwitch { check_interval, ..StiffnessSwitch::NON_STIFF };
-            (0..15).for_each(|_| switch.after_explicit(1e-6, &TERMS, || 2.0));
+            (0..15).for_each(|_| switch.after_explicit(1e-6, &CHEAP, || 2.0));
             assert_eq!(switch.kind, MethodKind::Explicit);
-            switch.after_explicit(1e-6, &TERMS, || 2.0);
+            switch.after_explicit(1e-6, &CHEAP, || 2.0);
             assert_eq!((switch.kind, switch.steps), (MethodKind::Implicit, 0));
         }
     }
 
     #[test]
     fn explicit_steps_near_the_bound_outweigh_what_a_trial_wasted_before_the_next() {
-        // A step of 0.1/ω does what 0.1 explicit steps do and takes the work of 15·0.146.
-        let mut switch = StiffnessSwitch {
-            kind: MethodKind::Implicit,
-            explicit: 1e-6,
-            check_interval: MAX_CHECK_INTERVAL,
-            ..StiffnessSwitch::NON_STIFF
-        };
+        // A step of 0.1/ω does what 0.1/4.6 explicit steps do and takes the work of 15·0.146.
+        let mut switch = StiffnessSwitch { kind: MethodKind::Implicit, explicit: 1e-6, ..StiffnessSwitch::NON_STIFF };
         let after = |switch: &mut StiffnessSwitch, h: f64, next: f64| {
-            switch.after_implicit(h, StepWork { evaluations: 15, next }, &TERMS, 1e6);
+            switch.after_implicit(h, StepWork { evaluations: 15, next }, &CHEAP, 1e6);
         };
         (0..3).for_each(|_| after(&mut switch, 1e-7, 1e-7));
-        assert!((switch.waste - 3.0 * (15.0 * 0.146 - 0.1)).abs() < 1e-12, "{}", switch.waste);
+        assert!((switch.waste - 3.0 * (15.0 * 0.146 - 0.1 / 4.6)).abs() < 1e-12, "{}", switch.waste);
         let next = (1..).find(|_| {
-            switch.after_explicit(1e-6, &TERMS, || 2.0);
+            switch.after_explicit(1e-6, &CHEAP, || 2.0);
             switch.kind == MethodKind::Implicit
         });
-        assert_eq!(next, Some(64)); // Eight times 6.3 steps are 50, and every sixteenth is looked at.
+        assert_eq!(next, Some(64)); // Eight times 6.5 steps are 52, and every sixteenth is looked at.
         // One that has paid wastes nothing.
         (0..12).for_each(|_| after(&mut switch, 3e-5, 3e-5));
         assert!(switch.waste < 0.0 && switch.is_sound());
@@ -411,11 +419,13 @@ mod tests {
 
     #[test]
     fn steps_far_within_stability_are_never_tried() {
-        let mut switch = StiffnessSwitch::NON_STIFF;
-        for _ in 0..1000 {
-            switch.after_explicit(1e-6, &TERMS, || 0.4);
+        for (terms, stiffness) in [(CHEAP, 1.0), (COSTLY, 0.4)] {
+            let mut switch = StiffnessSwitch::NON_STIFF;
+            for _ in 0..1000 {
+                switch.after_explicit(1e-6, &terms, || stiffness);
+            }
+            assert_eq!(switch.kind, MethodKind::Explicit);
         }
-        assert_eq!(switch.kind, MethodKind::Explicit);
     }
 
     #[test]
@@ -428,9 +438,9 @@ mod tests {
                 steps[switch.kind as usize] += 1;
                 match switch.kind {
                     MethodKind::Block => switch.after_block(1e-6, || 1e6),
-                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, &TERMS, || 0.4),
+                    MethodKind::Explicit => switch.after_explicit_beside_blocks(explicit, &CHEAP, || 1.0),
                     MethodKind::Implicit => {
-                        switch.after_implicit(implicit, work(implicit), &TERMS, 1e6);
+                        switch.after_implicit(implicit, work(implicit), &CHEAP, 1e6);
                     }
                 }
                 assert!(switch.is_sound());
@@ -447,7 +457,7 @@ mod tests {
         assert_eq!(trial(&mut switch, 3e-6, 0.2e-6), [32, 3, 256]);
         let mut switch = StiffnessSwitch { kind: MethodKind::Explicit, block: 1e-6, ..StiffnessSwitch::BLOCKS };
         while switch.kind == MethodKind::Explicit {
-            switch.after_explicit_beside_blocks(2e-6, &TERMS, || 4.0);
+            switch.after_explicit_beside_blocks(2e-6, &COSTLY, || 4.0);
         }
         assert_eq!(
             switch,
