@@ -2,7 +2,7 @@
 
 use super::bristles::bristled_contacts;
 use super::clearances::deepest_journals;
-use super::compiled::Compiled;
+use super::compiled::{Compiled, is_quick};
 use super::contact::{ContactEnergy, Rubbing};
 use super::drive::InputSignal;
 use super::ideal::IdealMechanism;
@@ -69,7 +69,7 @@ impl Model {
         let (compiled, second_order) = (Compiled::of(&mechanism), states == 2 * p);
         Self {
             compiled,
-            rates_are_cheap: compiled.is_quick && second_order,
+            rates_are_cheap: second_order && is_quick(&mechanism),
             suits_blocks: structure.topology.has_one_pin_clearance()
                 && second_order
                 && (mechanism.rod.is_none() || ROWS_WITH_MODES),

@@ -41,8 +41,6 @@ type Stages = fn(&Mechanism, &Tableau, &Conditions, f64, &[f64], f64, &mut [f64]
 /// The equations of motion, compiled for one structure or for any.
 #[derive(Clone, Copy, Debug)]
 pub struct Compiled {
-    /// Whether no loop over modes of unknown number is left in it.
-    pub is_quick: bool,
     /// Rates of one state.
     pub rates: Rates,
     /// Rates of eight states.
@@ -58,7 +56,6 @@ pub struct Compiled {
 macro_rules! code {
     ($structure:ident) => {
         Compiled {
-            is_quick: true,
             rates: if const { $structure.closed } {
                 |mechanism, conditions, t, y, rates| mechanism.rates(&$structure, conditions, t, y, rates)
             } else {
@@ -101,7 +98,6 @@ macro_rules! flexible_code {
             mechanism.counted_ends::<$counts>(&$structure, conditions, t, y, rates, event_functions);
         }
         Compiled {
-            is_quick: true,
             rates: |mechanism, conditions, t, y, rates| motion(mechanism, conditions, t, y, rates, None),
             rates_of_eight: if const { suits_blocks(&$structure) && ROWS_WITH_MODES } {
                 |mechanism, conditions, t, y, rates| {
@@ -158,7 +154,6 @@ impl Compiled {
     /// The code for any structure.
     pub fn general(mechanism: &Mechanism) -> Self {
         Self {
-            is_quick: mechanism.rod.as_ref().is_none_or(|rod| of_usual_counts(rod).is_some()),
             rates: Mechanism::rates_of_one,
             rates_of_eight: Mechanism::rates_of_eight,
             ends: Mechanism::ends,
@@ -201,6 +196,11 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
         }
     }
     all
+}
+
+/// Whether no loop over modes of unknown number is left in the code of a mechanism for one state.
+pub fn is_quick(mechanism: &Mechanism) -> bool {
+    mechanism.rod.as_ref().is_none_or(|rod| of_usual_counts(rod).is_some())
 }
 
 /// The code for any structure with a rod whose numbers of bending and axial modes are usual: loops over modes are written out.
@@ -264,7 +264,7 @@ impl Mechanism {
     pub fn tangent_rates(&self, conditions: &Conditions, t: Tangent, y: &[Tangent], rates: &mut [Tangent]) {
         match &self.rod {
             None => self.drop_rigid_motion(conditions, t, y, rates),
-            Some(rod) => self.drop_flexible_motion::<Tangent>(rod, conditions, t, y, rates),
+            Some(rod) => self.drop_flexible_motion(rod, conditions, t, y, rates),
         }
     }
 
@@ -463,15 +463,15 @@ impl Mechanism {
 
     /// Writes the rates and discards the motion.
     #[inline(never)]
-    fn drop_flexible_motion<R: Scalar>(
+    fn drop_flexible_motion(
         &self,
         rod: &FlexibleRod,
         conditions: &Conditions,
-        t: R,
-        y: &[R],
-        rates: &mut [R],
+        t: Tangent,
+        y: &[Tangent],
+        rates: &mut [Tangent],
     ) {
-        self.flexible_motion::<R>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
+        self.flexible_motion::<Tangent>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
     }
 
     #[inline(never)]

@@ -67,12 +67,12 @@ def minimise(
 ) -> Optimum:
     """The least (or greatest) value of a kept quantity over real parameters within `bounds` (SI units).
 
-    A study's [run] and [keep] say how each evaluation is run; its grid, draws and table have no part in it. An input with
-    bounds is constant during a run. One evaluation is one run through FMPy in this process; a run that fails counts as
-    infinitely bad. The search ends after so many evaluations, or where parameters vary by less than `tolerance` of their ranges (Nelder-Mead and
-    `gradient`, which start in the middle) or values by less than that share of their mean (differential evolution). The
-    same seed gives the same search. `gradient` and Nelder-Mead find the optimum next to the middle, differential
-    evolution searches everywhere.
+    A study's [run] and [keep] say how each evaluation is run; its grid, draws and table have no part in it. An input
+    with bounds is constant during a run. One evaluation is one run through FMPy in this process; a run that fails
+    counts as infinitely bad. The search ends after so many evaluations, or where parameters vary by less than
+    `tolerance` of their ranges (Nelder-Mead and `gradient`, which start in the middle) or values by less than that
+    share of their mean (differential evolution). The same seed gives the same search. `gradient` and Nelder-Mead find
+    the optimum next to the middle, differential evolution searches everywhere.
     """
     if evaluations < 1:
         raise ValueError(f"evaluations = {evaluations}: wanted at least 1")
