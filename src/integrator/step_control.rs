@@ -69,15 +69,20 @@ const LAST_ERROR_EXPONENT: f64 = 0.025;
 const UNSEEN_LIMIT: f64 = 1e3;
 /// Accuracy of a state is limited to a few roundings of its value.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+/// A rounding over that.
+const ROUNDING: f64 = 0.25;
 
 /// Root mean square of the error of a step from `y` over the tolerance, for the states that have a scale. A step is
 /// accepted if the norm is at most 1. With `coarse` the second, lower-order estimate is included.
 ///
 /// The rounding of a position disturbs accelerations, hence velocities, by that rounding times the fastest frequency,
 /// which is the ratio of their scales. A tolerance below this is out of reach: the estimate of an error would be
-/// rounding alone and fall with the first power of the step, and the roundings of ever more steps would add up.
+/// rounding alone and fall with the first power of the step, and the roundings of ever more steps would add up. Velocities
+/// of modal coordinates are disturbed by the roundings of places, which are far larger than their own positions'.
 pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], layout: StateLayout, coarse: bool, tolerance: f64) -> f64 {
-    let StateLayout { positions: p, weighted, .. } = layout;
+    let StateLayout { positions: p, places, weighted, .. } = layout;
+    let of_scale = |(y, scale): (&f64, &f64)| ROUNDING * ROUNDINGS * y.abs() / scale;
+    let of_places = if places < p { y[..places].iter().zip(scales).map(of_scale).fold(0.0, f64::max) } else { 0.0 };
     let (mut fine, mut of_coarse, mut largest_unseen) = (f64x4::ZERO, f64x4::ZERO, f64x4::ZERO);
     for range in [0..p, p..2 * p, 2 * p..weighted] {
         let is_velocity = range.start == p;
@@ -93,7 +98,8 @@ pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], layout: StateLayout, c
             let rounding = |behind: usize| f64x4::splat(ROUNDINGS) * four(y, behind, 0.0).abs();
             let mut tolerable = f64x4::splat(tolerance) * scale;
             if is_velocity {
-                tolerable = larger(tolerable, rounding(p) / four(scales, p, 1.0) * scale);
+                let own = rounding(p) / four(scales, p, 1.0);
+                tolerable = larger(tolerable, larger(own, f64x4::splat(of_places)) * scale);
             }
             let per_weight = f64x4::ONE / (tolerable + rounding(0));
             let square = |error: &[f64]| {

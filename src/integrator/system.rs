@@ -67,6 +67,9 @@ impl Discontinuities {
 pub struct StateLayout {
     /// Number of positions, which come first. As many velocities follow, and then first-order states.
     pub positions: usize,
+    /// Number of leading positions whose rounding disturbs the rates of all. Behind them stand modal coordinates, which are
+    /// small against the places of the bodies: forces on a body follow from both.
+    pub places: usize,
     /// Number of leading states in the error norm; the other states depend on them.
     pub weighted: usize,
     /// Number of all states.
@@ -76,7 +79,7 @@ pub struct StateLayout {
 impl StateLayout {
     /// The layout of `states` states: positions and their velocities.
     pub const fn second_order(states: usize) -> Self {
-        Self { positions: states / 2, weighted: states, states }
+        Self { positions: states / 2, places: states / 2, weighted: states, states }
     }
 
     /// Whether there are only positions and their velocities.

@@ -103,7 +103,8 @@ impl Ode for Model {
 
     fn layout(&self) -> StateLayout {
         let states = self.scales.len();
-        StateLayout { positions: self.mechanism.positions(), weighted: states, states }
+        let Mechanism { structure, .. } = &self.mechanism;
+        StateLayout { positions: self.mechanism.positions(), places: structure.positions, weighted: states, states }
     }
 
     fn rates(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {

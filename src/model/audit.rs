@@ -173,8 +173,8 @@ impl Ode for Audited {
     type Discrete = Conditions;
 
     fn layout(&self) -> StateLayout {
-        let StateLayout { positions, weighted, states } = self.model.layout();
-        StateLayout { positions, weighted, states: states + STATES }
+        let layout = self.model.layout();
+        StateLayout { states: layout.states + STATES, ..layout }
     }
 
     fn rates(&self, conditions: &Conditions, t: f64, y: &[f64], rates: &mut [f64]) {

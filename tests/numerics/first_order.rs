@@ -16,7 +16,7 @@ impl Ode for Following {
     type Discrete = ();
 
     fn layout(&self) -> StateLayout {
-        StateLayout { positions: 1, weighted: self.weighted, states: self.states }
+        StateLayout { positions: 1, places: 1, weighted: self.weighted, states: self.states }
     }
 
     fn rates(&self, (): &(), _: f64, y: &[f64], rates: &mut [f64]) {
@@ -111,7 +111,7 @@ fn inside_a_step_a_polynomial_of_degree_five_is_exact() {
         type Discrete = ();
 
         fn layout(&self) -> StateLayout {
-            StateLayout { positions: 0, weighted: 1, states: 1 }
+            StateLayout { positions: 0, places: 0, weighted: 1, states: 1 }
         }
 
         fn rates(&self, (): &(), t: f64, _: &[f64], rates: &mut [f64]) {

@@ -68,3 +68,18 @@ fn an_error_falls_with_the_tolerance_to_rounding_and_stays_there() {
         }
     }
 }
+
+#[test]
+fn roundings_of_places_do_not_shorten_the_steps_of_a_flexible_rod() {
+    for clearance in &CLEARANCES[..2] {
+        let mut scene = slow(*clearance);
+        scene.rod.flexible.bending_modes = 2;
+        let (loose, steps) = forces(&scene, Method::Automatic, 1e-9);
+        for tolerance in [1e-11, 1e-13] {
+            let (tight, more) = forces(&scene, Method::Automatic, tolerance);
+            let error = deviation(&tight, &loose);
+            assert!(error < 10.0 * ROUNDING, "{clearance:?}: {error:e} at {tolerance:e}");
+            assert!(more < 4 * steps, "{clearance:?}: {more} steps at {tolerance:e}, {steps} at 1e-9");
+        }
+    }
+}

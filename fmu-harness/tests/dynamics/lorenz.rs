@@ -14,7 +14,7 @@ impl Ode for Lorenz {
     type Discrete = ();
 
     fn layout(&self) -> StateLayout {
-        StateLayout { positions: 0, weighted: 3, states: 3 }
+        StateLayout { positions: 0, places: 0, weighted: 3, states: 3 }
     }
 
     fn rates(&self, _: &(), _: f64, y: &[f64], rates: &mut [f64]) {

@@ -48,7 +48,7 @@ impl Ode for Oscillator {
     type Discrete = bool;
 
     fn layout(&self) -> StateLayout {
-        StateLayout { positions: 1, weighted: 3, states: 3 }
+        StateLayout { positions: 1, places: 1, weighted: 3, states: 3 }
     }
 
     fn rates(&self, touches: &bool, t: f64, y: &[f64], rates: &mut [f64]) {
