@@ -1,9 +1,10 @@
 //! The oil films of a mechanism.
 
-use super::joint::film::Film;
+use super::joint::film::{Film, squeeze_velocity};
 use super::joint::revolute::Load;
 use super::joint_set::Pin;
 use super::loads::Loads;
+use super::plane::Vec2;
 use super::state::Pose;
 use crate::integrator::Discontinuities;
 use crate::math::Real;
@@ -44,6 +45,11 @@ impl Films {
     /// [W] Power lost in the films.
     pub fn loss<R: Real>(&self, pose: &Pose<R>) -> R {
         self.0.iter().fold(R::ZERO, |loss, (pin, film)| loss + film.loss(&pose.journal(*pin)))
+    }
+
+    /// [m/s] Velocities of the journals, by which the films are squeezed. Loads are not smooth where one of them is 0.
+    pub fn squeeze_velocities<'a>(&'a self, pose: &'a Pose) -> impl Iterator<Item = Vec2> + 'a {
+        self.0.iter().map(|(pin, _)| squeeze_velocity(&pose.journal(*pin)))
     }
 
     /// The load of the film in one joint; zero in a dry joint.

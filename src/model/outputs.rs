@@ -15,7 +15,7 @@ use super::rod::Elastic;
 use super::signals::{
     AccuracyOutputs, CrankOutputs, GuideOutputs, IntervalOutputs, Outputs, RevoluteOutputs, RodOutputs, SliderOutputs,
 };
-use super::state::{Conditions, Contacts, Evaluation};
+use super::state::{Conditions, Contacts, Evaluation, Pose};
 use super::structure::{CRANK, ROD, SLIDER, Topology};
 use super::touches::{GUIDE, JOINTS, Touches};
 use crate::scene::{Scene, Surface};
@@ -42,6 +42,18 @@ impl Observer {
             ideal: IdealMechanism::new(scene),
             surface: scene.joint.t.surface,
         }
+    }
+
+    /// Vectors at whose zeros outputs are not smooth in the states: the eccentricities [m] of joints with clearance, whose
+    /// lengths are told, and the velocities [m/s] that squeeze oil films. Those of ideal and dry joints are 0.
+    pub fn corners(&self, pose: &Pose) -> [Vec2; 6] {
+        let Topology { a, b, c, .. } = self.topology;
+        let pins = Pin::ALL.into_iter().zip([a, b, c]).filter(|(_, ideal)| !ideal);
+        let eccentricities = pins.map(|(pin, _)| pose.journal(pin).eccentricity);
+        let mut vectors = [Vec2::default(); 6];
+        let all = eccentricities.chain(self.films.squeeze_velocities(pose));
+        vectors.iter_mut().zip(all).for_each(|(place, vector)| *place = vector);
+        vectors
     }
 
     /// All outputs except the integrator's counters. `torque_input` [N·m] is the input of the crank torque.

@@ -16,6 +16,7 @@ use super::error::SimulationError;
 use super::observation::{observe, with_settings};
 use super::record::Discrete;
 use super::start::pose;
+use super::variation::line::Line;
 use crate::integrator::{MAX_STATES, Reader, Snapshot};
 use crate::math::Real;
 use crate::model::drive::InputSignal;
@@ -26,8 +27,6 @@ use crate::model::signals::{Inputs, Outputs};
 use crate::model::state::Conditions;
 use crate::scene::{Method, Scene};
 
-/// Half the width of a difference over a state, as a part of the state's scale.
-const DIFFERENCE: f64 = 1e-3;
 /// First integer of a snapshot, which no other kind of run begins with: its first is a number of states.
 const MARK: u64 = 0x005D_EFED;
 /// [J] Nominal value of an audit's sums, which no error norm of ours weighs.
@@ -184,24 +183,13 @@ impl HostedMechanism {
         })
     }
 
-    /// Their derivative along a direction: exact in the inputs, a central difference in the states.
+    /// Their derivative along a direction: exact in the inputs, a difference in the states.
     pub fn outputs_along(&self, direction: &Direction) -> Outputs {
+        let Self { model, observer, conditions, time, states, .. } = self;
+        let model = model.as_ref();
+        let line = Line { model, conditions, t: *time, y: states, direction: &direction.states, levels: None };
         let by_inputs = self.output_sensitivity(direction.inputs);
-        let sizes = direction.states.iter().zip(&self.nominals).map(|(along, nominal)| (along / nominal).abs());
-        let size = sizes.fold(0.0, f64::max);
-        if size == 0.0 {
-            return by_inputs;
-        }
-        let half = DIFFERENCE / size;
-        let at = |step: f64| {
-            let mut moved = [0.0; MAX_STATES];
-            for ((moved, state), along) in moved.iter_mut().zip(&self.states).zip(&direction.states) {
-                *moved = state + step * along;
-            }
-            self.observe(&moved[..self.states.len()], &self.conditions)
-        };
-        let by_states = at(half).combined(&at(-half), |after, before| (after - before) / (2.0 * half));
-        by_states.combined(&by_inputs, |states, inputs| states + inputs)
+        line.fitted().outputs(observer).combined(&by_inputs, |states, inputs| states + inputs)
     }
 
     /// Writes the derivative of the rates along a direction: exact, by the equations' own code.

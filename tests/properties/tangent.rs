@@ -5,7 +5,7 @@ use slidercrank::scene::parameter::Parameter;
 use slidercrank::scene::read::read;
 use slidercrank::scene::{DampingLaw, Elasticity, FrictionLaw, JointModel, Lubrication, Method, Scene, Surface};
 use slidercrank::simulation::variation::{Seed, Variation};
-use slidercrank::simulation::{Phase, Simulation};
+use slidercrank::simulation::{Direction, HostedMechanism, Phase, Simulation};
 
 /// Distances of neighbours, in noticeable differences or as shares of a parameter.
 const DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
@@ -249,6 +249,60 @@ fn what_decays_within_a_long_step_is_gone_at_its_end() {
             });
             assert!(miss < 1e-3, "state {place} from {from} s: {miss:e}");
         }
+    }
+}
+
+#[test]
+fn a_penetration_follows_the_eccentricity_of_a_centred_journal() {
+    let scene = shipped("wornpin");
+    let check = |e: [f64; 2], found: f64, slope: [f64; 2]| {
+        let exact = (e[0] * slope[0] + e[1] * slope[1]) / e[0].hypot(e[1]);
+        assert!((found - exact).abs() <= 1e-4 * slope[0].hypot(slope[1]), "{found} {exact}");
+    };
+    let seeds: Vec<Seed> = (0..4).map(Seed::State).collect();
+    let mut variation = Variation::start(&scene, Inputs::default(), &seeds).expect("a start");
+    variation.advance_to(1e-6).expect("a motion");
+    let e = variation.outputs().joint_c.eccentricity;
+    assert!(e[0].hypot(e[1]) < 1e-8, "a centred journal: {e:?}");
+    for derivative in variation.output_derivatives().expect("no grazing") {
+        check(e, derivative.joint_c.penetration, derivative.joint_c.eccentricity);
+    }
+    // A host's own integrator, with the journal nearer to the middle still.
+    let mut hosted = HostedMechanism::start(&scene, Inputs::default()).expect("a start");
+    hosted.states_mut()[0] += 1e-10 - hosted.outputs().joint_c.eccentricity[0];
+    let e = hosted.outputs().joint_c.eccentricity;
+    let count = hosted.states().len();
+    for state in 0..count {
+        let mut direction = Direction { states: vec![0.0; count], inputs: Inputs::default() };
+        direction.states[state] = 1.0;
+        let derivative = hosted.outputs_along(&direction);
+        check(e, derivative.joint_c.penetration, derivative.joint_c.eccentricity);
+    }
+}
+
+#[test]
+fn forces_of_a_film_that_is_hardly_squeezed_have_derivatives() {
+    let mut scene = shipped("oilpress");
+    scene.solver.tolerance = 1e-12;
+    let end = scene.crank.speed_start.recip() * 1_f64.to_radians();
+    let names = ["joint.A.viscosity", "joint.A.radius", "rod.mass"];
+    let seeds: Vec<Seed> = names.iter().map(|name| Seed::Parameter(parameter(name))).collect();
+    let mut variation = Variation::start(&scene, Inputs::default(), &seeds).expect("a start");
+    variation.advance_to(end).expect("a motion");
+    for (name, derivative) in names.iter().zip(variation.output_derivatives().expect("no grazing")) {
+        let (parameter, [x, y]) = (parameter(name), derivative.joint_a.force);
+        let value = parameter.value(&scene);
+        let exact = [derivative.joint_a.film_force, x, y].map(|slope| slope * value);
+        let size = x.hypot(y) * value.abs();
+        let miss = plateau(&exact, &[size; 3], |share| {
+            let mut scene = scene.clone();
+            parameter.write(&mut scene, value * (1.0 + share)).expect("a value");
+            let mut simulation = Simulation::start(&scene, Inputs::default()).expect("a start");
+            simulation.advance_to(end).expect("a motion");
+            let outputs = simulation.outputs().joint_a;
+            vec![outputs.film_force, outputs.force[0], outputs.force[1]]
+        });
+        assert!(miss < 1e-5, "{name}: {miss:e}");
     }
 }
 

@@ -127,8 +127,8 @@ impl Film {
 
     fn response<R: Real>(&self, journal: &JournalMotion<R>) -> Response<R> {
         let Self { clearance: c, roughness, squeeze, shear } = *self;
-        let JournalMotion { eccentricity: e, rate, journal_speed, bearing_speed } = *journal;
-        let velocity = rate - (journal_speed + bearing_speed) * 0.5 * perp(e);
+        let JournalMotion { eccentricity: e, journal_speed, bearing_speed, .. } = *journal;
+        let velocity = squeeze_velocity(journal);
 
         // The thickness that decides on the resistance, and the eccentricity that belongs to it.
         let eccentricity = e.norm_squared().max(f64::MIN_POSITIVE).sqrt();
@@ -151,6 +151,13 @@ impl Film {
         let force = (along * velocity + across * perp(velocity)) * -squeeze;
         Response { force, velocity, torque: (journal_speed - bearing_speed) * shear / q }
     }
+}
+
+/// [m/s] V: velocity of a journal's centre, seen from axes that turn with the mean spin.
+#[inline(always)]
+pub fn squeeze_velocity<R: Real>(journal: &JournalMotion<R>) -> Vec2<R> {
+    let JournalMotion { eccentricity, rate, journal_speed, bearing_speed } = *journal;
+    rate - (journal_speed + bearing_speed) * 0.5 * perp(eccentricity)
 }
 
 /// I_c and I_s, where `square` is q² = 1 − a² − b² > 0 and `q` its root.

@@ -3,7 +3,8 @@
 //! A derivative is a difference of order 4, (8·(f₁ − f₋₁) − (f₂ − f₋₂))/(12·h). Contact forces are not smooth where a
 //! penetration begins and at their corners, so the step h is chosen anew at every state, such that no penetration, and no
 //! distance to a corner, changes by more than a share of itself. Where a corner is so near that no step suits, speeds are
-//! moved along with the parameter such that the distance to the corner stays as it is.
+//! moved along with the parameter such that the distance to the corner stays as it is. Outputs have corners of their own,
+//! where a vector is 0: the length of an eccentricity, the force of a film that is not squeezed.
 
 use super::levels::{CENTRAL, LEVELS, Levels, Neighbour, TURN, step_at};
 use crate::integrator::{Discontinuities, MAX_DISCONTINUITIES, MAX_STATES};
@@ -25,6 +26,8 @@ const MEASURED: usize = 4;
 const OF_PENETRATION: f64 = 0.01;
 /// … of its second order, since a force that the first hardly changes depends on it, …
 const OF_BEND: f64 = 1e-5;
+/// … of a vector at whose zero outputs have a corner, …
+const OF_VECTOR: f64 = 0.02;
 /// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves.
 const OF_CORNER: f64 = 0.2;
 const OF_APPROACH: f64 = 1e-3;
@@ -88,6 +91,21 @@ impl<'a> Line<'a> {
             let observer = neighbour.map_or(observer, |neighbour| &neighbour.observer);
             (observe(model, observer, &conditions, self.t, &y[..self.y.len()]), weight)
         }))
+    }
+
+    /// The level of the longest step, from `level` on, that changes no vector at whose zeros outputs have a corner by much.
+    #[inline(never)]
+    fn passes_no_corner(&self, level: usize, observer: &Observer) -> Option<usize> {
+        let here = observer.corners(&self.model.pose(self.t, self.y));
+        let keeps = |level: &usize| {
+            self.points(*level).all(|Point { model, y, .. }| {
+                let there = observer.corners(&model.pose(self.t, &y[..self.y.len()]));
+                // At a zero itself no step is short enough.
+                let mut pairs = here.iter().zip(there).filter(|(own, _)| own.norm() > 0.0);
+                pairs.all(|(own, other)| (other - *own).norm() <= 2.0 * OF_VECTOR * own.norm())
+            })
+        };
+        (level..LEVELS).find(keeps)
     }
 
     /// Whether nothing changes along the line.
@@ -262,9 +280,10 @@ impl Fitted<'_> {
         self.line.write_rates(self.fit.level(), slopes);
     }
 
-    /// Derivatives of the outputs. `observer` is that of the mechanism.
+    /// Derivatives of the outputs. `observer` is that of the mechanism. Outputs have corners of their own.
     pub fn outputs(&self, observer: &Observer) -> Outputs {
-        self.line.outputs(self.fit.level(), observer)
+        let suitable = self.line.passes_no_corner(self.fit.level(), observer);
+        self.line.outputs(suitable.unwrap_or(LEVELS - 1), observer)
     }
 
     /// This one, or the other if its step is longer. Near a corner none suits, and the one errs less that crosses the corner

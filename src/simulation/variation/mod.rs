@@ -5,7 +5,7 @@
 //! [`tangent`](crate::integrator::tangent).
 
 mod levels;
-mod line;
+pub(super) mod line;
 mod neighbours;
 mod seed;
 mod varied;
