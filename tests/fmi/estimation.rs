@@ -437,8 +437,11 @@ fn a_phase_that_is_refused_changes_nothing() {
     let (picture, saved) = (slave.picture(), slave.bytes_of(slave.save()));
     let mut infinite = numbers.clone();
     infinite[0] = f64::INFINITY;
+    let mut far = numbers.clone();
+    far[0] = 1e300;
     for (phase, parameters, values, word) in [
         (&infinite, vec![], vec![], "= inf is not a finite number"),
+        (&far, vec![], vec![], "no motion goes on from these numbers, of which state.slider.x = 1e300 is the largest"),
         (&numbers[1..].to_vec(), vec![], vec![], "numbers of a phase, where there are"),
         (&numbers, vec![length, clearance], vec![0.13, -1.0], "joint.C.clearance = -1 is out of range"),
         (&numbers, vec![length, clearance], vec![0.13, f64::NAN], "joint.C.clearance = NaN is not a finite number"),

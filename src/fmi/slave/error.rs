@@ -23,6 +23,8 @@ pub enum Error {
     OutputNotFinite(&'static str, f64),
     /// A number of a phase is NaN or infinite.
     PhaseNotFinite(String, f64),
+    /// No motion goes on from a phase. Its largest number.
+    PhaseBeyond(String, f64),
     /// An output has no derivative with respect to start values, since it jumps.
     NoDerivative(&'static str),
     /// The mechanism cannot start or go on.
@@ -49,6 +51,7 @@ impl Error {
             | Self::SavedState(_)
             | Self::Scene(_)
             | Self::PhaseNotFinite(..)
+            | Self::PhaseBeyond(..)
             | Self::Interface
             | Self::Count { .. }
             | Self::Simulation(

@@ -8,6 +8,7 @@ use super::states::phase_names;
 use super::variables::Access;
 use super::{Slave, TOLERANCE, engine_of};
 use crate::model::signals::{Inputs, Outputs};
+use crate::simulation::SimulationError;
 use crate::simulation::step_map::{By, PhaseNumbers, StepMap, StepRequest};
 
 /// What an array of a phase has, for messages.
@@ -118,16 +119,26 @@ impl Slave {
         }
         let (present, scene) = (self.settings.simulated_scene()?, settings.simulated_scene()?);
         let mut run = engine_of(self.newer, &present).restore(&present, &self.live()?.snapshot())?;
-        let phase = numbers.phase(run.time(), phase);
-        run.place(&phase);
-        if !parameters.is_empty() {
-            // The last step is over now. It may have been longer than any step with the new values.
-            run = engine_of(self.newer, &scene).restore(&scene, &run.snapshot())?;
-            run.place(&phase);
-        }
+        let placed = numbers.phase(run.time(), phase);
+        run.place(&placed);
+        // The last step is over now. It may have been longer than any step with new values of parameters.
+        run = engine_of(self.newer, &scene).restore(&scene, &run.snapshot()).map_err(|error| match error {
+            SimulationError::Snapshot(_) => self.beyond(phase),
+            other => other.into(),
+        })?;
+        run.place(&placed);
         (self.settings.scene, self.settings.tolerance_set) = (settings.scene, settings.tolerance_set);
         (self.course, self.outputs) = (Some(Course::Own(run)), None);
         Ok(())
+    }
+}
+
+impl Slave {
+    /// The error of a phase so far away that it cannot be saved.
+    fn beyond(&self, phase: &[f64]) -> Error {
+        let all = self.phase_names().into_iter().zip(phase.iter().copied());
+        let (name, value) = all.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default();
+        Error::PhaseBeyond(name, value)
     }
 }
 

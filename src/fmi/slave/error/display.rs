@@ -12,6 +12,9 @@ impl fmt::Display for Error {
             Self::SavedState(error) => error.fmt(f),
             Self::Scene(error) => error.fmt(f),
             Self::PhaseNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
+            Self::PhaseBeyond(name, value) => {
+                write!(f, "no motion goes on from these numbers, of which {name} = {value:e} is the largest")
+            }
             Self::OutputNotFinite(name, value) => write!(f, "{name} = {value} is not a finite number"),
             Self::NoDerivative(name) => {
                 write!(f, "{name} has no derivative with respect to these start values: it jumps there")
