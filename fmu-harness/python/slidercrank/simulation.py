@@ -52,6 +52,12 @@ def simulate(
     starts = {name: value_of(known[name], value) for name, value in (settings or {}).items()}
     if inputs is not None:
         check(inputs, starts)
+        for name in inputs.columns:
+            if known[name].causality != "input":
+                raise ValueError(f"inputs: `{name}` is no input")
+    if step is None and description.defaultExperiment and description.defaultExperiment.stepSize:
+        # FMPy takes longer steps else, to keep a thousand rows.
+        step = float(description.defaultExperiment.stepSize)
     with TemporaryDirectory(prefix="fmu-", ignore_cleanup_errors=True) as folder:
         said: list[str] = []
         hear = lambda *told: said.append(told[-1].decode(errors="replace"))
@@ -73,7 +79,7 @@ def simulate(
                 model_description=description,
                 fmu_instance=instance,
             )
-        except FMICallException as error:
+        except Exception as error:
             raise RunError("\n".join(said) or str(error)) from error
         finally:
             instance.freeInstance()

@@ -92,8 +92,9 @@ class Unit:
         An item of an enumeration is given by its number or its name.
         """
         self.stop()
-        self._started = Estimated(self, settings or {})
-        self._started.__enter__()
+        instance = Estimated(self, settings or {})
+        instance.__enter__()
+        self._started = instance
 
     def __enter__(self) -> Self:
         return self

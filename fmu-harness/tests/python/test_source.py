@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy
 import pandas
 import pytest
+from fmpy import read_model_description
 
 import slidercrank
 from slidercrank import SourceError, Unit, package, scenes, simulate, source
@@ -74,6 +75,15 @@ def test_a_run_is_a_frame_over_time_with_the_settings_and_inputs_that_were_given
     assert abs(loaded["drive.torque"] - free["drive.torque"]).max() > 1.0
     with pytest.raises(KeyError, match="slider.w"):
         simulate(fmu("ideal"), outputs=["slider.w"])
+    with pytest.raises(RunError, match="slider.x"):
+        simulate(fmu("ideal"), 0.01, settings={"slider.x": 1.0})
+
+
+@pytest.mark.parametrize("scene", ["wornpin", "wornpin3"])
+def test_steps_are_the_fmu_s_own_unless_others_are_given(scene):
+    own = float(read_model_description(str(fmu(scene))).defaultExperiment.stepSize)
+    run = simulate(fmu(scene), 1200 * own, outputs="slider.x")
+    assert len(run) == 1201 and numpy.allclose(numpy.diff(run.index), own, rtol=1e-9)
 
 
 RAMP = pandas.DataFrame({"crank.torque": [0.0, 10.0]}, index=[0.0, 0.01])
@@ -119,6 +129,7 @@ def run_with(inputs, settings=None, scene="ideal"):
         (RAMP.set_axis(["0", "0.01"]), {}, "the index is .*, but must be numbers"),
         (RAMP, {"crank.torque": 1.0}, "`crank.torque` is among the settings and the inputs"),
         (RAMP[["crank.torque"] * 2], {}, "two columns have the name `crank.torque`"),
+        (RAMP.rename(columns={"crank.torque": "crank.length"}), {}, "inputs: `crank.length` is no input"),
     ],
 )
 def test_what_is_no_input_over_time_is_refused(inputs, settings, why):
