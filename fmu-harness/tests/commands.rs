@@ -324,9 +324,9 @@ mod peers {
 
     /// One scene for each set of competitors, with those that know no other.
     const CONTESTS: [(&str, &[&str]); 4] = [
-        ("peers/ideal", &["SUNDIALS", "heyoka", "MuJoCo"]),
-        ("peers/wornpin", &["SUNDIALS", "heyoka", "SciPy", "Exudyn"]),
-        ("peers/guideplay", &["SUNDIALS", "heyoka", "Siconos"]),
+        ("peers/ideal", &["SUNDIALS", "heyoka", "diffsol", "MuJoCo"]),
+        ("peers/wornpin", &["SUNDIALS", "heyoka", "diffsol", "SciPy", "Exudyn"]),
+        ("peers/guideplay", &["SUNDIALS", "heyoka", "diffsol", "Siconos"]),
         ("flexrod", &["SUNDIALS"]),
     ];
 

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Measures what other programs need for the same scene: SUNDIALS, SciPy, heyoka, Exudyn, MuJoCo, Siconos.
+/// Measures what other programs need for the same scene: SUNDIALS, SciPy, heyoka, diffsol, Exudyn, MuJoCo, Siconos.
 ///
 /// Every method of every program, this one included, runs a series of tolerances or step sizes, one after the other on
 /// one thread. The table gives CPU seconds per simulated second at equal error, interpolated between runs, and the

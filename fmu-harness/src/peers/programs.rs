@@ -96,6 +96,26 @@ const HEYOKA: [Program; 2] = [
     heyoka("whole", "whole", "equations of its own; events handled in Python, without compilation"),
 ];
 
+const fn diffsol(method: &'static str, word: &'static str, note: &'static str) -> Program {
+    let (peer, kind, ladder) = ("diffsol", Kind::Python("diffsol_mechanism.py"), TOLERANCES);
+    Program { peer, method, kind, word, ladder, rigid: false, note: Some(note) }
+}
+
+const DIFFSOL: [Program; 4] = [
+    diffsol(
+        "Tsitouras 5(4)",
+        "tsit45",
+        "equations as for heyoka; without Python between events, without compilation; steps counted",
+    ),
+    diffsol(
+        "Tsitouras, whole",
+        "tsit45-whole",
+        "equations as for heyoka; events handled in Python, without compilation; steps counted",
+    ),
+    diffsol("ESDIRK 3(4)", "esdirk34", "as Tsitouras 5(4)"),
+    diffsol("BDF", "bdf", "as Tsitouras 5(4)"),
+];
+
 const SICONOS: Program = Program {
     peer: "Siconos",
     method: "Moreau-Jean",
@@ -116,8 +136,8 @@ pub fn of(scene: &Scene) -> Vec<&'static Program> {
     if Rod::new(scene).is_some() {
         return all;
     }
-    if heyoka_knows(scene, clear, speed) {
-        all.extend(&HEYOKA);
+    if expressions_know(scene, clear, speed) {
+        all.extend(HEYOKA.iter().chain(&DIFFSOL));
     }
     // The others know gravity across the guide alone.
     if (scene.gravity != 0.0 && scene.gravity_angle != -FRAC_PI_2) || is_unusual(scene) {
@@ -143,8 +163,9 @@ fn is_unusual(scene: &Scene) -> bool {
     scene.slider.load_offset != 0.0 || oil.contains(&true)
 }
 
-/// Whether the expressions of the program on heyoka have the laws of all contacts, and there is something to integrate.
-fn heyoka_knows(scene: &Scene, clear: [bool; 4], speed: bool) -> bool {
+/// Whether the expressions of the programs on heyoka and diffsol have the laws of all contacts, and there is something to
+/// integrate.
+fn expressions_know(scene: &Scene, clear: [bool; 4], speed: bool) -> bool {
     let joint = &scene.joint;
     let contacts = [&joint.a.contact, &joint.b.contact, &joint.c.contact, &joint.t.contact];
     let law = |(contact, _): (&Contact, bool)| {
