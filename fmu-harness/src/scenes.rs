@@ -5,7 +5,7 @@ use crate::package::build::workspace;
 use anyhow::{Context, Result, bail};
 use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::read::{SceneFile, read};
-use slidercrank::scene::units::quantity;
+use slidercrank::scene::units::{UnitError, quantity};
 use slidercrank::scene::write::{write, write_table};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -62,9 +62,9 @@ impl Scenario {
 }
 
 /// Reads a parameter's value: a number in SI units or with a unit, a truth value, or an item by its name or number.
-fn understood(parameter: &Parameter, text: &str) -> Option<f64> {
-    match parameter.kind {
-        Kind::Real { unit, .. } => text.parse().ok().or_else(|| quantity(text, unit).ok()),
+fn understood(parameter: &Parameter, text: &str) -> Result<f64> {
+    let found = match parameter.kind {
+        Kind::Real { unit, .. } => return Ok(number(text, unit)?),
         Kind::Integer { .. } => text.parse().ok().map(|number: i32| f64::from(number)),
         Kind::Boolean { .. } => match text {
             "true" | "1" => Some(1.0),
@@ -75,7 +75,16 @@ fn understood(parameter: &Parameter, text: &str) -> Option<f64> {
             let is_meant = |(name, value): &&(&str, i32)| *name == text || value.to_string() == text;
             items.iter().find(is_meant).map(|(_, value)| f64::from(*value))
         }
-    }
+    };
+    found.context("none of these")
+}
+
+/// A number in SI units, or a text with a unit that measures the same as `unit`.
+///
+/// # Errors
+/// If it is neither.
+pub fn number(text: &str, unit: &str) -> Result<f64, UnitError> {
+    text.parse().or_else(|_| quantity(text, unit))
 }
 
 /// File of the shipped scene of this name, or the file at this path.

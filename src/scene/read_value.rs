@@ -14,8 +14,8 @@ pub(super) fn number(text: &str, key: &str, value: &Value, unit: &str) -> Result
         key: key.to_owned(),
         found: source(text, value),
         wanted: match unit {
-            "1" => "a number".to_owned(),
-            _ => format!("a number in {unit} or a text with a unit"),
+            "1" => "a finite number".to_owned(),
+            _ => format!("a finite number in {unit} or a text with a unit"),
         },
     };
     let number: f64 = match value.get_ref() {

@@ -92,7 +92,7 @@ fn a_wrong_key_names_its_neighbour() {
 fn a_wrong_type_or_item_names_what_is_allowed() {
     assert_eq!(
         refused("[crank]\nlength = true\n"),
-        "x.toml:2:10: crank.length = true: wanted a number in m or a text with a unit"
+        "x.toml:2:10: crank.length = true: wanted a finite number in m or a text with a unit"
     );
     assert_eq!(refused("joint.A = 3\n").split(": wanted").next(), Some("x.toml:1:11: joint.A = 3"));
     assert_eq!(refused("drive.mode = 1"), "x.toml:1:14: drive.mode = 1: wanted one of the texts torque, speed");
@@ -164,7 +164,7 @@ fn a_value_out_of_range_names_the_range() {
         "x.toml:2:13: joint.C.clearance = \"200 mm\" is not allowed: 1e-9 to 0.1 m"
     );
     assert_eq!(refused("run.step = 0"), "x.toml:1:12: run.step = 0 is not allowed: above 0, at most 1e6 s");
-    assert!(refused("gravity = nan").starts_with("x.toml:1:11: gravity = nan: wanted a number"));
+    assert!(refused("gravity = nan").starts_with("x.toml:1:11: gravity = nan: wanted a finite number"));
     assert!(refused("slider.load = inf").starts_with("x.toml:1:15: slider.load = inf: wanted"));
 }
 

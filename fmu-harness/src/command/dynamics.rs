@@ -99,6 +99,9 @@ impl Dynamics {
         fs::create_dir_all(&out).with_context(|| format!("cannot make the directory {}", out.display()))?;
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
         let range = self.range()?;
+        if let Some(range) = &range {
+            range.check(&scenario.file)?;
+        }
         let plan = Plan {
             transient: self.transient,
             turns: self.turns as usize,
@@ -136,6 +139,9 @@ impl Dynamics {
             let plan = Plan { turns: self.value_turns as usize, tangent_turns: 0, ..plan };
             let mut diagram = self.simulated(&scenario, &plan, range, style)?;
             if self.follow_orbit {
+                // Branches take long: what is known by then stays if they are interrupted.
+                diagram.write(&out, name, scene)?;
+                write(&base, "md", &page)?;
                 followed = self.orbits(&scenario, &plan, &mut diagram);
             }
             for table in diagram.tables() {
@@ -173,7 +179,7 @@ impl Dynamics {
         let parameter = Parameter::named(&range.name).context("a parameter")?;
         let (from, to) = (range.values[0], range.values[range.values.len() - 1]);
         let map = PoincareMap::new(&scenario.file, parameter, plan.section)?;
-        let start = plan.periodic(&map, from)?;
+        let start = plan.periodic(&map, from).with_context(|| format!("{} = {from}", range.name))?;
         let bar = ProgressBar::new_spinner().with_message("branches");
         let continuation = Continuation { map: &map, from, to, doublings: self.doublings.into() };
         let branches = continuation.follow(start, |value| {

@@ -7,15 +7,14 @@ use crate::package::MODES;
 use crate::report::figure::{self, Pair};
 use crate::report::summary;
 use crate::run::{ANGLE, Experiment, JOINTS, Recording, Until, afford, ideal_joints, run};
-use crate::scenes::Scenario;
+use crate::scenes::{Scenario, number};
 use crate::trajectory::Trajectory;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use slidercrank::scene::parameter::Parameter;
+use slidercrank::scene::parameter::{Kind, Parameter};
 use slidercrank::scene::read::{SceneFile, read_with};
 use slidercrank::scene::run::End;
-use slidercrank::scene::units::quantity;
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,6 +26,7 @@ const PATIENCE: f64 = 20.0;
 
 /// Runs a scene, or any co-simulation FMU of FMI 2.0 or 3.0.
 #[derive(Args, Default)]
+#[command(allow_negative_numbers = true)]
 pub struct Run {
     /// Scene: the name of a shipped scene, or a .toml file
     #[arg(long, default_value = "wornpin", value_name = "NAME|FILE")]
@@ -120,7 +120,7 @@ impl Run {
         if let End::Turns(turns) = end {
             ensure!(turns > 0.0, "turns must be above 0, not {turns}");
         }
-        let settings = self.settings();
+        let settings = self.settings()?;
         let (until, span) = match (end, start_speed(fmu, &settings)) {
             (End::Time(stop), _) => (Until::Time(stop), stop - start),
             (End::Turns(turns), Some(speed)) => {
@@ -161,10 +161,14 @@ impl Run {
     }
 
     /// What the command line sets, in SI units where it names another unit of one of our parameters.
-    fn settings(&self) -> Vec<Setting> {
+    fn settings(&self) -> Result<Vec<Setting>> {
         let in_si = |Setting { name, value }: &Setting| {
-            let number = Parameter::named(name).and_then(|parameter| quantity(value, parameter.unit()).ok());
-            Setting { name: name.clone(), value: number.map_or_else(|| value.clone(), |number| number.to_string()) }
+            let number = match Parameter::named(name) {
+                Some(Parameter { kind: Kind::Real { unit, .. }, .. }) => Some(number(value, unit)),
+                _ => None,
+            };
+            let number = number.transpose().with_context(|| format!("{name} = {value}"))?;
+            Ok(Setting { name: name.clone(), value: number.map_or_else(|| value.clone(), |number| number.to_string()) })
         };
         self.set.iter().map(in_si).collect()
     }

@@ -69,6 +69,14 @@ impl Range {
         Ok(Self { name: name.into(), values: (0..count).map(value).collect(), response: None })
     }
 
+    /// Whether the scene allows all values.
+    ///
+    /// # Errors
+    /// If it does not.
+    pub fn check(&self, file: &SceneFile) -> Result<()> {
+        self.values.iter().try_for_each(|value| self.applied(file, *value).map(|_| ()))
+    }
+
     /// Runs all values. A run that fails does not stop the others.
     ///
     /// # Errors

@@ -160,7 +160,9 @@ impl Description {
     /// The variable of this name. The error suggests a similar name.
     pub fn variable(&self, name: &str) -> Result<&Variable, HostError> {
         self.variables.iter().find(|variable| variable.name == name).ok_or_else(|| {
-            let nearest = self.variables.iter().min_by_key(|variable| distance(&variable.name, name));
+            let apart = |variable: &&Variable| distance(&variable.name, name);
+            let similar = |variable: &&Variable| apart(variable) <= name.chars().count() / 3;
+            let nearest = self.variables.iter().filter(similar).min_by_key(apart);
             HostError::Unknown { name: name.into(), nearest: nearest.map(|variable| variable.name.clone()) }
         })
     }
