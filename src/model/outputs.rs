@@ -44,16 +44,18 @@ impl Observer {
         }
     }
 
-    /// Vectors at whose zeros outputs are not smooth in the states: the eccentricities [m] of joints with clearance, whose
-    /// lengths are told, and the velocities [m/s] that squeeze oil films. Those of ideal and dry joints are 0.
-    pub fn corners(&self, pose: &Pose) -> [Vec2; 6] {
+    /// [m] Eccentricities of joints with clearance, at whose zeros penetrations are not smooth; 0 for ideal joints.
+    pub fn eccentricities(&self, pose: &Pose) -> [Vec2; 3] {
         let Topology { a, b, c, .. } = self.topology;
-        let pins = Pin::ALL.into_iter().zip([a, b, c]).filter(|(_, ideal)| !ideal);
-        let eccentricities = pins.map(|(pin, _)| pose.journal(pin).eccentricity);
-        let mut vectors = [Vec2::default(); 6];
-        let all = eccentricities.chain(self.films.squeeze_velocities(pose));
-        vectors.iter_mut().zip(all).for_each(|(place, vector)| *place = vector);
-        vectors
+        let of = |pin: Pin, ideal: bool| if ideal { Vec2::default() } else { pose.journal(pin).eccentricity };
+        [of(Pin::MainBearing, a), of(Pin::CrankPin, b), of(Pin::SliderPin, c)]
+    }
+
+    /// [m/s] Velocities that squeeze oil films, at whose zeros the films' loads are not smooth; 0 for missing films.
+    pub fn squeeze_velocities(&self, pose: &Pose) -> [Vec2; 3] {
+        let mut velocities = [Vec2::default(); 3];
+        velocities.iter_mut().zip(self.films.squeeze_velocities(pose)).for_each(|(place, own)| *place = own);
+        velocities
     }
 
     /// All outputs except the integrator's counters. `torque_input` [N·m] is the input of the crank torque.

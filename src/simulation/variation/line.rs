@@ -4,7 +4,7 @@
 //! penetration begins and at their corners, so the step h is chosen anew at every state, such that no penetration, and no
 //! distance to a corner, changes by more than a share of itself. Where a corner is so near that no step suits, speeds are
 //! moved along with the parameter such that the distance to the corner stays as it is. Outputs have corners of their own,
-//! where a vector is 0: the length of an eccentricity, the force of a film that is not squeezed.
+//! where an eccentricity is 0, or the velocity that squeezes an oil film.
 
 use super::levels::{CENTRAL, LEVELS, Levels, Neighbour, TURN, step_at};
 use crate::integrator::{Discontinuities, MAX_DISCONTINUITIES, MAX_STATES};
@@ -13,8 +13,9 @@ use crate::model::contact::ContactState;
 use crate::model::joint::rectangle::CORNERS as GUIDE_CORNERS;
 use crate::model::mechanism_model::MechanismModel;
 use crate::model::outputs::Observer;
+use crate::model::plane::Vec2;
 use crate::model::signals::Outputs;
-use crate::model::state::{CONTACTS, Conditions};
+use crate::model::state::{CONTACTS, Conditions, Pose};
 use crate::simulation::observation::observe;
 use std::array::from_fn;
 
@@ -26,7 +27,7 @@ const MEASURED: usize = 4;
 const OF_PENETRATION: f64 = 0.01;
 /// … of its second order, since a force that the first hardly changes depends on it, …
 const OF_BEND: f64 = 1e-5;
-/// … of a vector at whose zero outputs have a corner, …
+/// … of a vector at whose zero outputs are not smooth, …
 const OF_VECTOR: f64 = 0.02;
 /// … of a distance to a corner, and of a remembered approach speed, all as shares of themselves.
 const OF_CORNER: f64 = 0.2;
@@ -93,13 +94,13 @@ impl<'a> Line<'a> {
         }))
     }
 
-    /// The level of the longest step, from `level` on, that changes no vector at whose zeros outputs have a corner by much.
+    /// The level of the longest step, from `level` on, that changes none of the `vectors` of a pose by much.
     #[inline(never)]
-    fn passes_no_corner(&self, level: usize, observer: &Observer) -> Option<usize> {
-        let here = observer.corners(&self.model.pose(self.t, self.y));
+    fn passes_no_zero(&self, level: usize, vectors: &dyn Fn(&Pose) -> [Vec2; 3]) -> Option<usize> {
+        let here = vectors(&self.model.pose(self.t, self.y));
         let keeps = |level: &usize| {
             self.points(*level).all(|Point { model, y, .. }| {
-                let there = observer.corners(&model.pose(self.t, &y[..self.y.len()]));
+                let there = vectors(&model.pose(self.t, &y[..self.y.len()]));
                 // At a zero itself no step is short enough.
                 let mut pairs = here.iter().zip(there).filter(|(own, _)| own.norm() > 0.0);
                 pairs.all(|(own, other)| (other - *own).norm() <= 2.0 * OF_VECTOR * own.norm())
@@ -280,10 +281,20 @@ impl Fitted<'_> {
         self.line.write_rates(self.fit.level(), slopes);
     }
 
-    /// Derivatives of the outputs. `observer` is that of the mechanism. Outputs have corners of their own.
+    /// Derivatives of the outputs. `observer` is that of the mechanism.
     pub fn outputs(&self, observer: &Observer) -> Outputs {
-        let suitable = self.line.passes_no_corner(self.fit.level(), observer);
-        self.line.outputs(suitable.unwrap_or(LEVELS - 1), observer)
+        let (line, level) = (&self.line, self.fit.level());
+        let level = line.passes_no_zero(level, &|pose| observer.squeeze_velocities(pose)).unwrap_or(level);
+        let mut found = line.outputs(level, observer);
+        let shorter = line.passes_no_zero(level, &|pose| observer.eccentricities(pose)).unwrap_or(LEVELS - 1);
+        if shorter > level {
+            // Penetrations alone: the shorter the step, the more it rounds.
+            let theirs = line.outputs(shorter, observer);
+            found.joint_a.penetration = theirs.joint_a.penetration;
+            found.joint_b.penetration = theirs.joint_b.penetration;
+            found.joint_c.penetration = theirs.joint_c.penetration;
+        }
+        found
     }
 
     /// This one, or the other if its step is longer. Near a corner none suits, and the one errs less that crosses the corner
