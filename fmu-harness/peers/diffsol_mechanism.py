@@ -5,7 +5,7 @@ for each set of closed contacts that occurs, compiled when it first does and kep
 `max` and `min`: a method that controls its error steps over their kinks. A touch or a parting stops the solver, since what a
 contact remembers of its approach changes there; only then Python is called.
 
-    python diffsol_mechanism.py JOB tsit45|bdf|esdirk34|tr_bdf2[-whole]
+    python diffsol_mechanism.py JOB tsit45|bdf[-whole]
 
 States are in units of their scales, and the tolerance is absolute. CPU time is that inside diffsol's `solve`, or all of it
 (`-whole`). Neither has compilation. Steps are counted, since diffsol does not tell its evaluations.

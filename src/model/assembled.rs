@@ -90,8 +90,8 @@ impl Model {
 
     /// This model with a flexible rod's modes in larger arrays. The motion is the same.
     pub fn with_capacity(mut self, room: RodCapacity) -> Self {
-        if let Some(FlexibleRod { rod, modes, .. }) = &mut self.mechanism.rod {
-            *modes = Modes::with_capacity(rod, room);
+        if let Some(FlexibleRod { rod, modes, known, .. }) = &mut self.mechanism.rod {
+            (*modes, *known) = (Modes::with_capacity(rod, room), None);
         }
         self.compiled = Compiled::of(&self.mechanism);
         self

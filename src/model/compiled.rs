@@ -1,12 +1,13 @@
 //! The equations of motion compiled for several number types and for constant structures.
 //!
 //! The generic equations are compiled once per number type for any structure: for one state, for eight states and for a
-//! state with derivatives. A flexible rod is computed in the arrays for any rod unless its numbers of modes are usual. If there
+//! state with derivatives. A flexible rod with few modes has code in which loops over modes are written out ([`KNOWN`]); modes
+//! that are missing to its numbers are added and stand still. Other rods are computed in the arrays for any rod. If there
 //! is little to compute, the branches on the structure take about as long as the computation, and if the number of modes is
 //! unknown, arrays stay in memory. For the structures listed here, those of the usual studies, the same source is therefore
 //! compiled again with the structure as a constant. `cargo bench --bench compiled` measures the saving in a stage of a step:
-//! about a tenth with four clearances, a third to a half with one, and a quarter with a flexible rod of usual numbers of modes,
-//! which are constants for any structure, too. Copies that saved a sixth with play in all joints of a flexible rod were removed.
+//! about a tenth with four clearances, a third to a half with one, and a quarter with a flexible rod of known numbers of modes.
+//! Copies that saved a sixth with play in all joints of a flexible rod were removed.
 //! What is specialised are the stages of a step, where the time goes; code for eight states and the end of a step only where
 //! steps in blocks are usual, whose stages are short.
 //!
@@ -17,14 +18,15 @@ use super::dynamics::Accelerations;
 use super::loads::Loads;
 use super::mechanism::{Configuration, FlexibleMotion, FlexibleRod, Mechanism, evaluation};
 use super::rod::{
-    ALL_FUNCTIONS, ALL_MODES, Chord, CompiledCounts, FixedCounts, Inertia, ROWS_WITH_MODES, RodCapacity, RuntimeCounts,
+    ALL_FUNCTIONS, ALL_MODES, Chord, CompiledCounts, Counts, FixedCounts, Inertia, KNOWN, ROWS_WITH_MODES, RodCapacity,
+    RuntimeCounts,
 };
 use super::scalar::{Scalar, Tangent};
 use super::stages::run_stages;
 use super::state::{Conditions, Evaluation, Pose};
 use super::structure::{Structure, Topology};
 use crate::integrator::system::one_by_one;
-use crate::integrator::{EventFunctions, Tableau};
+use crate::integrator::{EventFunctions, MAX_STATES, Tableau};
 use crate::math::F64x8;
 
 /// Writes the rates of a state.
@@ -200,23 +202,14 @@ fn flexible(structure: &Structure, rod: &FlexibleRod, all: Compiled) -> Compiled
 
 /// Whether no loop over modes of unknown number is left in the code of a mechanism for one state.
 pub fn is_quick(mechanism: &Mechanism) -> bool {
-    mechanism.rod.as_ref().is_none_or(|rod| of_usual_counts(rod).is_some())
+    mechanism.rod.as_ref().is_none_or(|rod| rod.known.is_some())
 }
 
-/// The code for any structure with a rod whose numbers of bending and axial modes are usual: loops over modes are written out.
-fn of_usual_counts(rod: &FlexibleRod) -> Option<FlexibleEnds> {
-    macro_rules! usual {
-        ($(($bending:literal $axial:literal))*) => {
-            $(if FixedCounts::<$bending, $axial>::COUNTS == Some(rod.modes.counts) {
-                return Some(Mechanism::ends_of_any::<FixedCounts<$bending, $axial>>);
-            })*
-        };
-    }
-    if rod.modes.room == RodCapacity::Few {
-        usual! { (2 0) (3 1) }
-    }
-    None
-}
+/// The code for any structure with a rod of [`KNOWN`] numbers of modes: loops over modes are written out.
+const OF_KNOWN: [FlexibleEnds; KNOWN.len()] = [
+    Mechanism::ends_of_any::<FixedCounts<{ KNOWN[0].bending }, { KNOWN[0].axial }>>,
+    Mechanism::ends_of_any::<FixedCounts<{ KNOWN[1].bending }, { KNOWN[1].axial }>>,
+];
 
 /// The loop over the stages of a step for any structure with `states` states; the number of states is a constant in its
 /// sums.
@@ -234,7 +227,7 @@ fn stages_of_all(states: usize) -> Stages {
     of!(4 6 8 10 12 14 16 18 20 22 24 26)
 }
 
-/// Code compiled once per number type for any structure; with a flexible rod, in the arrays for any rod, but for usual numbers of
+/// Code compiled once per number type for any structure; with a flexible rod, in the arrays for any rod, but for known numbers of
 /// modes, and for eight states, whose arrays would not fit into a host's stack.
 impl Mechanism {
     /// Writes the rates of a state.
@@ -406,13 +399,49 @@ impl Mechanism {
         rates: &mut [f64],
         event_functions: Option<&mut EventFunctions>,
     ) {
-        if let Some(ends) = of_usual_counts(rod) {
-            return ends(self, conditions, t, y, rates, event_functions);
+        let known = rod.known.as_ref().and_then(|known| KNOWN.iter().position(|counts| *counts == known.counts));
+        if let Some(place) = known {
+            let (counts, ends) = (KNOWN[place], OF_KNOWN[place]);
+            if counts.modes() == rod.modes.counts.modes() {
+                return ends(self, conditions, t, y, rates, event_functions);
+            }
+            return self.with_more_modes(rod.modes.counts, counts, y, rates, |y, rates| {
+                ends(self, conditions, t, y, rates, event_functions);
+            });
         }
         let motion = self.flexible_motion::<f64>(rod, conditions, t, y, rates, &mut Inertia::default(), None);
         if let Some(event_functions) = event_functions {
             motion.event_functions(self, &self.structure, &conditions.contacts, event_functions);
         }
+    }
+
+    /// Calls `ends` with the state of a rod with `more` modes than its `own`, and takes its rates. Modes that are added stand
+    /// still.
+    fn with_more_modes(
+        &self,
+        own: Counts,
+        more: Counts,
+        y: &[f64],
+        rates: &mut [f64],
+        ends: impl FnOnce(&[f64], &mut [f64]),
+    ) {
+        let rigid = self.structure.positions;
+        let (p, longer) = (rigid + own.modes(), rigid + more.modes());
+        let place = |i: usize| if i < rigid + own.bending { i } else { i + more.bending - own.bending };
+        let places = |i: usize| {
+            if i < p {
+                place(i)
+            } else if i < 2 * p {
+                longer + place(i - p)
+            } else {
+                i + 2 * (longer - p)
+            }
+        };
+        let (mut states, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
+        let all = y.len() + 2 * (longer - p);
+        y.iter().enumerate().for_each(|(i, state)| states[places(i)] = *state);
+        ends(&states[..all], &mut found[..all]);
+        rates.iter_mut().enumerate().for_each(|(i, rate)| *rate = found[places(i)]);
     }
 
     #[inline(never)]

@@ -56,6 +56,9 @@ pub struct FlexibleRod {
     pub rod: Rod,
     /// The same modes in the arrays that the equations read.
     pub modes: Modes,
+    /// These modes and as many more, which stand still, as code for known numbers of modes has; `None` if there is no such
+    /// code.
+    pub known: Option<Modes>,
     /// Position of the rod in its chain.
     pub chain: RodInChain,
 }
@@ -97,6 +100,7 @@ impl Mechanism {
             rotor: Rotor::new(scene),
             rod: rod.map(|rod| FlexibleRod {
                 modes: Modes::new(&rod),
+                known: rod.counts().known().map(|counts| Modes::new(&rod.padded(counts))),
                 chain: RodInChain::new(&bodies, &structure),
                 rod,
             }),
@@ -177,7 +181,8 @@ impl Mechanism {
         inertia: &mut Inertia<R, K>,
         modal_energy: Option<&mut R>,
     ) -> FlexibleMotion<R, K> {
-        let modes: Arrays<'_, K, F> = rod.modes.arrays();
+        let known = if const { C::KNOWN } { rod.known.as_ref() } else { None };
+        let modes: Arrays<'_, K, F> = known.unwrap_or(&rod.modes).arrays();
         let rigid = of.positions;
         let p = rigid + C::COUNTS.unwrap_or(modes.counts).modes();
         let (positions, speeds) = (&y[..p], &y[p..2 * p]);

@@ -101,7 +101,7 @@ const fn diffsol(method: &'static str, word: &'static str, note: &'static str) -
     Program { peer, method, kind, word, ladder, rigid: false, note: Some(note) }
 }
 
-const DIFFSOL: [Program; 4] = [
+const DIFFSOL: [Program; 3] = [
     diffsol(
         "Tsitouras 5(4)",
         "tsit45",
@@ -112,7 +112,6 @@ const DIFFSOL: [Program; 4] = [
         "tsit45-whole",
         "equations as for heyoka; events handled in Python, without compilation; steps counted",
     ),
-    diffsol("ESDIRK 3(4)", "esdirk34", "as Tsitouras 5(4)"),
     diffsol("BDF", "bdf", "as Tsitouras 5(4)"),
 ];
 

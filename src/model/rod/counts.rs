@@ -13,7 +13,20 @@ pub struct Counts {
     pub shortening: usize,
 }
 
+/// The numbers of modes that have code with loops over modes written out for any structure, fewest first.
+pub const KNOWN: [Counts; 2] = [Counts::shortening(2, 0), Counts::shortening(3, 1)];
+
 impl Counts {
+    /// `bending` bending modes, all with foreshortening, and `axial` axial modes.
+    const fn shortening(bending: usize, axial: usize) -> Self {
+        Self { bending, axial, shortening: bending }
+    }
+
+    /// The fewest known numbers of modes that are at least these.
+    pub fn known(self) -> Option<Self> {
+        KNOWN.into_iter().find(|known| self.bending <= known.bending && self.axial <= known.axial)
+    }
+
     /// Number of modal coordinates.
     #[inline(always)]
     pub const fn modes(self) -> usize {
@@ -81,7 +94,7 @@ pub fn in_registers<R: Real, C: CompiledCounts>(modes: usize, most: usize) -> us
 pub struct FixedCounts<const BENDING: usize, const AXIAL: usize>;
 
 impl<const BENDING: usize, const AXIAL: usize> CompiledCounts for FixedCounts<BENDING, AXIAL> {
-    const COUNTS: Option<Counts> = Some(Counts { bending: BENDING, axial: AXIAL, shortening: BENDING });
+    const COUNTS: Option<Counts> = Some(Counts::shortening(BENDING, AXIAL));
 }
 
 /// Counts that are known only at run time.

@@ -96,11 +96,55 @@ impl Rod {
         }
     }
 
+    /// The same rod with more modes, as many as `counts` says. Those that are added stand still: they have a modal mass of 1 kg,
+    /// and neither stiffness nor coupling.
+    pub fn padded(&self, counts: Counts) -> Self {
+        let (own, all) = (self.counts, counts.functions());
+        let axial = (0..own.axial).map(|j| 1 + j);
+        let functions: Vec<usize> =
+            std::iter::once(0).chain(axial).chain(own.all_pairs().map(|(i, j)| counts.pair(i, j))).collect();
+        let modes: Vec<usize> = (0..own.bending).chain((0..own.axial).map(|j| counts.bending + j)).collect();
+        let spread = |numbers: &[f64], places: &[usize], mut list: Vec<f64>| {
+            places.iter().zip(numbers).for_each(|(place, number)| list[*place] = *number);
+            list
+        };
+        let of_functions = |numbers: &[f64]| spread(numbers, &functions, vec![0.0; all]);
+        let of_bending = |numbers: &[f64]| spread(numbers, &modes, vec![0.0; counts.bending]);
+        let (mut second, mut coupling) = (vec![0.0; all * all], vec![0.0; all * counts.bending]);
+        for added in 1 + own.axial..1 + counts.axial {
+            second[added * all + added] = 1.0;
+        }
+        for (k, &row) in functions.iter().enumerate() {
+            let numbers = &self.second[k * functions.len()..][..functions.len()];
+            functions.iter().zip(numbers).for_each(|(column, number)| second[row * all + column] = *number);
+            coupling[row * counts.bending..][..own.bending]
+                .copy_from_slice(&self.coupling[k * own.bending..][..own.bending]);
+        }
+        Self {
+            counts,
+            first: of_functions(&self.first),
+            second,
+            coupling,
+            moment: of_bending(&self.moment),
+            middle: of_bending(&self.middle),
+            slope: self.slope.each_ref().map(|slopes| of_bending(slopes)),
+            end: of_functions(&self.end),
+            modal_mass: spread(&self.modal_mass, &modes, vec![1.0; counts.modes()]),
+            frequency: spread(&self.frequency, &modes, vec![0.0; counts.modes()]),
+            ..*self
+        }
+    }
+
     /// The undeformed rod as a rigid body.
     pub fn undeformed(&self) -> Body {
         let com = Vec2::new(self.first[0] / self.mass, 0.0);
         let inertia = self.second[0] - self.mass * com.x * com.x;
         Body { mass: self.mass, inertia, com, length: self.length }
+    }
+
+    /// Numbers of modes.
+    pub fn counts(&self) -> Counts {
+        self.counts
     }
 
     /// Number of modal coordinates.

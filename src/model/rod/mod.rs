@@ -48,7 +48,7 @@ mod sums;
 mod tables;
 
 pub use counts::{
-    ALL_FUNCTIONS, ALL_MODES, CompiledCounts, Counts, FixedCounts, ROWS_WITH_MODES, RodCapacity, RuntimeCounts,
+    ALL_FUNCTIONS, ALL_MODES, CompiledCounts, Counts, FixedCounts, KNOWN, ROWS_WITH_MODES, RodCapacity, RuntimeCounts,
     in_registers,
 };
 pub use elastic::Elastic;
