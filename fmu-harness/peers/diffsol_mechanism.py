@@ -19,13 +19,12 @@ import numpy as np
 import pydiffsol as ds
 
 import job as jobs
-from heyoka_mechanism import Mechanism, contacts
+from heyoka_mechanism import SPENT, Compiled
 
 MARGIN = 1e-14  # [m] From where a contact opens to where it closes: a root at the start of a piece is of no sign.
 SMALLEST_RTOL = 1e-14  # The weights are absolute.
 FIRST_STEP, SHORTEST_STEP = 1e-7, 1e-16  # [s]
 MOST_EVENTS = 100_000
-SPENT = {"compiled code": 0.0, "compilation": 0.0}  # [s] CPU time, and time on the clock.
 # What heyoka's lists of operations call otherwise.
 WORDS = {"combined_sin": "sin", "combined_cos": "cos"}
 
@@ -54,20 +53,12 @@ def translated(operation, names):
     return text
 
 
-class Systems:
-    """Solvers by the set of closed contacts."""
+class Systems(Compiled):
+    """Solvers by one method."""
 
     def __init__(self, job, method):
-        self.m = m = Mechanism(job)
-        self.method = method
-        self.contacts = contacts(m)
-        self.kept = {}
-        self.variables = [*m.q, *m.u, *(variable for variable, _, _ in m.extra)]
-        self.start = np.array([*m.start, *m.start_rates, *(value for _, _, value in m.extra)])
-        self.scales = self.scaled(job)
-        watched = [x for c in self.contacts for x in (c.depth, c.rate, c.touch)]
-        self.watch = hy.cfunc([hy.expression(0.0) + x for x in watched], self.variables) if watched else None
-        self.measure = hy.cfunc(m.measures(), self.variables)
+        super().__init__(job, ["depth", "rate", "touch"])
+        self.method, self.scales = method, self.scaled(job)
 
     def scaled(self, job):
         """Scale of each state: lengths as in the scene's own norm, angles as far as they move the rod's or crank's end."""
@@ -79,13 +70,6 @@ class Systems:
             if i < len(m.q):
                 coordinates[i] = length / arm[body]
         return np.concatenate([coordinates, per_second * coordinates, [length / arm["crank"]] * len(m.extra)]).tolist()
-
-    def system(self, closed):
-        if closed not in self.kept:
-            before = time.monotonic()
-            self.kept[closed] = self.make(closed)
-            SPENT["compilation"] += time.monotonic() - before
-        return self.kept[closed]
 
     def make(self, closed):
         """Parameters are the start in units of the scales, then for each contact what it remembers, and what shifts its depth."""
@@ -143,12 +127,8 @@ class March:
     def __init__(self, systems, tolerance, span):
         self.systems, self.tolerance, self.span = systems, tolerance, span
 
-    def look(self, state):
-        """Penetration, its rate and the distance to the touch of each contact."""
-        return self.systems.watch(state).reshape(-1, 3) if self.systems.contacts else np.zeros((0, 3))
-
     def parameters(self, state):
-        now, numbers = self.look(state), []
+        now, numbers = self.systems.look(state), []
         for k, (depth, _, touch) in enumerate(now):
             if k in self.closed:
                 numbers += [1 / self.closed[k], max(0.0, MARGIN - depth)]
@@ -158,9 +138,9 @@ class March:
 
     def happen(self, before, state):
         """Closes or opens the contact whose root the solver has stopped at, and all others that are past theirs."""
-        was, now = self.look(before), self.look(state)
+        was, now = self.systems.look(before), self.systems.look(state)
         nearest, least = None, np.inf
-        for k, contact in enumerate(self.systems.contacts):
+        for k in range(len(now)):
             column = 0 if k in self.closed else 2
             share = abs(now[k, column]) / (abs(was[k, column]) + abs(now[k, column]) + 1e-300)
             if share < least:
@@ -176,7 +156,7 @@ class March:
     def run(self, points):
         systems = self.systems
         state, t = systems.start.copy(), 0.0
-        start = enumerate(zip(systems.contacts, self.look(state)))
+        start = enumerate(zip(systems.contacts, systems.look(state)))
         self.closed = {k: max(contact.floor, rate) for k, (contact, (depth, rate, _)) in start if depth > 0}
         instants = np.linspace(self.span / points, self.span, points)
         found, steps, events = [], 0, 0

@@ -479,23 +479,22 @@ def contacts(m):
     return found + [CornerContact(m, *signs) for signs in corners if m.clear["T"]]
 
 
-PER_CONTACT = 11  # d0 d1 f0 f1, the coefficients of the two events, and the shift of the penetration
+class Compiled:
+    """Compiled systems by the set of closed contacts; `watched` are the numbers of each contact that `look` tells."""
 
-
-class Systems:
-    """Integrators of one tolerance by the set of closed contacts."""
-
-    def __init__(self, job, tolerance):
-        self.m = Mechanism(job)
-        self.contacts = contacts(self.m)
-        self.tolerance = tolerance
+    def __init__(self, job, watched):
+        self.m = m = Mechanism(job)
+        self.contacts = contacts(m)
         self.kept = {}
-        m = self.m
-        variables = [*m.q, *m.u, *(variable for variable, _, _ in m.extra)]
-        self.start = [*m.start, *m.start_rates, *(value for _, _, value in m.extra)]
-        watched = [x for c in self.contacts for x in (c.depth, c.rate, c.slip)]
-        self.watch = hy.cfunc([hy.expression(0.0) + x for x in watched], variables) if watched else None
-        self.measure = hy.cfunc(m.measures(), variables)
+        self.variables = [*m.q, *m.u, *(variable for variable, _, _ in m.extra)]
+        self.start = np.array([*m.start, *m.start_rates, *(value for _, _, value in m.extra)])
+        numbers = [hy.expression(0.0) + getattr(c, name) for c in self.contacts for name in watched]
+        self.watch = hy.cfunc(numbers, self.variables) if numbers else None
+        self.measure = hy.cfunc(m.measures(), self.variables)
+
+    def look(self, state):
+        """A row for each contact."""
+        return self.watch(state).reshape(len(self.contacts), -1) if self.contacts else np.zeros((0, 3))
 
     def system(self, closed):
         if closed not in self.kept:
@@ -503,6 +502,17 @@ class Systems:
             self.kept[closed] = self.make(closed)
             SPENT["compilation"] += time.monotonic() - before
         return self.kept[closed]
+
+
+PER_CONTACT = 11  # d0 d1 f0 f1, the coefficients of the two events, and the shift of the penetration
+
+
+class Systems(Compiled):
+    """Integrators of one tolerance."""
+
+    def __init__(self, job, tolerance):
+        super().__init__(job, ["depth", "rate", "slip"])
+        self.tolerance = tolerance
 
     def make(self, closed):
         m, pushes, watched, events = self.m, [], [], []
@@ -544,11 +554,6 @@ class March:
     def __init__(self, systems, span):
         self.systems, self.span = systems, span
 
-    def look(self, state, t):
-        if not self.systems.contacts:
-            return np.zeros((0, 3))
-        return self.systems.watch(state).reshape(-1, 3)
-
     def enter(self, state, t):
         """The system of the contacts that are closed, with their pieces."""
         ta, self.events = self.systems.system(frozenset(self.closed))
@@ -562,7 +567,7 @@ class March:
 
     def happen(self, event, state, t):
         """Closes and opens contacts after an event: its own, and all that are past it at the same time."""
-        now = self.look(state, t)
+        now = self.systems.look(state)
         for i, contact in enumerate(self.systems.contacts):
             depth, rate, slip = now[i]
             if i in self.closed:
@@ -575,9 +580,9 @@ class March:
 
     def run(self, points):
         systems = self.systems
-        state, t = np.array(systems.start), 0.0
+        state, t = systems.start.copy(), 0.0
         self.closed = {}
-        for i, (depth, rate, slip) in enumerate(self.look(state, t)):
+        for i, (depth, rate, slip) in enumerate(systems.look(state)):
             if depth > SHALLOWEST:
                 self.closed[i] = Closed(systems.contacts[i], depth, rate, slip)
         instants = np.linspace(self.span / points, self.span, points)
