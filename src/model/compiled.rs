@@ -425,23 +425,27 @@ impl Mechanism {
         rates: &mut [f64],
         ends: impl FnOnce(&[f64], &mut [f64]),
     ) {
-        let rigid = self.structure.positions;
-        let (p, longer) = (rigid + own.modes(), rigid + more.modes());
-        let place = |i: usize| if i < rigid + own.bending { i } else { i + more.bending - own.bending };
-        let places = |i: usize| {
-            if i < p {
-                place(i)
-            } else if i < 2 * p {
-                longer + place(i - p)
-            } else {
-                i + 2 * (longer - p)
-            }
-        };
+        let bent = self.structure.positions + own.bending;
+        let (p, longer) = (bent + own.axial, self.structure.positions + more.modes());
+        let stretched = bent + more.bending - own.bending;
+        let bristles = y.len() - 2 * p;
+        // Where states stand, where they go, and how many.
+        let runs = [
+            (0, 0, bent),
+            (bent, stretched, own.axial),
+            (p, longer, bent),
+            (p + bent, longer + stretched, own.axial),
+            (2 * p, 2 * longer, bristles),
+        ];
         let (mut states, mut found) = ([0.0; MAX_STATES], [0.0; MAX_STATES]);
-        let all = y.len() + 2 * (longer - p);
-        y.iter().enumerate().for_each(|(i, state)| states[places(i)] = *state);
+        let all = 2 * longer + bristles;
+        for (from, to, count) in runs {
+            states[to..][..count].copy_from_slice(&y[from..][..count]);
+        }
         ends(&states[..all], &mut found[..all]);
-        rates.iter_mut().enumerate().for_each(|(i, rate)| *rate = found[places(i)]);
+        for (from, to, count) in runs {
+            rates[from..][..count].copy_from_slice(&found[to..][..count]);
+        }
     }
 
     #[inline(never)]

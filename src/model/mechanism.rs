@@ -100,7 +100,7 @@ impl Mechanism {
             rotor: Rotor::new(scene),
             rod: rod.map(|rod| FlexibleRod {
                 modes: Modes::new(&rod),
-                known: rod.counts().known().map(|counts| Modes::new(&rod.padded(counts))),
+                known: Modes::known(&rod),
                 chain: RodInChain::new(&bodies, &structure),
                 rod,
             }),

@@ -14,16 +14,16 @@ pub struct Counts {
 }
 
 /// The numbers of modes that have code with loops over modes written out for any structure, fewest first.
-pub const KNOWN: [Counts; 2] = [Counts::shortening(2, 0), Counts::shortening(3, 1)];
+pub const KNOWN: [Counts; 2] = [Counts::shortened(2, 0), Counts::shortened(3, 1)];
 
 impl Counts {
     /// `bending` bending modes, all with foreshortening, and `axial` axial modes.
-    const fn shortening(bending: usize, axial: usize) -> Self {
+    const fn shortened(bending: usize, axial: usize) -> Self {
         Self { bending, axial, shortening: bending }
     }
 
     /// The fewest known numbers of modes that are at least these.
-    pub fn known(self) -> Option<Self> {
+    pub(super) fn known(self) -> Option<Self> {
         KNOWN.into_iter().find(|known| self.bending <= known.bending && self.axial <= known.axial)
     }
 
@@ -94,7 +94,7 @@ pub fn in_registers<R: Real, C: CompiledCounts>(modes: usize, most: usize) -> us
 pub struct FixedCounts<const BENDING: usize, const AXIAL: usize>;
 
 impl<const BENDING: usize, const AXIAL: usize> CompiledCounts for FixedCounts<BENDING, AXIAL> {
-    const COUNTS: Option<Counts> = Some(Counts::shortening(BENDING, AXIAL));
+    const COUNTS: Option<Counts> = Some(Counts::shortened(BENDING, AXIAL));
 }
 
 /// Counts that are known only at run time.
@@ -158,9 +158,13 @@ impl RodCapacity {
         }
     }
 
-    /// Whether any code reads tables of this size: those for many modes are for eight states at a time.
+    /// Whether code for unknown numbers of modes reads tables of this size: those for many modes are for eight states at a time.
     pub const fn is_read(self) -> bool {
-        ROWS_WITH_MODES || !matches!(self, Self::Many)
+        match self {
+            Self::Few => false,
+            Self::Many => ROWS_WITH_MODES,
+            Self::All => true,
+        }
     }
 
     /// Whether arrays of the capacity `other` hold what arrays of this one do.

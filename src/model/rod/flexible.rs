@@ -98,7 +98,7 @@ impl Rod {
 
     /// The same rod with more modes, as many as `counts` says. Those that are added stand still: they have a modal mass of 1 kg,
     /// and neither stiffness nor coupling.
-    pub fn padded(&self, counts: Counts) -> Self {
+    pub(super) fn padded(&self, counts: Counts) -> Self {
         let (own, all) = (self.counts, counts.functions());
         let axial = (0..own.axial).map(|j| 1 + j);
         let functions: Vec<usize> =
@@ -140,11 +140,6 @@ impl Rod {
         let com = Vec2::new(self.first[0] / self.mass, 0.0);
         let inertia = self.second[0] - self.mass * com.x * com.x;
         Body { mass: self.mass, inertia, com, length: self.length }
-    }
-
-    /// Numbers of modes.
-    pub fn counts(&self) -> Counts {
-        self.counts
     }
 
     /// Number of modal coordinates.

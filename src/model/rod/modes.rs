@@ -54,6 +54,17 @@ impl Modes {
 
     /// The modes of a rod, with the capacity `room`.
     pub fn with_capacity(rod: &Rod, room: RodCapacity) -> Self {
+        Self::with_tables(rod, room, |size| room.is_within(size) && size.is_read())
+    }
+
+    /// The modes of a rod and as many more, which stand still, as code for known numbers of modes has; `None` if there is no
+    /// such code.
+    pub fn known(rod: &Rod) -> Option<Self> {
+        let padded = rod.padded(rod.counts.known()?);
+        Some(Self::with_tables(&padded, RodCapacity::Few, |size| size == RodCapacity::Few))
+    }
+
+    fn with_tables(rod: &Rod, room: RodCapacity, is_read: impl Fn(RodCapacity) -> bool) -> Self {
         let counts = rod.counts;
         let padded = |numbers: &[f64], width: usize| {
             let mut list = vec![0.0; width];
@@ -72,8 +83,7 @@ impl Modes {
             slope: [padded(&rod.slope[0], ALL_MODES), padded(&rod.slope[1], ALL_MODES)],
             stiffness: of_modes(&|mass, omega| mass * omega * omega),
             damping: of_modes(&|mass, omega| 2.0 * rod.damping_ratio * mass * omega),
-            tables: RodCapacity::EACH
-                .map(|size| (room.is_within(size) && size.is_read()).then(|| Tables::new(rod, size))),
+            tables: RodCapacity::EACH.map(|size| is_read(size).then(|| Tables::new(rod, size))),
             moment: padded(&rod.moment, ALL_MODES),
             modal_mass: padded(&rod.modal_mass, ALL_MODES),
         }
