@@ -69,8 +69,6 @@ const LAST_ERROR_EXPONENT: f64 = 0.025;
 const UNSEEN_LIMIT: f64 = 1e3;
 /// Accuracy of a state is limited to a few roundings of its value.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
-/// A rounding over that.
-const ROUNDING: f64 = 0.25;
 
 /// Root mean square of the error of a step from `y` over the tolerance, for the states that have a scale. A step is
 /// accepted if the norm is at most 1. With `coarse` the second, lower-order estimate is included.
@@ -81,7 +79,7 @@ const ROUNDING: f64 = 0.25;
 /// of modal coordinates are disturbed by the roundings of places, which are far larger than their own positions'.
 pub fn norm(attempt: &Attempt, y: &[f64], scales: &[f64], layout: StateLayout, coarse: bool, tolerance: f64) -> f64 {
     let StateLayout { positions: p, places, weighted, .. } = layout;
-    let of_scale = |(y, scale): (&f64, &f64)| ROUNDING * ROUNDINGS * y.abs() / scale;
+    let of_scale = |(y, scale): (&f64, &f64)| f64::EPSILON * y.abs() / scale;
     let of_places = if places < p { y[..places].iter().zip(scales).map(of_scale).fold(0.0, f64::max) } else { 0.0 };
     let (mut fine, mut of_coarse, mut largest_unseen) = (f64x4::ZERO, f64x4::ZERO, f64x4::ZERO);
     for range in [0..p, p..2 * p, 2 * p..weighted] {

@@ -77,11 +77,12 @@ impl Observer {
             let impacts = i32::try_from(count).unwrap_or(i32::MAX);
             IntervalOutputs { impact_speed: largest, impacts, ..IntervalOutputs::default() }
         };
+        let eccentricities = self.eccentricities(pose);
         let joint = |pin: Pin, ideal: bool, force: Vec2| {
             let film = self.films.load(pin, pose);
             RevoluteOutputs {
                 force: force.into(),
-                eccentricity: if ideal { [0.0; 2] } else { pose.journal(pin).eccentricity.into() },
+                eccentricity: eccentricities[pin as usize].into(),
                 penetration: if ideal { 0.0 } else { penetration[pin as usize] },
                 film_force: film.force.norm(),
                 film_moment: film.journal_couple,

@@ -10,7 +10,6 @@ from tempfile import TemporaryDirectory
 import numpy
 import pandas
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
-from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 

@@ -162,13 +162,13 @@ impl Run {
 
     /// What the command line sets, in SI units where it names another unit of one of our parameters.
     fn settings(&self) -> Result<Vec<Setting>> {
-        let in_si = |Setting { name, value }: &Setting| {
-            let number = match Parameter::named(name) {
-                Some(Parameter { kind: Kind::Real { unit, .. }, .. }) => Some(number(value, unit)),
-                _ => None,
+        let in_si = |setting: &Setting| {
+            let Setting { name, value } = setting;
+            let Some(Parameter { kind: Kind::Real { unit, .. }, .. }) = Parameter::named(name) else {
+                return Ok(setting.clone());
             };
-            let number = number.transpose().with_context(|| format!("{name} = {value}"))?;
-            Ok(Setting { name: name.clone(), value: number.map_or_else(|| value.clone(), |number| number.to_string()) })
+            let number = number(value, unit).with_context(|| format!("{name} = {value}"))?;
+            Ok(Setting { name: name.clone(), value: number.to_string() })
         };
         self.set.iter().map(in_si).collect()
     }

@@ -131,9 +131,7 @@ impl Slave {
         (self.course, self.outputs) = (Some(Course::Own(run)), None);
         Ok(())
     }
-}
 
-impl Slave {
     /// The error of a phase so far away that it cannot be saved.
     fn beyond(&self, phase: &[f64]) -> Error {
         let all = self.phase_names().into_iter().zip(phase.iter().copied());
