@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy
 
 from master import METHODS, Master
-from system import Package
+from system import Package, leave
 
 JOINTS = "ABCT"
 IDEAL = [("press", f"joint.{joint}.model", 1) for joint in JOINTS]
@@ -125,3 +125,4 @@ def main(job):
 
 if __name__ == "__main__":
     main(json.loads(Path(sys.argv[1]).read_text()))
+    leave(0)

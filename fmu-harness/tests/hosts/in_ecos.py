@@ -7,6 +7,8 @@ import sys
 
 from ecospy import EcosLib, EcosSimulation
 
+from system import leave
+
 package, step, points, *signals = sys.argv[1:]
 names = [signal.replace(".", "::", 1) for signal in signals]
 EcosLib.set_log_level("warn")
@@ -16,3 +18,4 @@ with EcosSimulation(step_size=float(step), ssp_path=package) as simulation:
         time = simulation.step()
         print(time, *map(simulation.get_real, names))
     simulation.terminate()
+leave(0)
