@@ -266,12 +266,18 @@ impl Series {
     }
 }
 
-/// Flags that keep the code small, each behind the separator that cargo expects. Loops over states, modes and joints turn a few times:
-/// copies of their bodies beyond what a short loop needs cost memory and, in the equations, time.
+/// Flags that keep the library small, each behind the separator that cargo expects. Loops over states, modes and joints turn a few
+/// times: copies of their bodies beyond what a short loop needs cost memory and, in the equations, time. Where cargo makes a shared
+/// library of a Rust library, symbols are left in it, whatever the profile says.
 fn compact() -> String {
-    ["inline-threshold=150", "unroll-threshold=100", "unroll-runtime=false", "force-vector-interleave=1"]
-        .map(|flag| format!("\u{1f}-Cllvm-args=--{flag}"))
-        .concat()
+    const FLAGS: [&str; 5] = [
+        "strip=symbols",
+        "llvm-args=--inline-threshold=150",
+        "llvm-args=--unroll-threshold=100",
+        "llvm-args=--unroll-runtime=false",
+        "llvm-args=--force-vector-interleave=1",
+    ];
+    FLAGS.map(|flag| format!("\u{1f}-C{flag}")).concat()
 }
 
 /// Flags that replace this machine's paths in panic messages, with the separator that cargo expects between them.
