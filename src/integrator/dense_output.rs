@@ -1,4 +1,5 @@
-//! Dense output: the state at any time in an accepted step.
+//! Dense output: the state at any time in an accepted step, for methods that have no polynomial of their own
+//! ([`Method::inside`](super::Method::inside)).
 //!
 //! Positions follow the quintic through position, velocity and acceleration at both ends, which needs no evaluation.
 //! Where the quintic is not accurate enough for the tolerance, three accelerations inside the step, at its quarters,

@@ -1,6 +1,7 @@
 //! The interface between the integrator and an integration method. A method is a value that owns its workspace and the
 //! history from which it predicts the next step.
 
+use super::dense_output::Step;
 use super::snapshot::{Reader, Snapshot};
 use super::state::StepPoint;
 use super::system::{EventFunctions, MAX_EVENTS, System};
@@ -132,9 +133,9 @@ pub trait Method<D: Copy>: Send {
     /// Only for a method that [predicts](Properties::predicts).
     fn remember(&mut self, _start: &StepPoint<D>, _end: f64) {}
 
-    /// Writes the state at the time `t` [s] in the step from `start` to the time `end` [s], if that is the step that was
-    /// remembered last and the method has a polynomial of its own. Returns whether it is written.
-    fn inside(&self, _start: &StepPoint<D>, _end: f64, _t: f64, _y: &mut [f64]) -> bool {
+    /// Writes the state at the time `t` [s] in the `step`, if that is the step that was remembered last and the method has a
+    /// polynomial of its own. Returns whether it is written.
+    fn inside(&self, _step: &Step<'_>, _t: f64, _y: &mut [f64]) -> bool {
         false
     }
 

@@ -98,7 +98,7 @@ impl<D: Copy> Integrator<D> {
 
     /// Writes the state at `t` in the last step by the method's own polynomial. Returns whether there is one.
     pub fn inside(&self, t: f64, y: &mut [f64]) -> bool {
-        self.stepper.method.inside(self.state().start(), self.state().front().t, t, y)
+        self.stepper.method.inside(&self.state().last_step(self.stepper.layout), t, y)
     }
 
     /// Restores the memory of the method from a snapshot; `None` if no run can have produced it.

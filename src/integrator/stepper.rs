@@ -209,8 +209,8 @@ impl<D: Copy> Stepper<D> {
 
     /// Writes the state at `t` in the last step by the method's own polynomial. Returns whether there is one.
     fn is_inside(&mut self, t: f64) -> bool {
-        let Self { method, state, inside, .. } = self;
-        method.inside(state.start(), state.front().t, t, inside)
+        let Self { method, state, layout, inside, .. } = self;
+        method.inside(&state.last_step(*layout), t, inside)
     }
 
     /// For a method that does not interpolate, attempts a step to `t` within the last one. Returns whether its end is

@@ -165,6 +165,7 @@ fn looking_back_into_a_step_is_as_accurate_as_its_end() {
         check("dopri5", tolerance);
         check("verner7", tolerance);
         check("dop853", tolerance);
+        check("cong8", tolerance);
     }
     check("rk4", 1e-12);
 }

@@ -8,6 +8,15 @@ use slidercrank::integrator::{Events, Jacobian, Linearizable, Ode, Settings, Sev
 struct Following {
     weighted: usize,
     states: usize,
+    /// [s] Longest step.
+    longest: f64,
+}
+
+impl Following {
+    /// Steps short enough for degree five inside them.
+    fn in_short_steps(weighted: usize, states: usize) -> Self {
+        Self { weighted, states, longest: 0.05 }
+    }
 }
 
 static UNIT: [f64; 4] = [1.0; 4];
@@ -28,9 +37,8 @@ impl Ode for Following {
         &UNIT
     }
 
-    /// [s] Short enough for degree five inside it.
     fn longest_step(&self) -> f64 {
-        0.05
+        self.longest
     }
 }
 
@@ -75,7 +83,7 @@ fn errors(method: &str, problem: &Following, tolerance: f64) -> (f64, u64) {
 
 #[test]
 fn first_order_states_are_as_accurate_as_positions_inside_steps_too() {
-    let problem = Following { weighted: 4, states: 4 };
+    let problem = Following::in_short_steps(4, 4);
     for tolerance in [1e-7, 1e-10] {
         for (name, (error, steps)) in [
             ("dopri5", errors("dopri5", &problem, tolerance)),
@@ -91,6 +99,17 @@ fn first_order_states_are_as_accurate_as_positions_inside_steps_too() {
 }
 
 #[test]
+fn inside_long_blocks_all_states_are_as_accurate_as_at_their_ends() {
+    let problem = Following { weighted: 4, states: 4, longest: 4.0 };
+    for (tolerance, most) in [(1e-6, 16), (1e-9, 24), (1e-12, 40)] {
+        let (error, steps) = errors("cong8", &problem, tolerance);
+        println!("cong8 at {tolerance:e}: {error:.1e} in {steps} steps");
+        assert!(error < 2.0 * tolerance, "{tolerance:e}: {error:e}");
+        assert!(steps <= most, "{tolerance:e}: {steps} steps are not long");
+    }
+}
+
+#[test]
 fn a_state_that_is_not_weighed_changes_no_step() {
     let run = |problem: Following| {
         let settings = Settings { tolerance: 1e-13, fixed_step: 0.0, effort: WorkLimit::ANY };
@@ -99,9 +118,9 @@ fn a_state_that_is_not_weighed_changes_no_step() {
         let memory = integrator.state();
         (memory.front().t, memory.front().y[..3].to_vec(), memory.statistics)
     };
-    let alone = run(Following { weighted: 3, states: 3 });
-    assert_eq!(run(Following { weighted: 3, states: 4 }), alone);
-    assert_ne!(run(Following { weighted: 4, states: 4 }).0, alone.0, "a weighted state counts");
+    let alone = run(Following::in_short_steps(3, 3));
+    assert_eq!(run(Following::in_short_steps(3, 4)), alone);
+    assert_ne!(run(Following::in_short_steps(4, 4)).0, alone.0, "a weighted state counts");
 }
 
 #[test]

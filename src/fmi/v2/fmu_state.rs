@@ -23,7 +23,7 @@ pub struct FmuState {
 }
 
 impl Saved for FmuState {
-    const FORMAT: u32 = 15;
+    const FORMAT: u32 = 16;
 
     /// Whether an instance could be in this state: there is a snapshot after initialization and only then, and all
     /// settings are values that an importer can set. The snapshot is checked when it is restored.

@@ -23,7 +23,7 @@ pub struct FmuState {
 
 impl Saved for FmuState {
     // The upper half tells the version of FMI.
-    const FORMAT: u32 = 3 << 16 | 8;
+    const FORMAT: u32 = 3 << 16 | 9;
 
     /// Whether an instance can be in this state. The snapshot is checked when it is restored.
     fn makes_sense(&self) -> bool {

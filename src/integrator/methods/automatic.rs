@@ -6,6 +6,7 @@ use super::explicit::Explicit;
 use super::radau13::Radau13;
 use super::stiffness_switch::{StiffnessSwitch, Terms, fastest};
 use super::verner7::VERNER7;
+use crate::integrator::dense_output::Step;
 use crate::integrator::method::{Attempt, Method, MethodKind, Properties, StepAdvice, StepWork};
 use crate::integrator::snapshot::{Reader, Snapshot};
 use crate::integrator::state::StepPoint;
@@ -84,8 +85,12 @@ impl<D: Copy> Method<D> for Automatic {
         }
     }
 
-    fn inside(&self, start: &StepPoint<D>, end: f64, t: f64, y: &mut [f64]) -> bool {
-        self.kind == MethodKind::Implicit && self.implicit.inside(start, end, t, y)
+    fn inside(&self, step: &Step<'_>, t: f64, y: &mut [f64]) -> bool {
+        match self.kind {
+            MethodKind::Block => Method::<D>::inside(&self.block, step, t, y),
+            MethodKind::Explicit => false,
+            MethodKind::Implicit => Method::<D>::inside(&self.implicit, step, t, y),
+        }
     }
 
     fn forget(&mut self) {

@@ -37,6 +37,9 @@
 //! previous block and five without history. Radau's quadrature makes the velocity at the end exact for accelerations up
 //! to degree 14.
 //!
+//! Dense output: the integrals of a(t + x·h) from the nearer end of the step, expanded in powers of x about it, so that no
+//! evaluation is needed and states inside a long step are as accurate as at its end.
+//!
 //! Error estimate: the change of the end's rates after the last round, which shows how far the corrector has converged,
 //! and the coefficient of degree eight of the accelerations in Legendre polynomials, which is small unless they have a
 //! discontinuity.
@@ -48,12 +51,13 @@
 
 mod nodes;
 
+use crate::integrator::dense_output::Step;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, Properties};
 use crate::integrator::snapshot::{Reader, Snapshot};
-use crate::integrator::state::{StepPoint, is_valid};
+use crate::integrator::state::{StepPoint, first_invalid, is_valid};
 use crate::integrator::system::{StateLayout, System};
 use crate::math::{F64x8, Fused, ROW, Real, unroll};
-use nodes::{EXTRAPOLATION, INTEGRALS, MONOMIALS, NODES, POWERS, TOP_DEGREE_WEIGHTS, Tables};
+use nodes::{EXTRAPOLATION, INTEGRALS, MONOMIALS, NODES, PER_INTEGRAL, POWERS, TOP_DEGREE_WEIGHTS, Tables};
 
 const PROPERTIES: Properties = Properties {
     name: "cong8",
@@ -94,11 +98,13 @@ struct BlockHistory {
     start: Vec<f64>,
     /// Rates at the block's nodes.
     nodes: Vec<F64x8>,
+    /// Whether the motion has gone on without an event since then, so that the polynomial predicts the next step.
+    goes_on: bool,
 }
 
 impl BlockHistory {
     fn new(states: usize) -> Self {
-        Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![F64x8::ZERO; states] }
+        Self { begin: 0.0, end: 0.0, start: vec![0.0; states], nodes: vec![F64x8::ZERO; states], goes_on: false }
     }
 
     /// Whether there is a history.
@@ -110,7 +116,7 @@ impl BlockHistory {
     /// the step cannot be predicted.
     fn origin(&self, t: f64, h: f64) -> Option<usize> {
         let length = self.end - self.begin;
-        if length <= 0.0 || h > MAX_LENGTH_RATIO * length {
+        if !self.goes_on || length <= 0.0 || h > MAX_LENGTH_RATIO * length {
             None
         } else if t == self.end {
             Some(1)
@@ -119,8 +125,8 @@ impl BlockHistory {
         }
     }
 
-    /// Coefficients of the polynomial of rate `i` about `origin`, in powers of the share of the new step: the constant
-    /// term, and those of the powers 1 to 8. `powers` are the powers 1 to 8 of the ratio of the new length to that of
+    /// Coefficients of the polynomial of rate `i` about `origin`: the constant term, and those of the powers 1 to 8 of the share of
+    /// the block, each times one of `powers`. For shares of a new step, `powers` are those of the ratio of its length to that of
     /// the block.
     #[inline(always)]
     fn coefficients(&self, origin: usize, powers: F64x8, i: usize) -> (f64, F64x8) {
@@ -132,6 +138,32 @@ impl BlockHistory {
         });
         (if origin == 0 { first } else { at[ROW - 1] }, (sums[0] + sums[1]) * powers)
     }
+
+    /// Writes the state at `t` in the `step`, which is the block: integrals of the polynomials from the nearer end of the step.
+    fn write(&self, step: &Step<'_>, t: f64, y: &mut [f64]) {
+        let StateLayout { positions: p, states, .. } = step.layout;
+        let share = (t - step.t) / step.h;
+        let (origin, x, from) = if share < 0.5 { (0, share, step.y0) } else { (1, share - 1.0, step.y1) };
+        let (powers, time) = (powers_of(x), x * step.h);
+        for i in p..states {
+            let (first, others) = self.coefficients(origin, powers, i);
+            y[i] = from[i] + time * (first + (PER_INTEGRAL[0] * others).sum());
+            if i < 2 * p {
+                let twice = 0.5 * first + (PER_INTEGRAL[1] * others).sum();
+                y[i - p] = from[i - p] + time * (from[i] + time * twice);
+            }
+        }
+    }
+}
+
+/// The powers 1 to 8 of a number.
+#[inline(always)]
+fn powers_of(x: f64) -> F64x8 {
+    let mut powers = [x; ROW];
+    unroll!(true, n in 1..ROW, ROW => {
+        powers[n] = powers[n - 1] * x;
+    });
+    F64x8::of(powers)
 }
 
 /// The block method with eight nodes.
@@ -230,11 +262,7 @@ impl<D: Copy> Method<D> for Cong8 {
             if origin == 1 && (ratio - 1.0).abs() < ROUNDING {
                 at_nodes.integrate(&EXTRAPOLATION, |i| (history.start[i], history.nodes[i]));
             } else {
-                let mut powers = [ratio; ROW];
-                unroll!(true, n in 1..ROW, ROW => {
-                    powers[n] = powers[n - 1] * ratio;
-                });
-                let powers = F64x8::of(powers);
+                let powers = powers_of(ratio);
                 at_nodes.integrate(&MONOMIALS, |i| history.coefficients(origin, powers, i));
             }
             CORRECTOR_ROUNDS
@@ -267,18 +295,27 @@ impl<D: Copy> Method<D> for Cong8 {
 
     fn remember(&mut self, start: &StepPoint<D>, end: f64) {
         let Self { history, nodes, .. } = self;
-        (history.begin, history.end) = (start.t, end);
+        (history.begin, history.end, history.goes_on) = (start.t, end, true);
         history.start.copy_from_slice(&start.rates);
         std::mem::swap(&mut history.nodes, nodes);
     }
 
+    fn inside(&self, step: &Step<'_>, t: f64, y: &mut [f64]) -> bool {
+        let history = &self.history;
+        let known = history.is_some() && (step.t, step.h) == (history.begin, history.end - history.begin);
+        if known {
+            history.write(step, t, y);
+        }
+        known && first_invalid(y).is_none()
+    }
+
     fn forget(&mut self) {
-        self.history.end = self.history.begin;
+        self.history.goes_on = false;
     }
 
     fn save(&self, snapshot: &mut Snapshot) {
-        let BlockHistory { begin, end, start, nodes } = &self.history;
-        snapshot.integers.push(u64::from(self.history.is_some()));
+        let BlockHistory { begin, end, start, nodes, goes_on } = &self.history;
+        snapshot.integers.extend([self.history.is_some(), *goes_on].map(u64::from));
         if self.history.is_some() {
             snapshot.reals.extend([begin, end]);
             snapshot.reals.extend(start);
@@ -287,9 +324,11 @@ impl<D: Copy> Method<D> for Cong8 {
     }
 
     fn load(&mut self, reader: &mut Reader<'_>) -> Option<()> {
-        let BlockHistory { begin, end, start, nodes } = &mut self.history;
+        let BlockHistory { begin, end, start, nodes, goes_on } = &mut self.history;
         (*begin, *end) = (0.0, 0.0);
-        if reader.integer()? != 0 {
+        let known = reader.integer()? != 0;
+        *goes_on = reader.integer()? != 0;
+        if known {
             [*begin, *end] = reader.reals()?;
             reader.fill(start)?;
             for row in nodes {

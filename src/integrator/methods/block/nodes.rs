@@ -132,6 +132,18 @@ pub static MONOMIALS: Tables = {
     all
 };
 
+/// What the coefficients of x¹ … x⁸ are multiplied by in an integral over 0 to 1, once and twice: 1/(n + 1) and
+/// 1/((n + 1)·(n + 2)).
+pub const PER_INTEGRAL: [F64x8; 2] = {
+    let (mut once, mut twice, mut n) = ([0.0; ROW], [0.0; ROW], 0);
+    while n < ROW {
+        once[n] = 1.0 / (n + 2) as f64;
+        twice[n] = once[n] / (n + 3) as f64;
+        n += 1;
+    }
+    [F64x8::of(once), F64x8::of(twice)]
+};
+
 /// Weights that give the coefficient of degree eight of the accelerations in Legendre polynomials: that of the start,
 /// and those of the nodes.
 pub static TOP_DEGREE_WEIGHTS: (f64, F64x8) = {

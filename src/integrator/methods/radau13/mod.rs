@@ -33,6 +33,7 @@
 
 mod tables;
 
+use crate::integrator::dense_output::Step;
 use crate::integrator::linear::FourFactors;
 use crate::integrator::method::{Attempt, ERROR_SHARE, Method, MethodKind, NOT_CONVERGED, Properties};
 use crate::integrator::second_order;
@@ -325,10 +326,10 @@ impl<D: Copy> Method<D> for Radau13 {
         }
     }
 
-    fn inside(&self, start: &StepPoint<D>, end: f64, t: f64, y: &mut [f64]) -> bool {
-        let known = end == self.history.end && self.history.contains(start.t, t);
+    fn inside(&self, step: &Step<'_>, t: f64, y: &mut [f64]) -> bool {
+        let known = step.h == self.history.end - self.history.begin && self.history.contains(step.t, t);
         if known {
-            self.history.write(&start.y, t, y);
+            self.history.write(step.y0, t, y);
         }
         known
     }
