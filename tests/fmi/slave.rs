@@ -2,8 +2,11 @@
 
 use host::{self, vr};
 use slidercrank::fmi::slave::error::VariableError;
+use slidercrank::fmi::slave::states::phase_names;
 use slidercrank::fmi::slave::{Error, Permission, Slave, ValueType};
-use slidercrank::scene::slot;
+use slidercrank::model_description::exchange::FIRST_STATE;
+use slidercrank::scene::{JointModel, slot};
+use slidercrank::simulation::CONTACTS;
 
 const H: f64 = 1e-4;
 const STEPS: usize = 30;
@@ -67,4 +70,54 @@ fn no_permission_lets_an_output_be_written() {
         let outcome = slave.get(ValueType::Real, nothing, &[vr(name)], &mut [0.0], |value| value);
         assert!(matches!(outcome, Err(Error::Variable(VariableError::Moment { write: false, .. }))), "{name}");
     }
+}
+
+/// Variables of states have the numbers of the packaged scene.
+#[test]
+fn states_and_indicators_are_those_of_the_packaged_scene_whatever_joints_it_has_got() {
+    let mut packaged = slot::read().expect("a readable slot").0;
+    packaged.joint.c.model = JointModel::Clearance;
+    let of = |name: &str| phase_names(&packaged).iter().position(|own| own == name).expect("a state") as u32;
+    for (joints, slider) in [(&[][..], true), (&["joint.B.model"], true), (&["joint.A.model", "joint.T.model"], false)]
+    {
+        let mut slave = Slave::new(packaged.clone(), None);
+        for joint in joints {
+            slave.set(ValueType::Integer, EVERYTHING, &[vr(joint)], &[2], f64::from).expect("a legal value");
+        }
+        set(&mut slave, "crank.speed_start", 500.0).expect("a legal value");
+        slave.initialize().expect("a legal scene");
+        (0..STEPS).for_each(|_| step(&mut slave));
+        let read = |slave: &mut Slave, name: &str| {
+            let mut value = [f64::NAN];
+            let reference = [FIRST_STATE + of(name)];
+            slave.get(ValueType::Real, EVERYTHING, &reference, &mut value, |value| value).map(|()| value[0])
+        };
+        for name in ["crank.angle", "rod.angle", "crank.speed", "rod.speed"] {
+            let (state, output) = (read(&mut slave, &format!("state.{name}")), get(&mut slave, name));
+            assert_eq!(state.expect("a state"), output, "{name} with {joints:?}");
+        }
+        let (place, output) = (read(&mut slave, "state.slider.x").expect("a state"), get(&mut slave, "slider.x"));
+        assert!((place - output).abs() < 1e-12, "{place} with {joints:?}");
+        let gap = -get(&mut slave, "joint.C.penetration") / get(&mut slave, "joint.C.clearance");
+        let indicator = slave.indicator(0).expect("joint C's contact");
+        assert!((indicator - gap).abs() < 1e-6 * gap.abs().max(1.0), "{indicator} for {gap} with {joints:?}");
+        assert!(matches!(slave.indicator(1), Err(Error::Variable(VariableError::Absent(_)))));
+    }
+}
+
+#[test]
+fn what_parameters_have_taken_away_is_absent_but_its_clock_is_known() {
+    let mut packaged = slot::read().expect("a readable slot").0;
+    packaged.joint.c.model = JointModel::Clearance;
+    let slider = phase_names(&packaged).iter().position(|name| name == "state.slider.x").expect("a state") as u32;
+    let mut slave = Slave::new(packaged, None);
+    slave.set(ValueType::Integer, EVERYTHING, &[vr("joint.C.model")], &[1], f64::from).expect("a legal value");
+    slave.initialize().expect("a legal scene");
+    step(&mut slave);
+    let mut value = [f64::NAN];
+    let outcome = slave.get(ValueType::Real, EVERYTHING, &[FIRST_STATE + slider], &mut value, |value| value);
+    assert!(matches!(outcome, Err(Error::Variable(VariableError::Absent(_)))));
+    assert!(matches!(slave.indicator(0), Err(Error::Variable(VariableError::Absent(_)))));
+    assert!(slave.has_clock(2) && !slave.has_clock(1));
+    assert_eq!(slave.contacts().expect("contacts").changes, [false; CONTACTS]);
 }

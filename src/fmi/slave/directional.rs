@@ -9,10 +9,10 @@ use super::access::{Permission, finite, finite_output, real_parameter, variable}
 use super::course::{Course, Interface};
 use super::error::{Error, VariableError};
 use super::start_sensitivity::{Rate, Wanted, along};
+use super::states::state_places;
 use super::variables::{Access, Variable};
 use super::{Slave, started};
 use crate::integrator::MAX_STATES;
-use crate::model::coordinates::state_variables;
 use crate::model::signals::{Inputs, Outputs};
 use crate::simulation::{Direction, HostedMechanism, nominals};
 
@@ -110,9 +110,10 @@ impl Slave {
         let variable = variable(reference)?;
         let unknown = match variable.access {
             Access::RealOutput(get) => Unknown::Output(get),
-            Access::State(place) if at_start && self.has_state(place) => Unknown::State(place),
-            Access::Derivative(place) if (at_start || exchange) && self.has_state(place) => Unknown::Derivative(place),
-            Access::Derivative(_) if exchange => return Err(VariableError::Absent(variable.name)),
+            Access::State(place) if at_start => Unknown::State(self.state_place(place, variable)?),
+            Access::Derivative(place) if at_start || exchange => {
+                Unknown::Derivative(self.state_place(place, variable)?)
+            }
             _ if exchange => {
                 let needed = "a real output or a state's derivative, nor a state in initialization mode";
                 return Err(VariableError::Kind(variable.name, needed));
@@ -130,7 +131,7 @@ impl Slave {
         let (mut inputs, mut states, mut starts) = (Inputs::default(), vec![], Vec::<Rate>::new());
         let exchange = self.interface == Interface::ModelExchange;
         if exchange {
-            states.resize(self.state_places(), 0.0);
+            states.resize(self.state_places().len(), 0.0);
         }
         for (&known, &seed) in knowns.iter().zip(seeds) {
             let variable = variable(known)?;
@@ -236,15 +237,15 @@ impl Slave {
         })
     }
 
-    /// Whether the scene has a state in this place, which is known without a look at the mechanism.
-    pub(super) fn has_state(&self, place: usize) -> bool {
-        place < self.state_places()
+    /// Where each state of the packaged scene is in the present scene. Where the importer integrates, both have the same states.
+    pub(super) fn state_places(&self) -> Vec<Option<usize>> {
+        match &self.course {
+            Some(Course::Hosted(mechanism)) => (0..mechanism.states().len()).map(Some).collect(),
+            _ => state_places(&self.packaged, &self.settings.scene),
+        }
     }
 
-    fn state_places(&self) -> usize {
-        match &self.course {
-            Some(Course::Hosted(mechanism)) => mechanism.states().len(),
-            _ => state_variables(&self.settings.scene).len(),
-        }
+    fn state_place(&self, place: usize, variable: &Variable) -> Result<usize, VariableError> {
+        self.state_places().get(place).copied().flatten().ok_or(VariableError::Absent(variable.name))
     }
 }

@@ -125,25 +125,26 @@ impl Slave {
         values: &mut [T],
         convert: fn(f64) -> T,
     ) -> Result<(), Error> {
-        let (mut outputs, mut states) = (false, false);
+        let (mut outputs, mut places) = (false, None);
         for &reference in references {
             let variable = typed(reference, asked)?;
             permission.check_read(variable)?;
             match variable.access {
                 Access::Input { .. } | Access::Parameter(_) => {}
-                Access::State(place) | Access::Derivative(place) if !self.has_state(place) => {
-                    return Err(VariableError::Absent(variable.name).into());
+                Access::State(place) | Access::Derivative(place) => {
+                    let places = places.get_or_insert_with(|| self.state_places());
+                    places.get(place).copied().flatten().ok_or(VariableError::Absent(variable.name))?;
                 }
-                Access::State(_) | Access::Derivative(_) => states = true,
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => outputs = true,
             }
         }
         if outputs {
             self.outputs()?;
         }
-        let states = if states { Some(self.live()?.state_values()) } else { None };
+        let states = if places.is_some() { Some(self.live()?.state_values()) } else { None };
         let of_state = |place: usize, name, of: fn(&StateValues, usize) -> Option<f64>| {
-            states.as_ref().and_then(|states| of(states, place)).ok_or(VariableError::Absent(name))
+            let place = places.as_ref().and_then(|places| *places.get(place)?);
+            states.as_ref().zip(place).and_then(|(states, place)| of(states, place)).ok_or(VariableError::Absent(name))
         };
         for (&reference, value) in references.iter().zip(values) {
             let variable = variable(reference)?;

@@ -79,6 +79,23 @@ pub fn phase_names(scene: &Scene) -> Vec<String> {
     states.chain(numbers.contacts.iter().map(|contact| format!("{}.approach", contact_name(*contact).0))).collect()
 }
 
+/// Where each state of the packaged scene is in another scene, by its name; `None` if it is not there.
+pub fn state_places(packaged: &Scene, scene: &Scene) -> Vec<Option<usize>> {
+    let present = state_variables(scene);
+    let place = |state: StateVariable| present.iter().position(|other| other.name == state.name);
+    state_variables(packaged).into_iter().map(place).collect()
+}
+
+/// Where an event indicator of the packaged scene is in another scene, by its contact; `None` if it is not there.
+pub fn indicator_place(packaged: &Scene, scene: &Scene, place: usize) -> Option<usize> {
+    let (declared, present) = (contacts(packaged), contacts(scene));
+    if declared.is_empty() {
+        return (place == 0 && present.is_empty()).then_some(place);
+    }
+    let contact = declared.get(place)?;
+    present.iter().position(|other| other == contact)
+}
+
 /// Refuses a scene whose states or event indicators are not those of the packaged one; `name` is the parameter that made
 /// the difference.
 pub fn check_structure(packaged: &Scene, scene: &Scene, name: &'static str) -> Result<(), VariableError> {

@@ -4,8 +4,8 @@ use super::access::finite_number;
 use super::course::Course;
 use super::engine::Stops;
 use super::error::VariableError;
+use super::states::indicator_place;
 use super::{Error, Slave};
-use crate::model::coordinates::event_count;
 use crate::model::joint::guide::contact_of_corner;
 use crate::model::joint::rectangle::CORNERS;
 use crate::scene::{JointModel, Surface};
@@ -81,17 +81,15 @@ impl Slave {
         Ok(corners)
     }
 
-    /// Whether the scene has this contact.
-    pub fn has_contact(&self, contact: usize) -> bool {
-        contacts(&self.settings.scene).contains(&contact)
+    /// Whether the packaged scene, whose clocks are declared, or the present one has this contact.
+    pub fn has_clock(&self, contact: usize) -> bool {
+        [&self.packaged, &self.settings.scene].into_iter().any(|scene| contacts(scene).contains(&contact))
     }
 
-    /// An event indicator, whichever side integrates.
+    /// An event indicator of the packaged scene, whichever side integrates.
     pub fn indicator(&mut self, place: usize) -> Result<f64, Error> {
-        let name = "event indicator of this number";
-        if place >= event_count(&self.settings.scene) {
-            return Err(VariableError::Absent(name).into());
-        }
+        let place = indicator_place(&self.packaged, &self.settings.scene, place)
+            .ok_or(VariableError::Absent("event indicator of this number"))?;
         finite_number("an event indicator", self.contacts()?.indicators[place])
     }
 }

@@ -237,7 +237,8 @@ impl Instance {
         self.get(ValueType::Real, references, values, |value| value)
     }
 
-    /// `fmi3GetClock`: active where its contact closes or opens, until the update that ends the event.
+    /// `fmi3GetClock`: active where its contact closes or opens, until the update that ends the event. The clock of a contact that
+    /// parameters have taken away never is.
     pub fn get_clock(&mut self, references: &[u32], values: &mut [u8]) -> Result<(), Error> {
         check_type(references, CLOCK)?;
         let handled = match self.slave.interface() {
@@ -247,7 +248,7 @@ impl Instance {
         let contacts: Result<Vec<usize>, VariableError> = references
             .iter()
             .map(|reference| match Meaning::of(*reference)? {
-                Meaning::Clock(contact) if self.slave.has_contact(contact) => Ok(contact),
+                Meaning::Clock(contact) if self.slave.has_clock(contact) => Ok(contact),
                 _ => Err(VariableError::Absent("contact of this clock")),
             })
             .collect();

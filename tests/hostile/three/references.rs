@@ -69,11 +69,10 @@ fn others(stage: &Stage) -> Vec<Meaning> {
     let seen = Touch::GetOutput.allowed(stage.state);
     let meaning =
         |reference, of, values, reading| Meaning { reference, of, values, reading, writing: false, value: 1.0 };
-    let scene = stage.scene();
     let (states, indicators) = match stage.usage {
         Use::Exchange => counts(),
-        // A worn slider pin.
-        _ => (6, contacts(&scene).len()),
+        // A worn slider pin, but those of the packaged scene: none of its indicators is left.
+        _ => (2, 0),
     };
     let settable = stage.usage == Use::Exchange && matches!(stage.state, State::EventMode | State::ContinuousTimeMode);
     let mut all = vec![
