@@ -34,6 +34,8 @@ const ASIDE: [f64; 5] = [3e-3, 1e-3, 1e-2, 3e-2, 1e-4];
 const REAL: f64 = 1e-6;
 /// A step past a doubling is halved down to this length.
 const CLOSE: f64 = 2e-3;
+/// [noticeable differences] Halves of a period that differ less are the same.
+const ALIKE: f64 = 1e-3;
 
 /// How a branch of periodic motions changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,13 +112,20 @@ struct Point {
 }
 
 impl Continuation<'_> {
-    /// The branch through `start`, a periodic motion, in the direction of `to`, and those of twice its period.
+    /// The branch through `start`, a periodic motion, in the direction of `to`, and those of twice its period. Where the branch
+    /// ends in a motion of half its period, the branch of that motion is followed in both directions.
     ///
     /// # Errors
     /// If the first step fails.
     pub fn follow(&self, start: Return, mut tick: impl FnMut(f64)) -> Result<Vec<Branch>> {
         let along = self.along(&start, None)?;
         let mut branches = vec![self.branch(Point { at: start, along }, &[], &mut tick)];
+        let mut longer = 0;
+        while branches[longer].meets.is_some() {
+            let Some([there, back]) = self.halved(&mut branches[longer], &mut tick) else { break };
+            longer = branches.len();
+            branches.extend([there, back]);
+        }
         let mut first = 0;
         for _ in 0..self.doublings {
             let doublings = doublings(&branches[first..]);
@@ -124,7 +133,7 @@ impl Continuation<'_> {
             for orbit in &doublings {
                 // The branch from one of two neighbouring doublings often ends at the other.
                 let ends_here = |branch: &Branch| branch.meets == Some(orbit.value);
-                if branches[first..].iter().any(ends_here) {
+                if branches.iter().any(ends_here) {
                     continue;
                 }
                 branches.push(match self.doubled(orbit) {
@@ -151,14 +160,38 @@ impl Continuation<'_> {
         (self.to - self.from).abs()
     }
 
-    /// Follows a branch from one of its points until it leaves the range or ends at one of `doublings`, those of the branches
-    /// of half its period.
+    /// The branch of half the period that another one meets at its end, towards where that one does not exist and back; `None`
+    /// if it is not found. Places the end of the longer one at the doubling.
+    fn halved(&self, longer: &mut Branch, tick: &mut impl FnMut(f64)) -> Option<[Branch; 2]> {
+        let last = longer.orbits.last()?;
+        let states: Vec<usize> = (0..last.phase.states.len()).collect();
+        let middle = 0.5 * last.apart.rows(0, states.len());
+        let phase = self.map.moved(&last.phase, &states, &middle);
+        let at = self.map.solve(last.value, &phase, last.turns / 2).ok()?;
+        let towards = longer.orbits.iter().rev().nth(1).map_or(self.to - self.from, |before| last.value - before.value);
+        let along = self.along(&at, None).ok()?;
+        let along = if (self.to - self.from) * towards < 0.0 { -along } else { along };
+        let back = Point { at: at.clone(), along: -&along };
+        let [there, back] = [Point { at, along }, back].map(|start| self.branch(start, &[], tick));
+        let doublings = doublings(std::slice::from_ref(&there));
+        let value = self.met(last, &doublings);
+        (longer.end, longer.meets) = (self.meeting(longer.turns, value), Some(value));
+        Some([there, back])
+    }
+
+    /// Why a branch of so many turns ends at this value.
+    fn meeting(&self, turns: usize, value: f64) -> String {
+        format!("it meets a branch of {} turns at {} = {value:.6e}", turns / 2, self.name())
+    }
+
+    /// Follows a branch from one of its points until it leaves the range or ends in motions of half its period, if it has left
+    /// such a branch, at one of `doublings`.
     fn branch(&self, start: Point, doublings: &[Orbit], tick: &mut impl FnMut(f64)) -> Branch {
-        let least = start.at.orbit.apart.norm();
+        let least = if doublings.is_empty() { ALIKE } else { start.at.orbit.apart.norm() };
         // Past its doubling a branch goes on in motions of half its period, or through its own ones half a period later.
-        let passes = |one: &Orbit, other: &Orbit| {
-            !doublings.is_empty() && (other.apart.norm() < least || one.apart.dot(&other.apart) < 0.0)
-        };
+        let halves = start.at.orbit.turns.is_multiple_of(2);
+        let passes =
+            |one: &Orbit, other: &Orbit| halves && (other.apart.norm() < least || one.apart.dot(&other.apart) < 0.0);
         let mut branch = Branch {
             turns: start.at.orbit.turns,
             orbits: vec![start.at.orbit.clone()],
@@ -173,9 +206,7 @@ impl Continuation<'_> {
                 Ok((next, _)) if passes(&point.at.orbit, &next.at.orbit) => {
                     if length < CLOSE {
                         let value = self.met(&point.at.orbit, doublings);
-                        branch.end =
-                            format!("it meets a branch of {} turns at {} = {value:.6e}", branch.turns / 2, self.name());
-                        branch.meets = Some(value);
+                        (branch.end, branch.meets) = (self.meeting(branch.turns, value), Some(value));
                         return branch;
                     }
                     length *= 0.5;

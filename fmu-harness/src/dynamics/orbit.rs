@@ -12,6 +12,8 @@ const MAX_ITERATIONS: usize = 25;
 const MAX_HALVINGS: usize = 8;
 /// Largest distance from the section's point after a period, in noticeable differences.
 const CLOSED: f64 = 1e-7;
+/// [noticeable differences] Newton's method from a point of a motion that is found moves it by less to the same motion.
+const SAME: f64 = 1e-4;
 
 /// A periodic motion.
 #[derive(Clone, Debug)]
@@ -46,6 +48,7 @@ impl Orbit {
 }
 
 /// A map at one point.
+#[derive(Clone)]
 pub struct Return {
     /// Image minus point, in noticeable differences, of the unknowns.
     pub miss: DVector<f64>,
@@ -89,6 +92,19 @@ pub trait ReturnMap {
             at = shorter(self, &at, &change)?;
         }
         bail!("Newton's method does not converge: a period misses by {:.1e} noticeable differences", size(&at.miss))
+    }
+
+    /// The same motion with its shortest period: a motion that was still settling may have seemed to repeat later.
+    fn shortest(&self, at: Return) -> Return {
+        let Orbit { value, phase, turns, .. } = &at.orbit;
+        let far = |other: &Phase| {
+            let pairs = other.states.iter().zip(&phase.states).zip(self.scales());
+            pairs.map(|((one, other), scale)| (one - other).abs() / scale).fold(0.0, f64::max)
+        };
+        let divisors = (1..*turns).filter(|part| turns.is_multiple_of(*part));
+        let same = |part| self.solve(*value, phase, part).ok().filter(|shorter| far(&shorter.orbit.phase) < SAME);
+        let shorter = divisors.filter_map(same).next();
+        shorter.unwrap_or(at)
     }
 
     /// A point whose unknowns differ by `change` [noticeable differences].

@@ -142,8 +142,10 @@ impl Plan {
             misses_by <= SAME,
             "at {name} = {value} the motion does not settle on a periodic one; begin at another value"
         );
-        map.solve(value, &begin, repeats_after)
-            .with_context(|| format!("at {name} = {value} the motion repeats after {repeats_after} turns"))
+        let orbit = map
+            .solve(value, &begin, repeats_after)
+            .with_context(|| format!("at {name} = {value} the motion repeats after {repeats_after} turns"))?;
+        Ok(map.shortest(orbit))
     }
 
     /// The machine after the transient.

@@ -104,6 +104,41 @@ fn henon_s_map_folds_and_doubles_its_period_where_it_is_known_to() {
     }
 }
 
+/// Motions of period 2 and 4 of Hénon's map, followed towards the doublings that they come from.
+#[test]
+fn a_branch_that_begins_on_a_doubled_motion_goes_on_in_half_its_period() {
+    use Bifurcation::{Fold, PeriodDoubling};
+    let map = Plane { name: "a", map: henon };
+    let (fold, doubled) = (-0.25 * (1.0 - B).powi(2), 0.75 * (1.0 - B).powi(2));
+    let again = (1.0 - B).powi(2) + 0.25 * (1.0 + B).powi(2);
+    for (from, period, turns) in [(0.6, 2, &[2, 1, 1][..]), (0.95, 4, &[4, 2, 2, 1, 1])] {
+        // The motion on which a settled one repeats, taken for one of twice the period.
+        let mut point = Vector2::new(0.4, 0.4);
+        for _ in 0..20_000 {
+            point = henon(from, point).expect("an image").0;
+        }
+        let phase = Phase { time: 0.0, states: point.as_slice().to_vec(), approach: vec![] };
+        let start = map.shortest(map.solve(from, &phase, 2 * period).expect("a periodic point"));
+        assert_eq!(start.orbit.turns, period);
+        for doublings in [0, 1] {
+            let continuation = Continuation { map: &map, from, to: -0.5, doublings };
+            let branches = continuation.follow(start.clone(), |_| {}).expect("branches");
+            assert_eq!(branches.iter().map(|branch| branch.turns).collect::<Vec<_>>(), turns, "{doublings}");
+            let [.., there, back] = &branches[..] else { panic!("branches of period 1") };
+            assert_found(there, &[(PeriodDoubling, doubled), (Fold, fold)]);
+            assert_found(back, &[]);
+            assert!(back.orbits.iter().all(|orbit| !orbit.is_stable() && orbit.value > doubled - 1e-9));
+            let longest = &branches[0];
+            assert_found(longest, &[]);
+            assert!(longest.orbits.iter().all(Orbit::is_stable));
+            let met: Vec<f64> = branches.iter().filter_map(|branch| branch.meets).collect();
+            let known = if period == 4 { &[again, doubled][..] } else { &[doubled] };
+            assert_eq!(met.len(), known.len());
+            assert!(met.iter().zip(known).all(|(met, known)| (met - known).abs() < 1e-8), "{met:?} for {known:?}");
+        }
+    }
+}
+
 /// Hénon's map over p with a = 3·(1 − b)²/4 + (1 − p²)/10: its period doubles at p = −1 and halves at p = 1.
 fn bubble(p: f64, point: Vector2<f64>) -> Option<Image> {
     let (image, by_point, by_a) = henon(0.75 * (1.0 - B).powi(2) + 0.1 * (1.0 - p * p), point)?;
