@@ -174,7 +174,7 @@ pub fn ended(base: &Path, ending: &str) -> PathBuf {
 }
 
 /// Makes temporary files that others may read, if they may read new files of this process.
-fn builder() -> tempfile::Builder<'static, 'static> {
+pub fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));

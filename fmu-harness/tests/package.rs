@@ -10,6 +10,7 @@ use fmu_harness::package::references::{FOLDER, RESULTS, STIMULI};
 use fmu_harness::run::{Experiment, Until, run};
 use fmu_harness::scenes::Scenario;
 use slidercrank::fmi::abi::dispatch_x86_64_v3;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use tempfile::TempDir;
@@ -331,6 +332,24 @@ fn inspection_tells_names_units_and_capabilities() {
     let words = |start: &str| line(start).split_whitespace().skip(2).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(words("rod.flexible.bending_modes "), ["parameter", "fixed", "Integer", "0"]);
     assert_eq!(words("rod.flexible.geometric_stiffness "), ["parameter", "fixed", "Boolean", "true"]);
+}
+
+#[test]
+fn a_package_that_is_written_anew_is_never_seen_in_part_and_a_study_keeps_its_own() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let file = directory.path().join("own").join("wornpin.fmu");
+    let package = stock().package(&scenario()).expect("a package");
+    package.save(&file).expect("written");
+    let mut reader = std::fs::File::open(&file).expect("a file");
+    let copy = package.copy().expect("a copy");
+    let ideal = stock().package(&Scenario::find("ideal").expect("a scene")).expect("a package");
+    ideal.save(&file).expect("written");
+    let mut read = vec![];
+    reader.read_to_end(&mut read).expect("a file");
+    assert!(read == package.bytes && std::fs::read(&file).expect("a file") == ideal.bytes);
+    assert!(std::fs::read(copy.path()).expect("a file") == package.bytes);
+    let beside = std::fs::read_dir(file.parent().expect("a folder")).expect("a folder").count();
+    assert_eq!(beside, 1, "nothing is left over");
 }
 
 #[test]

@@ -78,8 +78,7 @@ fn states_and_indicators_are_those_of_the_packaged_scene_whatever_joints_it_has_
     let mut packaged = slot::read().expect("a readable slot").0;
     packaged.joint.c.model = JointModel::Clearance;
     let of = |name: &str| phase_names(&packaged).iter().position(|own| own == name).expect("a state") as u32;
-    for (joints, slider) in [(&[][..], true), (&["joint.B.model"], true), (&["joint.A.model", "joint.T.model"], false)]
-    {
+    for joints in [&[][..], &["joint.B.model"], &["joint.A.model", "joint.T.model"]] {
         let mut slave = Slave::new(packaged.clone(), None);
         for joint in joints {
             slave.set(ValueType::Integer, EVERYTHING, &[vr(joint)], &[2], f64::from).expect("a legal value");

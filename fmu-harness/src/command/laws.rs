@@ -58,12 +58,13 @@ impl Laws {
         let scenario = Scenario::find(&self.scene)?.with(&self.set)?;
         let budget = Duration::from_secs(self.budget);
         let comparison = Comparison::of(&scenario.file, self.joint.as_deref(), self.turns, budget)?;
-        let fmu = out.join(format!("{}.fmu", scenario.name));
-        Stock::build()?.package(&scenario)?.save(&fmu)?;
+        let package = Stock::build()?.package(&scenario)?;
+        package.save(&out.join(format!("{}.fmu", scenario.name)))?;
+        let fmu = package.copy()?;
         let style = ProgressStyle::with_template("{msg} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4} (eta {eta})")?;
         let bar = ProgressBar::new(comparison.cases().len() as u64).with_style(style);
         bar.set_message(scenario.name.clone());
-        let rows = comparison.run(&fmu, || bar.inc(1));
+        let rows = comparison.run(fmu.path(), || bar.inc(1));
         bar.finish_and_clear();
         let table = report::table(&comparison, &rows);
         say(table.print());

@@ -57,12 +57,12 @@ impl Sweep {
         }
         let linear = self.linear.then(|| Linear::of(&study, &scenario)).transpose()?;
         let package = Stock::build()?.package(&scenario)?;
-        let fmu = out.join(format!("{}.fmu", scenario.name));
-        package.save(&fmu)?;
         let digest = Studied::digest(&study, &scenario, &plan);
         let journal = Journal::open(&journal::path(&out, &study.name), &digest)?;
+        package.save(&out.join(format!("{}.fmu", scenario.name)))?;
+        let fmu = package.copy()?;
         let budget = Duration::from_secs(self.budget);
-        let sweep = Studied { study: &study, scenario: &scenario, plan: &plan, fmu: &fmu, budget };
+        let sweep = Studied { study: &study, scenario: &scenario, plan: &plan, fmu: fmu.path(), budget };
         let style = ProgressStyle::with_template("{msg} {wide_bar:.cyan/blue} {pos}/{len} {elapsed:>4} (eta {eta})")?;
         let bar = ProgressBar::new(plan.len() as u64).with_style(style).with_message(study.name.clone());
         bar.set_position(journal.len() as u64);

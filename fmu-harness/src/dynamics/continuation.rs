@@ -181,7 +181,8 @@ impl Continuation<'_> {
 
     /// Why a branch of so many turns ends at this value.
     fn meeting(&self, turns: usize, value: f64) -> String {
-        format!("it meets a branch of {} turns at {} = {value:.6e}", turns / 2, self.name())
+        let half = if turns == 2 { "1 turn".into() } else { format!("{} turns", turns / 2) };
+        format!("it meets a branch of {half} at {} = {value:.6e}", self.name())
     }
 
     /// Follows a branch from one of its points until it leaves the range or ends in motions of half its period, if it has left

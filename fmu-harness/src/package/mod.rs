@@ -12,6 +12,7 @@ mod version;
 
 pub use version::Version;
 
+use crate::frame::builder;
 use crate::python::Missing;
 use crate::scenes::Scenario;
 use anyhow::{Context, Result};
@@ -32,7 +33,9 @@ use slidercrank::scene::write::write_table;
 use std::collections::BTreeSet;
 use std::env;
 use std::fs;
+use std::io::Write;
 use std::path::Path;
+use tempfile::{Builder, NamedTempFile};
 
 /// File name of the rod's table of modes in a package's documentation.
 pub const MODES: &str = "modes.toml";
@@ -177,11 +180,23 @@ impl Package {
         Stock::build()?.package(scenario)
     }
 
-    /// Writes the file, making its directory if need be.
+    /// Writes the file, making its directory if need be. Who reads the file meanwhile finds the whole of an older one.
     pub fn save(&self, file: &Path) -> Result<()> {
-        let context = || format!("cannot write {}", file.display());
-        fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).with_context(context)?;
-        fs::write(file, &self.bytes).with_context(context)
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let write = || {
+            fs::create_dir_all(folder)?;
+            let mut beside = builder().tempfile_in(folder)?;
+            beside.write_all(&self.bytes)?;
+            beside.persist(file).map_err(|error| error.error)
+        };
+        write().map(drop).with_context(|| format!("cannot write {}", file.display()))
+    }
+
+    /// The package in a file of its own, which no other command replaces while a study opens it again and again.
+    pub fn copy(&self) -> Result<NamedTempFile> {
+        let mut copy = Builder::new().suffix(".fmu").tempfile()?;
+        copy.write_all(&self.bytes)?;
+        Ok(copy)
     }
 }
 

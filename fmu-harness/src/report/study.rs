@@ -63,6 +63,7 @@ pub fn linear(linear: &Linear, frame: &Frame) -> ([Table; 2], Vec<String>) {
     table.row(["quantity", "deviation", "± 95 %", "linear", "ratio", "explained", "verdict"]);
     for (name, row) in &linear.rows {
         match linear.compare(name, row, frame) {
+            Ok(found) if found.is_constant() => table.row([name, "0", "–", "0", "–", "–", "constant"]),
             Ok(found) => {
                 let numbers = [found.deviation, found.half_width(), found.linear].map(significant);
                 let [deviation, half, first_order] = numbers;

@@ -17,6 +17,8 @@ use slidercrank::scene::DriveMode;
 pub const NORMAL: f64 = 1.959_963_984_540_054;
 /// Growth of the distance of neighbouring motions from which on it is a reason why a quantity is not linear.
 const PARTED: f64 = 10.0;
+/// Share of its size by which a quantity that does not vary may seem to.
+const ROUNDING: f64 = 1e-13;
 /// The least share of the variance that a linear quantity's derivatives explain.
 const EXPLAINED: f64 = 0.8;
 /// Parameter that changes how long a turn takes.
@@ -43,6 +45,8 @@ pub struct Comparison {
     pub linear: f64,
     /// Share of the Monte Carlo's variance that the straight line through the mean of all draws explains.
     pub explained: f64,
+    /// The largest absolute value of the Monte Carlo.
+    pub size: f64,
 }
 
 impl Linear {
@@ -108,6 +112,7 @@ impl Linear {
             error: standard_error(&values),
             linear: deviation(&parts),
             explained: 1.0 - (Reduction::Deviation.of(&rest) / spread).powi(2),
+            size: Reduction::Peak.of(&values),
         })
     }
 
@@ -152,6 +157,11 @@ impl Comparison {
         NORMAL * self.error
     }
 
+    /// Whether the parameters do not change the quantity: it varies by rounding alone.
+    pub fn is_constant(&self) -> bool {
+        self.deviation.max(self.linear) <= ROUNDING * self.size
+    }
+
     /// Whether both standard deviations are the same but for the Monte Carlo's statistical error, and not by chance.
     pub fn agrees(&self) -> bool {
         (self.linear - self.deviation).abs() <= self.half_width() && self.explained >= EXPLAINED
@@ -182,6 +192,9 @@ fn standard_error(values: &[f64]) -> f64 {
     let mean = Reduction::Mean.of(values);
     let moment = |power: i32| values.iter().map(|value| (value - mean).powi(power)).sum::<f64>() / count;
     let deviation = Reduction::Deviation.of(values);
+    if deviation == 0.0 {
+        return 0.0;
+    }
     let of_variance = (moment(4) - deviation.powi(4) * (count - 3.0) / (count - 1.0)) / count;
     of_variance.max(0.0).sqrt() / (2.0 * deviation)
 }
@@ -201,5 +214,14 @@ mod tests {
         // Two values, each in half of the runs: their deviation is known but for the numbers of each.
         let coin: Vec<f64> = (0..count).map(|k| f64::from(k % 2)).collect();
         assert!(standard_error(&coin) < 1e-3 / f64::from(count).sqrt());
+        assert_eq!(standard_error(&[3.0; 7]), 0.0);
+    }
+
+    #[test]
+    fn what_varies_by_rounding_alone_is_constant() {
+        let of = |deviation, linear| Comparison { deviation, error: 0.0, linear, explained: 0.0, size: 0.16 };
+        assert!(of(2.8e-17, 0.0).is_constant() && of(0.0, 0.0).is_constant());
+        assert!(!of(1e-9, 0.0).is_constant() && !of(0.0, 1e-9).is_constant());
+        assert!(Comparison { size: 0.0, ..of(0.0, 0.0) }.is_constant());
     }
 }
