@@ -2,8 +2,8 @@
 //!
 //! Every step that the integrator accepts is examined on its interpolated states, whatever the communication points
 //! are: the local maxima of the joint forces in it are located, and the integrals over it are those of the polynomial
-//! through the samples, or, between the zeros of the sliding velocities, where |v_t| has its kinks, sums by Gauss and Legendre's
-//! rule. An interval takes those
+//! through the samples, or, between the zeros of the sliding velocities, where |v_t| has its kinks, and those instants at which a
+//! normal force comes to or leaves 0, sums by Gauss and Legendre's rule. An interval takes those
 //! maxima that lie in it, and the forces at its ends. None of this enters the integrator: the motion keeps its bits.
 //!
 //! Only what is asked for is computed: nothing while all joints in question fly free; the pose and the contact forces where
@@ -60,10 +60,12 @@ const NEAR: [f64; 3] = [1e-2, 2e-3, 2e-4];
 const BESIDE: f64 = 1.1;
 /// Most maxima of one joint in a step.
 const MAX_MAXIMA: usize = 4;
-/// Most zeros of sliding velocities in a step.
+/// Most kinks in a step.
 const MAX_KINKS: usize = 16;
 /// Share of a bracket within which a zero of a sliding velocity is found: an integral's error is of second order in it.
 const RESOLUTION: f64 = 1e-9;
+/// Halvings of a bracket in which a normal force comes to or leaves 0: the integrand is continuous there.
+const HALVINGS: usize = 20;
 /// Gauss and Legendre's rule with six points on [−1, 1]: points and weights of one half.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
@@ -142,7 +144,7 @@ struct Examination {
     maxima: [[(f64, f64); MAX_MAXIMA]; JOINTS],
     /// [N] Forces at the end.
     at_end: [f64; JOINTS],
-    /// [s] Zeros of sliding velocities, in order; those not in use are at infinity.
+    /// [s] Kinks of the integrands, in order; those not in use are at infinity.
     kinks: [f64; MAX_KINKS],
     /// Integrals over the whole step.
     whole: [Integrals; JOINTS],
@@ -361,11 +363,17 @@ impl IntervalAudit {
             let mut count = 0;
             for contact in (0..CONTACTS).filter(|&contact| self.integrals[Touches::joint(contact)]) {
                 for (sample, pair) in samples.windows(2).enumerate() {
-                    let [before, after] = [0, 1].map(|side| pair[side].rubbing[contact].speed);
-                    if before * after < 0.0 && count < MAX_KINKS {
-                        let bracket = [time(sample), time(sample + 1)];
-                        let speed = |t| run.at(t, SLIDING).rubbing[contact].speed;
-                        found.kinks[count] = zero(bracket, [before, after], speed);
+                    let [before, after] = [0, 1].map(|side| pair[side].rubbing[contact]);
+                    let bracket = [time(sample), time(sample + 1)];
+                    let mut at = |t| run.at(t, SLIDING).rubbing[contact];
+                    let turns = before.speed * after.speed < 0.0;
+                    let turning = turns.then(|| zero(bracket, [before.speed, after.speed], |t| at(t).speed));
+                    let ceases = before.normal > 0.0 && after.normal == 0.0;
+                    // A contact that has closed at the start of the step has no force there.
+                    let begins = before.normal == 0.0 && after.normal > 0.0 && sample > 0;
+                    let corner = (ceases || begins).then(|| halved(bracket, |t| (at(t).normal > 0.0) == ceases));
+                    for kink in [turning, corner].into_iter().flatten().take(MAX_KINKS - count) {
+                        found.kinks[count] = kink;
                         count += 1;
                     }
                 }
@@ -484,6 +492,15 @@ const fn weights_at(s: f64) -> [f64; SAMPLES] {
 fn zero([low, high]: [f64; 2], [before, after]: [f64; 2], mut of: impl FnMut(f64) -> f64) -> f64 {
     let sign = before.signum();
     root::falling(low, high, sign * before, sign * after, RESOLUTION * (high - low), |t| sign * of(t))
+}
+
+/// Where a condition that holds at the start of a bracket, and not at its end, ceases to hold.
+fn halved([mut low, mut high]: [f64; 2], mut holds: impl FnMut(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if holds(middle) { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
 }
 
 #[cfg(test)]

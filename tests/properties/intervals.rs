@@ -58,6 +58,30 @@ fn the_first_blow_has_its_known_peak_and_work() {
     assert_eq!(struck.joint_c.interval.impacts, 1);
 }
 
+/// A journal that starts in the rough zone of its oil film is thrown out of it within microseconds: the contact stays, its
+/// force comes to 0 within a step. Numbers of an independent simulator at a tolerance of 1e-13.
+#[test]
+fn work_in_a_contact_whose_force_ceases_within_a_step_is_exact() {
+    let mut scene = audited(speed_driven(Scene::default()));
+    (scene.crank.angle_start, scene.crank.speed_start) = (1.450721935564376, 330.30576270036585);
+    let joint = &mut scene.joint.c;
+    (joint.model, joint.clearance, joint.roughness) =
+        (JointModel::Clearance, 0.00012450694170394565, 6.840567619813592e-06);
+    joint.eccentricity_start = Point { x: -0.00010480017412949283, y: 5.475371379176455e-05 };
+    (joint.contact.law, joint.contact.restitution) = (DampingLaw::HuGuo, 0.3174031369701688);
+    (joint.lubrication, joint.viscosity) = (Lubrication::ShortBearing, 0.04000971726885484);
+    (joint.contact.friction.law, joint.contact.friction.coefficient) = (FrictionLaw::Tanh, 0.1);
+    for (method, tolerance, within) in
+        [(Method::Automatic, 1e-6, 5e-6), (Method::Automatic, 1e-10, 3e-8), (Method::Radau13, 1e-10, 3e-8)]
+    {
+        scene.solver.method = method;
+        let mut simulation = start(&at_tolerance(scene.clone(), tolerance), inputs(0.0, 801.8009835012454));
+        let there = at(&mut simulation, 4e-3).joint_c.interval;
+        near(there.wear_work, 7.467976498647e-6, within, "wear.work");
+        near(there.sliding, 1.469065895553e-5, within, "sliding");
+    }
+}
+
 #[test]
 fn the_largest_of_an_interval_is_the_largest_of_its_parts() {
     let whole = peaks(&at(&mut first_blow(1e-8), 1e-3));
