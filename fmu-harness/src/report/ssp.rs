@@ -68,7 +68,8 @@ pub fn range(numbers: &[f64]) -> [f64; 3] {
 
 /// A length in micrometres.
 pub fn clearances(points: &[DeadCentre]) -> Table {
-    let micro = |metres: f64| format!("{:.1}", metres * 1e6);
+    // What rounds to 0 has no sign.
+    let micro = |metres: f64| format!("{:.1}", (metres * 1e7).round() / 10.0 + 0.0);
     let mut table = Table::default();
     let head = ["clearance of A and B [µm]", "slider turns back: least [µm]", "mean", "greatest"];
     table.line(head.into_iter().chain(["under load: least [µm]", "mean", "greatest"]).map(String::from).collect());
