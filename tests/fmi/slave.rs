@@ -4,7 +4,7 @@ use host::{self, vr};
 use slidercrank::fmi::slave::error::VariableError;
 use slidercrank::fmi::slave::states::phase_names;
 use slidercrank::fmi::slave::{Error, Permission, Slave, ValueType};
-use slidercrank::model_description::exchange::FIRST_STATE;
+use slidercrank::model_description::exchange::{FIRST_DERIVATIVE, FIRST_STATE};
 use slidercrank::scene::{JointModel, slot};
 use slidercrank::simulation::CONTACTS;
 
@@ -85,21 +85,33 @@ fn states_and_indicators_are_those_of_the_packaged_scene_whatever_joints_it_has_
         }
         set(&mut slave, "crank.speed_start", 500.0).expect("a legal value");
         slave.initialize().expect("a legal scene");
-        (0..STEPS).for_each(|_| step(&mut slave));
-        let read = |slave: &mut Slave, name: &str| {
+        let read_from = |slave: &mut Slave, first: u32, name: &str| {
             let mut value = [f64::NAN];
-            let reference = [FIRST_STATE + of(name)];
+            let reference = [first + of(name)];
             slave.get(ValueType::Real, EVERYTHING, &reference, &mut value, |value| value).map(|()| value[0])
         };
+        let read = |slave: &mut Slave, name: &str| read_from(slave, FIRST_STATE, name);
+        for _ in 0..40 {
+            step(&mut slave);
+            // The gap over the clearance, positive while the contact is open.
+            let gap = -get(&mut slave, "joint.C.penetration") / get(&mut slave, "joint.C.clearance");
+            let indicator = slave.indicator(0).expect("joint C's contact");
+            assert!((indicator - gap).abs() < 1e-6, "{indicator} for {gap} with {joints:?}");
+            let mut closed = [f64::NAN];
+            let contact = [vr("joint.C.contact")];
+            slave.get(ValueType::Boolean, EVERYTHING, &contact, &mut closed, |value| value).expect("an output");
+            assert_eq!(closed[0] != 0.0, indicator <= 0.0, "with {joints:?}");
+        }
         for name in ["crank.angle", "rod.angle", "crank.speed", "rod.speed"] {
             let (state, output) = (read(&mut slave, &format!("state.{name}")), get(&mut slave, name));
             assert_eq!(state.expect("a state"), output, "{name} with {joints:?}");
         }
         let (place, output) = (read(&mut slave, "state.slider.x").expect("a state"), get(&mut slave, "slider.x"));
         assert!((place - output).abs() < 1e-12, "{place} with {joints:?}");
-        let gap = -get(&mut slave, "joint.C.penetration") / get(&mut slave, "joint.C.clearance");
-        let indicator = slave.indicator(0).expect("joint C's contact");
-        assert!((indicator - gap).abs() < 1e-6 * gap.abs().max(1.0), "{indicator} for {gap} with {joints:?}");
+        let (speed, output) = (read(&mut slave, "state.slider.vx").expect("a state"), get(&mut slave, "slider.v"));
+        assert!((speed - output).abs() <= 1e-12 * output.abs(), "{speed} with {joints:?}");
+        let rate = read_from(&mut slave, FIRST_DERIVATIVE, "state.crank.speed").expect("a derivative");
+        assert_eq!(rate, get(&mut slave, "crank.acceleration"), "with {joints:?}");
         assert!(matches!(slave.indicator(1), Err(Error::Variable(VariableError::Absent(_)))));
     }
 }

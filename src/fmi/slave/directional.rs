@@ -9,7 +9,7 @@ use super::access::{Permission, finite, finite_output, real_parameter, variable}
 use super::course::{Course, Interface};
 use super::error::{Error, VariableError};
 use super::start_sensitivity::{Rate, Wanted, along};
-use super::states::state_places;
+use super::states::StatePlaces;
 use super::variables::{Access, Variable};
 use super::{Slave, started};
 use crate::integrator::MAX_STATES;
@@ -110,9 +110,9 @@ impl Slave {
         let variable = variable(reference)?;
         let unknown = match variable.access {
             Access::RealOutput(get) => Unknown::Output(get),
-            Access::State(place) if at_start => Unknown::State(self.state_place(place, variable)?),
+            Access::State(place) if at_start => Unknown::State(self.state_places().of(place, variable)?),
             Access::Derivative(place) if at_start || exchange => {
-                Unknown::Derivative(self.state_place(place, variable)?)
+                Unknown::Derivative(self.state_places().of(place, variable)?)
             }
             _ if exchange => {
                 let needed = "a real output or a state's derivative, nor a state in initialization mode";
@@ -131,7 +131,7 @@ impl Slave {
         let (mut inputs, mut states, mut starts) = (Inputs::default(), vec![], Vec::<Rate>::new());
         let exchange = self.interface == Interface::ModelExchange;
         if exchange {
-            states.resize(self.state_places().len(), 0.0);
+            states.resize(self.state_places().count(), 0.0);
         }
         for (&known, &seed) in knowns.iter().zip(seeds) {
             let variable = variable(known)?;
@@ -238,14 +238,10 @@ impl Slave {
     }
 
     /// Where each state of the packaged scene is in the present scene. Where the importer integrates, both have the same states.
-    pub(super) fn state_places(&self) -> Vec<Option<usize>> {
+    pub(super) fn state_places(&self) -> StatePlaces {
         match &self.course {
-            Some(Course::Hosted(mechanism)) => (0..mechanism.states().len()).map(Some).collect(),
-            _ => state_places(&self.packaged, &self.settings.scene),
+            Some(Course::Hosted(mechanism)) => StatePlaces::same(mechanism.states().len()),
+            _ => StatePlaces::between(&self.packaged, &self.settings.scene),
         }
-    }
-
-    fn state_place(&self, place: usize, variable: &Variable) -> Result<usize, VariableError> {
-        self.state_places().get(place).copied().flatten().ok_or(VariableError::Absent(variable.name))
     }
 }

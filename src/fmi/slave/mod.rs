@@ -47,7 +47,7 @@ use engine::{Engine, Own};
 use error::VariableError;
 use experiment::{Experiment, LeftAside, Limit};
 use inputs::are_finite;
-use variables::{Access, VARIABLES};
+use variables::{Access, VARIABLES, Variable};
 
 /// Name of the parameter that takes precedence over the experiment's tolerance if an importer has set it.
 const TOLERANCE: &str = "solver.tolerance";
@@ -132,8 +132,7 @@ impl Slave {
             match variable.access {
                 Access::Input { .. } | Access::Parameter(_) => {}
                 Access::State(place) | Access::Derivative(place) => {
-                    let places = places.get_or_insert_with(|| self.state_places());
-                    places.get(place).copied().flatten().ok_or(VariableError::Absent(variable.name))?;
+                    places.get_or_insert_with(|| self.state_places()).of(place, variable)?;
                 }
                 Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => outputs = true,
             }
@@ -141,10 +140,11 @@ impl Slave {
         if outputs {
             self.outputs()?;
         }
-        let states = if places.is_some() { Some(self.live()?.state_values()) } else { None };
-        let of_state = |place: usize, name, of: fn(&StateValues, usize) -> Option<f64>| {
-            let place = places.as_ref().and_then(|places| *places.get(place)?);
-            states.as_ref().zip(place).and_then(|(states, place)| of(states, place)).ok_or(VariableError::Absent(name))
+        let states = places.map(|places| Ok::<_, Error>((places, self.live()?.state_values()))).transpose()?;
+        let of_state = |place: usize, variable: &Variable, of: fn(&StateValues, usize) -> Option<f64>| {
+            let absent = VariableError::Absent(variable.name);
+            let Some((places, states)) = &states else { return Err(absent) };
+            of(states, places.of(place, variable)?).ok_or(absent)
         };
         for (&reference, value) in references.iter().zip(values) {
             let variable = variable(reference)?;
@@ -155,10 +155,8 @@ impl Slave {
                 Access::RealOutput(get) => finite_output(variable, get(self.outputs()?))?,
                 Access::IntegerOutput(get) => f64::from(get(self.outputs()?)),
                 Access::BooleanOutput(get) => f64::from(u8::from(get(self.outputs()?))),
-                Access::State(place) => finite_output(variable, of_state(*place, variable.name, StateValues::state)?)?,
-                Access::Derivative(place) => {
-                    finite_output(variable, of_state(*place, variable.name, StateValues::rate)?)?
-                }
+                Access::State(place) => finite_output(variable, of_state(*place, variable, StateValues::state)?)?,
+                Access::Derivative(place) => finite_output(variable, of_state(*place, variable, StateValues::rate)?)?,
                 Access::Parameter(parameter) => parameter.value(&self.settings.scene),
             });
         }

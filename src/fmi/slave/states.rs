@@ -79,11 +79,34 @@ pub fn phase_names(scene: &Scene) -> Vec<String> {
     states.chain(numbers.contacts.iter().map(|contact| format!("{}.approach", contact_name(*contact).0))).collect()
 }
 
-/// Where each state of the packaged scene is in another scene, by its name; `None` if it is not there.
-pub fn state_places(packaged: &Scene, scene: &Scene) -> Vec<Option<usize>> {
-    let present = state_variables(scene);
-    let place = |state: StateVariable| present.iter().position(|other| other.name == state.name);
-    state_variables(packaged).into_iter().map(place).collect()
+/// Where each state of the packaged scene is in the present scene; `None` if it is not there.
+pub struct StatePlaces(Vec<Option<usize>>);
+
+impl StatePlaces {
+    /// The places in `scene` of the states of `packaged`, by their names.
+    pub fn between(packaged: &Scene, scene: &Scene) -> Self {
+        let present = state_variables(scene);
+        let place = |state: StateVariable| present.iter().position(|other| other.name == state.name);
+        Self(state_variables(packaged).into_iter().map(place).collect())
+    }
+
+    /// The places of `count` states where both scenes have the same.
+    pub fn same(count: usize) -> Self {
+        Self((0..count).map(Some).collect())
+    }
+
+    /// Number of states of the packaged scene.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The place of the packaged scene's state `number`, of which `variable` is the value or the derivative.
+    ///
+    /// # Errors
+    /// `Absent` if the present scene does not have it.
+    pub fn of(&self, number: usize, variable: &Variable) -> Result<usize, VariableError> {
+        self.0.get(number).copied().flatten().ok_or(VariableError::Absent(variable.name))
+    }
 }
 
 /// Where an event indicator of the packaged scene is in another scene, by its contact; `None` if it is not there.
